@@ -1,0 +1,69 @@
+# `make` builds every set of problems; `make help` lists the rest. Works with GNU make 3.81 and later.
+# A stamp is newer than all that it was made from, so with nothing changed no Python is started.
+
+.DEFAULT_GOAL := all
+.SUFFIXES:
+MAKEFLAGS += --no-builtin-rules
+PYTHON := .venv/bin/python
+
+SETS := $(patsubst problems/%/set.yaml,%,$(wildcard problems/*/set.yaml))
+ENGINE := $(wildcard derive/*.py derive/*/*.py derive/*/*/*.py)
+TEMPLATES := $(wildcard templates templates/* templates/*/* templates/*/*/*)
+ENVIRONMENT := pyproject.toml constraints.txt derive/bootstrap.py
+
+.PHONY: all help check bench test clean always $(SETS)
+
+all: .venv/.runtime $(SETS)
+
+help:
+	@echo 'make          the PDFs of every set, in build/; installs what it needs into .venv first'
+	@$(foreach set,$(SETS),echo 'make $(set)      the PDFs of $(set)';)
+	@echo 'make check    derive every problem, verify each line, compare with the reference'
+	@echo 'make test     lint, types and the whole test suite'
+	@echo 'make bench    how long a build takes, as ratios to the least it could take'
+	@echo 'make clean    empty build/; .venv stays'
+	@echo 'DERIVE_ENGINE=latexmk (or pdflatex, lualatex, tectonic) chooses another TeX; .venv/bin/derive doctor shows them'
+
+# An output that was deleted, or made with other options, is made again although its stamp is new.
+define RULES_OF_A_SET
+-include build/$(1)/.outputs.mk
+build/$(1)/.outputs.mk: ;
+$(1): build/$(1)/.built
+build/$(1)/%: build/$(1)/.built ;
+build/$(1)/.built: .venv/.runtime $(ENGINE) $(TEMPLATES) problems/$(1) $(wildcard problems/$(1)/* problems/$(1)/*/*) \
+    $$(if $$(filter-out $$(wildcard $$(outputs_of_$(1))),$$(outputs_of_$(1))),always) \
+    $$(if $$(filter-out $$(options_of_$(1)),engine=$$(DERIVE_ENGINE)/detail=),always)
+	@$$(PYTHON) -m derive build $(1)
+endef
+$(foreach set,$(SETS),$(eval $(call RULES_OF_A_SET,$(set))))
+
+check: .venv/.runtime
+	@$(PYTHON) -m derive check
+
+bench: .venv/.runtime
+	@$(PYTHON) bench/ratios.py
+
+test: .venv/.tests
+	@$(PYTHON) -m ruff check --quiet .
+	@$(PYTHON) -m ruff format --quiet --check .
+	@$(PYTHON) -m mypy --no-error-summary
+	@$(PYTHON) -m pytest -n 2
+
+clean:
+	@rm -rf build/*/
+
+# A link to a Python that is gone does not count as one.
+.venv/.runtime .venv/.tests: $(ENVIRONMENT) $(if $(wildcard $(PYTHON)),,always)
+	@for python in python3 python3.14 python3.13 python3.12 python3.11; do \
+	  if $$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+	    exec $$python -I derive/bootstrap.py $(@F); \
+	  fi; \
+	done; \
+	if command -v uv >/dev/null 2>&1; then \
+	  exec uv run --no-project --python '>=3.11' python -I derive/bootstrap.py $(@F); \
+	fi; \
+	found=$$(python3 --version 2>&1) || found='no python3'; \
+	echo "error[python]: derive needs Python 3.11 or later, and found $$found: install one (apt install python3), or install uv" >&2; \
+	exit 1
+
+always: ;

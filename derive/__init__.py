@@ -1,0 +1,1 @@
+"""Worked solutions of mechanics problems: derived, checked line by line, typeset."""

@@ -1,0 +1,9 @@
+"""`python -m derive` is the command `derive`."""
+
+from __future__ import annotations
+
+import sys
+
+from derive.cli import main
+
+sys.exit(main())

@@ -1,0 +1,259 @@
+"""A set of problems built: derive what changed, typeset what reads differently, leave the rest alone.
+
+Problems are derived and documents typeset by one crew of workers, so that one is typeset while another is derived. A
+problem that fails keeps its earlier outputs and stops no other; the document of the whole set then stays as it was.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive.errors import Complaint, DeriveError
+from derive.manifest import Manifest, digest, engine_digest, file_digest, outputs_of
+from derive.output import folder, write, writing
+from derive.render.pdf import Engine, chosen_engine, chosen_name, typeset
+from derive.workers import TIME_LIMIT, Bug, Crew, Job, Outcome
+
+if TYPE_CHECKING:
+    from derive.solution import Rendered
+
+WHOLE = "solutions"
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to build; the defaults are those of `derive build`."""
+
+    engine: str | None = None
+    detail: str | None = None
+    force: bool = False
+    jobs: int = 0  # 0: as many as there are processors
+    limit: float = TIME_LIMIT
+
+
+@dataclass
+class Report:
+    """What a build did: how many problems it derived, which files changed, what went wrong."""
+
+    set_id: str
+    problems: int = 0
+    derived: int = 0
+    changed: list[Path] = field(default_factory=list)
+    complaints: list[Complaint] = field(default_factory=list)
+    warnings: list[Complaint] = field(default_factory=list)
+    bugs: list[Bug] = field(default_factory=list)
+    seconds: float = 0.0
+
+    @property
+    def failed(self) -> bool:
+        return bool(self.complaints or self.bugs)
+
+
+def set_folder(root: Path, set_id: str) -> Path:
+    return root / "build" / set_id
+
+
+def set_names(root: Path) -> list[str]:
+    """The sets below the root, without reading them."""
+    return sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
+
+
+def built_set(root: Path, set_id: str, options: Options, tell: Callable[[str], None]) -> Report:
+    """Build one set. `tell` shows what is under way to someone who waits."""
+    engine = chosen_engine(options.engine)
+    if set_id not in set_names(root):
+        from derive.problem import problem_set
+
+        problem_set(root, set_id)  # which says so, with the nearest name
+    outputs = folder(set_folder(root, set_id))
+    with _alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+        return _Build(root, set_id, options, engine, outputs, tell).report()
+
+
+@contextmanager
+def _alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
+    """One build of a set at a time. A lock of this kind is not inherited by workers, and dies with its process."""
+    with writing(outputs / ".lock"):
+        lock = open(outputs / ".lock", "w")  # noqa: SIM115
+    with lock:
+        try:
+            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            waiting()
+            fcntl.lockf(lock, fcntl.LOCK_EX)
+        yield
+
+
+class _Build:
+    """The state of one build of one set."""
+
+    def __init__(
+        self, root: Path, set_id: str, options: Options, engine: Engine, outputs: Path, tell: Callable[[str], None]
+    ):
+        self.root, self.set_id, self.options, self.engine, self.outputs = root, set_id, options, engine, outputs
+        self.started = time.time_ns()
+        self.recipe = digest(engine_digest(root), options.detail or "")
+        self.manifest = Manifest.read(outputs)
+        self.result = Report(set_id)
+        self.derived: dict[str, Rendered] = {}
+        self.names: list[str] = []
+        self.whole_failed: Outcome | None = None
+        self.then: dict[Job, Callable[[Outcome], None]] = {}
+        self.tell = tell
+        self.crew = Crew(options.jobs or os.cpu_count() or 1, self._tick)
+
+    def report(self) -> Report:
+        manifest, result = self.manifest, self.result
+        current = manifest.tex_engine == self.engine.identity and manifest.is_current(self.recipe, self.root)
+        if current and not self.options.force:
+            self.names = manifest.problems
+        else:
+            self._rebuild()
+        result.problems = len(self.names)
+        if not result.failed:
+            self._stamp()
+        result.seconds = (time.time_ns() - self.started) / 1e9
+        return result
+
+    def _rebuild(self) -> None:
+        from derive.problem import problem_set
+
+        self.manifest.complete = False
+        heading = problem_set(self.root, self.set_id)
+        self.names = [problem.rpartition("/")[2] for problem in heading.problems]
+        with self.crew:
+            try:
+                for name in self.names:
+                    self._derive(name)
+                self._whole()
+                for outcome in self.crew.outcomes():
+                    self.then.pop(outcome.job)(outcome)
+                if self.whole_failed and not self.result.failed:  # else a problem's own document said the same
+                    self._took(self.whole_failed)
+            finally:
+                if not self.result.failed:
+                    self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
+                    self.manifest.problems = self.names
+                    self.manifest.tex_engine = self.engine.identity
+                    self.manifest.complete = len(self.derived) == len(self.names)
+                self.manifest.save()
+
+    def _tick(self, running: list[str]) -> None:
+        done = f"{len(self.derived)} of {len(self.names)} derived"
+        self.tell(f"{self.set_id}: {done}; {', '.join(running)} ({(time.time_ns() - self.started) // 10**9} s)")
+
+    def _put(self, job: Job, then: Callable[[Outcome], None]) -> None:
+        self.then[job] = then
+        self.crew.put(job)
+
+    def _took(self, outcome: Outcome) -> bool:
+        """Whether it went well; if not, its complaints are kept."""
+        if isinstance(outcome.error, DeriveError):
+            self.result.complaints += outcome.error.complaints
+        elif outcome.error:
+            self.result.bugs.append(outcome.error)
+        return outcome.error is None
+
+    def _derive(self, name: str) -> None:
+        current = not self.options.force and self.manifest.is_derived(name, self.recipe, self.root)
+        kept = self.manifest.kept(name) if current else None
+        if kept is not None:
+            self.derived[name] = kept
+            self._document(name)
+            return
+        from derive.solution import rendered
+
+        problem = f"{self.set_id}/{name}"
+        work = partial(rendered, self.root, problem, self.options.detail)
+        self._put(Job(f"`{problem}`", work, self.options.limit), partial(self._was_derived, name))
+
+    def _was_derived(self, name: str, outcome: Outcome) -> None:
+        if not self._took(outcome):
+            return
+        derived = self.derived[name] = outcome.value
+        self.result.derived += 1
+        self.result.warnings += derived.warnings
+        paths = {*derived.inputs, f"problems/{self.set_id}/reference.yaml"}
+        inputs = {path: self._input_digest(path) for path in sorted(paths)}
+        self.manifest.keep(name, derived, self.recipe, inputs)
+        self._document(name)
+        self._whole()
+
+    def _input_digest(self, path: str) -> str:
+        """Of a file as it was when the build began; one that changed since then must be read again next time."""
+        file = self.root / path
+        edited = file.exists() and file.stat().st_mtime_ns > self.started
+        return "edited during the build" if edited else file_digest(file)
+
+    def _document(self, name: str) -> None:
+        from derive.solution import problem_document
+
+        derived = self.derived[name]
+        texts = {f"{name}.txt": derived.text, f"{name}.json": derived.json}
+        self._typeset(name, lambda: problem_document(self.root, derived, self.set_id), texts)
+
+    def _whole(self) -> None:
+        """The document of the set, as soon as its last problem is derived."""
+        if len(self.derived) < len(self.names) or self.result.failed:
+            return
+        from derive.solution import set_document
+
+        parts = [self.derived[name] for name in self.names]
+        self._typeset(WHOLE, lambda: set_document(self.root, self.set_id, parts), {})
+
+    def _typeset(self, name: str, document: Callable[[], str], texts: dict[str, str]) -> None:
+        pdf = f"{name}.pdf"
+        try:
+            tex = document()
+        except DeriveError as error:
+            self.result.complaints += error.complaints
+            return
+        source = digest(tex, self.engine.identity)
+        texts = {f"{name}.tex": tex, **texts}
+        current = self.manifest.sources.get(pdf) == source and self.manifest.holds(pdf)
+        if current and not self.options.force:
+            self._record(texts)
+            return
+        limit = self.options.limit
+        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit)
+        job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
+        self._put(job, partial(self._was_typeset, pdf, source, texts))
+
+    def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
+        """The text and the source follow their PDF, so that what lies side by side belongs together."""
+        if pdf == f"{WHOLE}.pdf" and outcome.error:
+            self.whole_failed = outcome
+            return
+        if not self._took(outcome):
+            return
+        if outcome.value:
+            self.result.changed.append(self.outputs / pdf)
+        self.manifest.sources[pdf] = source
+        self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
+        self._record(texts)
+
+    def _record(self, texts: dict[str, str]) -> None:
+        try:
+            for name, text in texts.items():
+                if write(self.outputs / name, text):
+                    self.result.changed.append(self.outputs / name)
+                self.manifest.outputs[name] = file_digest(self.outputs / name)
+        except DeriveError as error:
+            self.result.complaints += error.complaints
+
+    def _stamp(self) -> None:
+        """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
+        outputs = " ".join(f"build/{self.set_id}/{o}" for name in [*self.names, WHOLE] for o in outputs_of(name))
+        options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
+        facts = f"outputs_of_{self.set_id} := {outputs}\noptions_of_{self.set_id} := {options}\n"
+        write(self.outputs / ".outputs.mk", facts)
+        write(self.outputs / ".built", "")
+        os.utime(self.outputs / ".built", ns=(self.started, self.started))

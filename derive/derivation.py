@@ -1,0 +1,139 @@
+"""The walk back: from the answers of each part to the steps they rest on; and a derivation as JSON, there and back.
+
+A part shows, depth first, the steps behind its answers that no earlier part has shown.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from derive.encoding import decoded, encoded
+from derive.errors import Complaint, Rejected
+from derive.evidence import Evidence, Grade
+from derive.step import Form, Level, Quantity, Step
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """Every step that the answers rest on, in the order of the page, and how each part divides them."""
+
+    steps: tuple[Step, ...]
+    parts: tuple[tuple[str, ...], ...]
+    unshown: tuple[str, ...] = ()
+
+    def step(self, key: str) -> Step:
+        return next(step for step in self.steps if step.key == key)
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        return tuple(step.key for step in self.steps)
+
+    def grades(self) -> dict[str, int]:
+        """How many claims were decided in each way."""
+        counts = {grade.value: 0 for grade in Grade if grade is not Grade.REFUTED}
+        for step in self.steps:
+            for evidence in step.evidence:
+                counts[evidence.grade.value] += 1
+        return counts
+
+
+def returned_quantities(value: Any) -> list[Quantity]:
+    """What a script returned, flattened; anything but quantities in tuples, lists and mappings is refused."""
+    if isinstance(value, Quantity):
+        return [value]
+    if isinstance(value, dict):
+        value = list(value.values())
+    if not isinstance(value, tuple | list) or not value:
+        got = "nothing" if value is None else f"a {type(value).__name__}"
+        message = f"`solve()` must return its answers, each made by a verb, but it returned {got}"
+        raise Rejected(Complaint("script", message, help="end it with, for example, `return I, T, theta`"))
+    return [quantity for item in value for quantity in returned_quantities(item)]
+
+
+def with_ancestors(quantities: Iterable[Quantity]) -> dict[str, Quantity]:
+    """Every quantity that these rest on and they themselves, parents first, by key; two of one key are refused."""
+    found: dict[str, Quantity] = {}
+
+    def visit(quantity: Quantity) -> None:
+        known = found.get(quantity.key)
+        if known is quantity:
+            return
+        if known is not None and known.step != quantity.step:
+            message = f"two different steps are both called `{quantity.key}`"
+            raise Rejected(Complaint("key-clash", message, help=f'name one: key="{quantity.key}_2nd" or, better, a word'))
+        for parent in quantity.parents:
+            visit(parent)
+        found.setdefault(quantity.key, quantity)
+
+    for quantity in quantities:
+        visit(quantity)
+    return found
+
+
+def derivation_of(
+    answers: Sequence[Sequence[str]], known: dict[str, Quantity], established: Iterable[Quantity] = ()
+) -> Derivation:
+    """Divide the steps among the parts; `answers` holds the keys that each part asks for."""
+    shown: dict[str, Step] = {}
+    parts = []
+    for keys in answers:
+        new = [key for key in with_ancestors(known[key] for key in keys) if key not in shown]
+        shown.update({key: known[key].step for key in new})
+        parts.append(tuple(new))
+    unshown = tuple(dict.fromkeys(q.key for q in established if q.key not in shown))
+    return Derivation(tuple(shown.values()), tuple(parts), unshown)
+
+
+# --- JSON ------------------------------------------------------------------------------------------------------------
+
+
+def to_json(derivation: Derivation) -> str:
+    return json.dumps(
+        {
+            "steps": [_step_to_data(step) for step in derivation.steps],
+            "parts": derivation.parts,
+            "unshown": derivation.unshown,
+        }
+    )
+
+
+def from_json(text: str) -> Derivation:
+    data = json.loads(text)
+    return Derivation(
+        steps=tuple(_step_from_data(step) for step in data["steps"]),
+        parts=tuple(tuple(part) for part in data["parts"]),
+        unshown=tuple(data["unshown"]),
+    )
+
+
+def _step_to_data(step: Step) -> dict[str, Any]:
+    return {
+        "key": step.key,
+        "rule": step.rule,
+        "symbol": encoded(step.symbol),
+        "chain": [[encoded(form.expr), form.because, form.level] for form in step.chain],
+        "inputs": step.inputs,
+        "roles": [[role, encoded(symbol)] for role, symbol in step.roles],
+        "outcome": step.outcome,
+        "evidence": [[e.claim, e.grade, e.detail] for e in step.evidence],
+        "kind": step.kind,
+        "words": step.words,
+    }
+
+
+def _step_from_data(data: dict[str, Any]) -> Step:
+    return Step(
+        key=data["key"],
+        rule=data["rule"],
+        symbol=decoded(data["symbol"]),
+        chain=tuple(Form(decoded(expr), because, Level(level)) for expr, because, level in data["chain"]),
+        inputs=tuple(data["inputs"]),
+        roles=tuple((role, decoded(symbol)) for role, symbol in data["roles"]),
+        outcome=data["outcome"],
+        evidence=tuple(Evidence(claim, Grade(grade), detail) for claim, grade, detail in data["evidence"]),
+        kind=data["kind"],
+        words=tuple((name, key) for name, key in data["words"]),
+    )

@@ -1,0 +1,326 @@
+"""The page as a tree, before any format: title, statement, parts, steps, answers, and how it was checked.
+
+Equations are numbered here, so that every format and every reference has the same numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+from derive.derivation import Derivation
+from derive.dimensions import Dimension
+from derive.errors import Complaint, Place
+from derive.evidence import Grade
+from derive.expressions import Amount
+from derive.homogeneity import dimension_table
+from derive.parts import Part
+from derive.problem import ANY_OUTCOME, Problem
+from derive.source import did_you_mean
+from derive.step import Form, Level, Step
+from derive.wording import (
+    Chain,
+    Math,
+    Node,
+    Phrases,
+    Ref,
+    Text,
+    filled,
+    joined,
+    names_of_step,
+    told,
+)
+
+
+@dataclass(frozen=True)
+class Line:
+    """`left relation right`, with the reason beside it; a continued line has no left side."""
+
+    left: Any | None
+    relation: str
+    right: Any
+    reason: tuple[Node, ...] = ()
+    presented: bool = False
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The lines of one step, numbered on the last of them."""
+
+    key: str
+    lines: tuple[Line, ...]
+    number: int
+
+
+@dataclass(frozen=True)
+class Display:
+    """Equations set together, and what the margin says of them."""
+
+    groups: tuple[Equations, ...]
+    margin: tuple[str, ...] = ()
+    end: str = "."
+
+    @property
+    def stops(self) -> tuple[str, ...]:
+        """The punctuation behind each step: commas between them, at the end what the sentence needs."""
+        return (",",) * (len(self.groups) - 1) + (self.end,)
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A boxed result: symbol = exact value, and its rounded value if it has one."""
+
+    key: str
+    symbol: Any
+    value: Any
+    rounded: Any | None
+
+
+@dataclass(frozen=True)
+class Answers:
+    answers: tuple[Answer, ...]
+
+
+Block = Paragraph | Display | Answers
+
+
+@dataclass(frozen=True)
+class PartPage:
+    label: str
+    ask: tuple[Node, ...]
+    points: Fraction | None
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Document:
+    """One problem's page."""
+
+    id: str
+    title: tuple[Node, ...]
+    points: Fraction | None
+    statement: tuple[Node, ...]
+    parts: tuple[PartPage, ...]
+    closing: tuple[Node, ...]
+    numbers: Mapping[str, int]
+    dimensions: Mapping[Any, Dimension | None] = field(repr=False)
+    warnings: tuple[Complaint, ...] = ()
+
+
+def document_of(
+    problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases, level: Level
+) -> tuple[Document, list[Complaint]]:
+    """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous."""
+    writer = _Writer(problem, derivation, values, words, level)
+    return writer.document(), writer.faults
+
+
+class _Writer:
+    """Walks the parts once, giving numbers to equations and words to steps."""
+
+    def __init__(
+        self, problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases, level: Level
+    ):
+        self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
+        self.numbers: dict[str, int] = {}
+        every = [*derivation.steps, *values.values()]
+        self.dimensions, self.faults = dimension_table(problem.dimensions, every)
+        for measured in problem.measured:
+            amount = Amount(measured.number, measured.unit, measured.si / measured.number)
+            self.dimensions[amount] = problem.dimensions.get(measured.symbol)
+        self.symbols = {step.key: step.symbol for step in derivation.steps}
+        self.page_names = self._page_names()
+
+    def document(self) -> Document:
+        problem = self.problem
+        title = self._told(problem.title.pieces)
+        statement = self._told(problem.statement.pieces)
+        parts = tuple(self._part(i, part) for i, part in enumerate(problem.parts))
+        self._check_keys("wording", problem.wording)
+        self._check_keys("show", problem.show)
+        return Document(
+            id=problem.id,
+            title=title,
+            points=problem.points,
+            statement=statement,
+            parts=parts,
+            closing=self._closing(),
+            numbers=self.numbers,
+            dimensions=self.dimensions,
+            warnings=tuple(
+                Complaint("not-shown", f"`{key}` is established but no answer rests on it", severity="warning")
+                for key in self.derivation.unshown
+            ),
+        )
+
+    # --- names ---
+
+    def _page_names(self) -> dict[str, Any]:
+        names: dict[str, Any] = {step.key: Math(step.symbol) for step in self.derivation.steps}
+        for given in self.problem.givens:
+            names[given.name] = self._given(given)
+        return names
+
+    def _given(self, given: Any) -> tuple[Node, ...]:
+        """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+        if given.word is not None:
+            return (Text(self.words.term(given.word)),)
+        if given.kind.name == "Direction":
+            return Text(self.words.term("components") + " along "), Math(tuple(given.value.components))
+        amounts = {m.symbol: Amount(m.number, m.unit, m.si / m.number) for m in self.problem.measured}
+        values = given.value if isinstance(given.value, tuple) else (given.value,)
+        items = [(Math(v), Text(" = "), Math(amounts[v])) if v in amounts else (Math(v),) for v in values]
+        return joined(items, self.words.labels["and"])
+
+    def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
+        return told(pieces, {**self.page_names, **(names or {})}, self._unknown)
+
+    def _unknown(self, name: str, place: Place) -> None:
+        help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
+        self.faults.append(Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line))
+
+    def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
+        for key in named:
+            if key not in self.symbols:
+                help_line = did_you_mean(key, self.symbols)
+                place = self.problem.place_of(section, key)
+                self.faults.append(Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line))
+
+    # --- parts ---
+
+    def _part(self, index: int, part: Part) -> PartPage:
+        blocks: list[Block] = []
+        for key in self.derivation.parts[index]:
+            self._append(blocks, self.derivation.step(key))
+        for key in part.answers:
+            value = self.values.get(key)
+            if value is not None and value.outcome == "measured":
+                self._append(blocks, value)
+        blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
+        return PartPage(chr(ord("a") + index), self._told(part.ask.pieces), part.points, _punctuated(blocks))
+
+    def _answer(self, key: str) -> Answer:
+        step = self.derivation.step(key)
+        value = self.values.get(key)
+        rounded = None
+        if value is not None and value.chain[-1].because == "rounded":
+            rounded = value.chain[-1].expr
+        return Answer(key, step.symbol, step.result, rounded)
+
+    def _append(self, blocks: list[Block], step: Step) -> None:
+        mode = self.problem.show.get(step.key, "")
+        if mode == "hidden":
+            return
+        nodes = self._phrase(step)
+        self.numbers[step.key] = len(self.numbers) + 1
+        equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
+        before, after = _around_chain(nodes)
+        display = Display((equations,), self._margin(step))
+        if not before and blocks and isinstance(blocks[-1], Display):
+            blocks[-1] = Display((*blocks[-1].groups, equations), blocks[-1].margin)
+        else:
+            blocks.extend([Paragraph(before)] if before else [])
+            blocks.append(display)
+        if after:
+            blocks.append(Paragraph(after))
+
+    def _phrase(self, step: Step) -> tuple[Node, ...]:
+        own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
+        override = self.problem.wording.get(step.key, {})
+        prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
+        if prose is not None:
+            nodes = self._told(prose.pieces, own)
+            return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
+        return filled(self.words.phrase(step), {**self.page_names, **own})
+
+    def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
+        level = Level.FULL if mode == "full" else self.level
+        forms = [form for form in step.chain if level.shows(form.level)]
+        if mode == "result":
+            forms = [step.chain[-1]]
+        lines = [self._line(step, form, i == 0) for i, form in enumerate(forms)]
+        return tuple(lines)
+
+    def _line(self, step: Step, form: Form, first: bool) -> Line:
+        relation = "approx" if form.because == "rounded" else "equals"
+        template = "" if first else self.words.reason(step, form.because)
+        return Line(
+            left=step.symbol if first else None,
+            relation=relation,
+            right=form.expr,
+            reason=self._reason(step, template),
+            presented=form.because == "result",
+        )
+
+    def _reason(self, step: Step, template: str) -> tuple[Node, ...]:
+        if not template:
+            return ()
+        direct = [symbol for _, symbol in step.roles]
+        refs = [Ref(key) for key in step.inputs if key in self.numbers and self.symbols[key] in direct]
+        if "refs" in template and not refs:
+            return ()
+        refs.sort(key=lambda ref: self.numbers[ref.key])
+        return filled(template, {**self.page_names, "refs": joined(refs, self.words.labels["and"])})
+
+    # --- how it was checked ---
+
+    def _margin(self, step: Step) -> tuple[str, ...]:
+        grades = {e.grade for e in step.evidence}
+        worst = next(g for g in (Grade.SAMPLED, Grade.APPROXIMATION, Grade.PROVED, Grade.DEFINITION) if g in grades)
+        routes = [words for e in step.evidence if (words := self.words.route(step, e.claim))]
+        return (self.words.grades[worst], *routes[:1])
+
+    def _closing(self) -> tuple[Node, ...]:
+        steps = [*self.derivation.steps, *self.values.values()]
+        evidence = [e for step in steps for e in step.evidence]
+        lines = [e for e in evidence if e.claim.startswith("line ")]
+        routes = [e for e in evidence if not e.claim.startswith("line ") and e.grade is not Grade.DEFINITION]
+        counts = ", ".join(_count_by_grade(lines, self.words)) or "none"
+        others = ", ".join(_count_by_grade(routes, self.words)) or "none"
+        text = (
+            f"{len(lines)} equalities between neighbouring lines, shown or not: {counts}. "
+            f"{len(routes)} results reached again by a second route: {others}. "
+            f"{sum(e.grade is Grade.DEFINITION for e in evidence)} definitions. "
+            "Every line is homogeneous in mass, length and time."
+        )
+        return (Text(text),)
+
+
+def _count_by_grade(evidence: list[Any], words: Phrases) -> list[str]:
+    counts = {grade: sum(e.grade is grade for e in evidence) for grade in Grade}
+    return [f"{n} {words.grades[grade]}" for grade, n in counts.items() if n]
+
+
+def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
+    """A display ends with a comma where the sentence goes on after it."""
+    result: list[Block] = []
+    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
+        if isinstance(block, Display) and isinstance(following, Paragraph):
+            first = following.nodes[0]
+            if isinstance(first, Text) and first.text[:1].islower():
+                block = replace(block, end=",")
+        result.append(block)
+    return tuple(result)
+
+
+def _around_chain(nodes: tuple[Node, ...]) -> tuple[tuple[Node, ...], tuple[Node, ...]]:
+    at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
+    return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
+
+
+def _trimmed(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
+    """Without blank text at either end."""
+    kept = list(nodes)
+    while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
+        kept.pop(0)
+    while kept and isinstance(kept[-1], Text) and not kept[-1].text.strip():
+        kept.pop()
+    return tuple(kept)
+

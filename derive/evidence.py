@@ -1,0 +1,389 @@
+"""Are two expressions equal, and how do we know?
+
+    proved          decided exactly: the difference vanishes as a polynomial, once sines and cosines, roots and
+                    other functions have become generators with the relations they satisfy
+    sampled         agrees at random exact points, but no exact method decided it
+    refuted         differs at a point, which is named
+    definition      nothing to compare: the line says what a symbol means
+    approximation   a rounded value or a series, itself checked
+
+Points come first: they are cheap and refute at once. A sample never counts as a proof.
+
+Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms modulo relations).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+from sympy import (
+    Derivative,
+    Dummy,
+    Expr,
+    I,
+    Integer,
+    MatrixBase,
+    Mul,
+    Pow,
+    Rational,
+    S,
+    Symbol,
+    cos,
+    expand_trig,
+    factor_list,
+    igcd,
+    ilcm,
+    nan,
+    oo,
+    sin,
+    tan,
+    together,
+    zoo,
+)
+from sympy.core.function import AppliedUndef
+from sympy.polys.polyerrors import PolynomialError
+from sympy.polys.rings import sring
+
+from derive.expressions import explicit
+
+POINTS = 8
+DIGITS = 50
+LARGEST = 4000  # operations; beyond this an expression is sampled, not expanded
+
+
+class Grade(StrEnum):
+    PROVED = "proved"
+    SAMPLED = "sampled"
+    DEFINITION = "definition"
+    APPROXIMATION = "approximation"
+    REFUTED = "refuted"
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One claim about a step, how it was decided, and what is needed to look again."""
+
+    claim: str
+    grade: Grade
+    detail: str = ""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The outcome of a comparison; `point` refutes when the grade is `refuted`."""
+
+    grade: Grade
+    detail: str = ""
+    point: tuple[tuple[str, str], ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.grade is not Grade.REFUTED
+
+
+def equal(left: Any, right: Any) -> Verdict:
+    """Compare two scalars, or two matrices entry by entry; a matrix is as sure as its least sure entry."""
+    left, right = explicit(left), explicit(right)
+    if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        return _equal_matrices(left, right)
+    return _equal_scalars(left, right)
+
+
+def _equal_matrices(left: Any, right: Any) -> Verdict:
+    if getattr(left, "shape", None) != getattr(right, "shape", None):
+        return Verdict(Grade.REFUTED, "the shapes differ")
+    worst = Verdict(Grade.PROVED, "identical")
+    for a, b in zip(left, right, strict=True):
+        verdict = _equal_scalars(a, b)
+        if not verdict:
+            return verdict
+        if verdict.grade is Grade.SAMPLED or worst.detail == "identical":
+            worst = verdict if worst.grade is not Grade.SAMPLED else worst
+    return worst
+
+
+def _equal_scalars(left: Expr, right: Expr) -> Verdict:
+    if left == right:
+        return Verdict(Grade.PROVED, "identical")
+    left, right = _stripped(left, right)
+    for point in _points(left, right, 2):
+        if not _agree(left, right, point):
+            return _refutation(left, right, point)
+    difference = left - right
+    if vanishes(difference):
+        return Verdict(Grade.PROVED, "polynomial normal form")
+    seen = 0
+    for point in _points(left, right, POINTS):
+        if not _agree(left, right, point):
+            return _refutation(left, right, point)
+        seen += 1
+    if seen == 0 or not difference.free_symbols:
+        # No letters to vary: one number, computed to many digits, is still only a sample.
+        return Verdict(Grade.SAMPLED, f"to {DIGITS} digits")
+    return Verdict(Grade.SAMPLED, f"{seen} points to {DIGITS} digits")
+
+
+def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
+    """acos(u) and acos(v) agree exactly if u and v do: take off what is one-to-one."""
+    while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan", "exp"} and len(left.args) == 1:
+        left, right = left.args[0], right.args[0]
+    return left, right
+
+
+# --- samples ---------------------------------------------------------------------------------------------------------
+
+
+def _points(left: Expr, right: Expr, count: int) -> Iterator[dict[Expr, Expr]]:
+    """Points at which both sides are defined: exact rationals, the same ones in every run."""
+    letters = sorted(_letters(left) | _letters(right), key=str)
+    source = random.Random(20_777)
+    found = 0
+    for _ in range(6 * count):
+        point = {letter: _draw(letter, source) for letter in letters}
+        if _defined(left, point) and _defined(right, point):
+            yield point
+            found += 1
+        if found == count:
+            return
+
+
+def _letters(expr: Expr) -> set[Expr]:
+    """What can be varied freely: symbols other than bound ones, functions of time and their derivatives."""
+    functions = expr.atoms(AppliedUndef) | expr.atoms(Derivative)
+    return set(functions) | {s for s in expr.free_symbols if isinstance(s, Symbol)}
+
+
+def _draw(letter: Expr, source: random.Random) -> Expr:
+    size = Rational(source.randint(11, 97), source.randint(23, 61))
+    if letter.is_integer:
+        return Integer(source.randint(1, 9))
+    if letter.is_positive or letter.is_nonnegative:
+        return size
+    return size if source.random() < 0.5 else -size
+
+
+def _at(expr: Expr, point: dict[Expr, Expr]) -> Expr:
+    ordered = sorted(point, key=lambda letter: isinstance(letter, Symbol))  # derivatives before what they contain
+    for letter in ordered:
+        expr = expr.xreplace({letter: point[letter]})
+    return expr.evalf(DIGITS)
+
+
+def _defined(expr: Expr, point: dict[Expr, Expr]) -> bool:
+    value = _at(expr, point)
+    return bool(value.is_number) and not value.has(nan, zoo, oo, -oo)
+
+
+def _agree(left: Expr, right: Expr, point: dict[Expr, Expr]) -> bool:
+    a, b = _at(left, point), _at(right, point)
+    scale = abs(a) + abs(b)
+    return bool(scale == 0 or abs(a - b) <= scale * Rational(1, 10 ** (DIGITS - 10)))
+
+
+def _refutation(left: Expr, right: Expr, point: dict[Expr, Expr]) -> Verdict:
+    a, b = _at(left, point), _at(right, point)
+    where = tuple((str(letter), str(value)) for letter, value in point.items())
+    return Verdict(Grade.REFUTED, f"{a.evalf(6)} against {b.evalf(6)}", where)
+
+
+# --- proofs ----------------------------------------------------------------------------------------------------------
+
+
+def vanishes(expr: Expr) -> bool:
+    """Whether the expression is zero, decided exactly; False means "not shown", never "not zero"."""
+    expr = explicit(expr)
+    if expr == 0:
+        return True
+    if expr.has(nan, zoo, oo) or expr.count_ops() > LARGEST:
+        return False
+    try:
+        return _vanishes_as_polynomial(expr)
+    except (PolynomialError, NotImplementedError, ZeroDivisionError, ValueError):
+        return False
+
+
+def _vanishes_as_polynomial(expr: Expr) -> bool:
+    tower = _Tower()
+    numerator = together(tower.polynomial_in_generators(expr)).as_numer_denom()[0]
+    return tower.reduces_to_zero(numerator)
+
+
+class _Tower:
+    """Generators that stand for functions and roots, with the relation each one satisfies.
+
+    A relation is stored as (generator, power, what that power equals), later ones possibly in terms of earlier ones:
+    s^2 = 1 - c^2 for a sine, r^q = p for a root. Reducing from the last to the first gives a normal form.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[Expr, Expr] = {}
+        self._relations: list[tuple[Symbol, int, Expr]] = []
+
+    def polynomial_in_generators(self, expr: Expr) -> Expr:
+        expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))
+        return self._walk(_with_common_angles(expr))
+
+    def _walk(self, expr: Expr) -> Expr:
+        if expr in self._known:
+            return self._known[expr]
+        if expr.is_Rational or isinstance(expr, Symbol):
+            return expr
+        if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
+            return self._root(expr.base, expr.exp)
+        if isinstance(expr, Pow) and expr.exp.is_Integer:
+            return self._walk(expr.base) ** expr.exp
+        if expr.is_Add or expr.is_Mul:
+            return expr.func(*(self._walk(arg) for arg in expr.args))
+        if expr is I or expr is S.ImaginaryUnit:
+            return self._generator(expr, 2, Integer(-1))
+        if isinstance(expr, sin | cos):
+            return self._circular(expr)
+        return self._opaque(expr)
+
+    def _generator(self, expr: Expr, power: int = 0, equals: Expr = S.Zero) -> Symbol:
+        generator = Dummy(f"g{len(self._known)}")
+        self._known[expr] = generator
+        if power:
+            self._relations.append((generator, power, equals))
+        return generator
+
+    def _circular(self, expr: Expr) -> Expr:
+        angle = expr.args[0]
+        cosine = self._known.get(cos(angle)) or self._generator(cos(angle))
+        if sin(angle) not in self._known:
+            self._generator(sin(angle), 2, 1 - cosine**2)
+        return self._known[expr]
+
+    def _opaque(self, expr: Expr) -> Expr:
+        """A function we know nothing of: equal arguments give equal values, and that is all."""
+        for known, generator in self._known.items():
+            same_kind = known.func == expr.func and len(known.args) == len(expr.args) and known.args
+            if same_kind and not isinstance(expr, AppliedUndef | Derivative):
+                if all(vanishes(a - b) for a, b in zip(known.args, expr.args, strict=True)):
+                    return generator
+        return self._generator(expr)
+
+    def _root(self, base: Expr, exponent: Rational) -> Expr:
+        """p^(n/q) as a product of roots of irreducible factors, so that sqrt(6) is sqrt(2) sqrt(3)."""
+        q = exponent.q
+        result: Expr = Integer(1)
+        for factor, power in _factors_under_a_root(base, q):
+            whole, rest = divmod(power * exponent.p, q)
+            result *= self._walk(factor) ** whole
+            if rest:
+                key = Pow(factor, Rational(1, q), evaluate=False)
+                generator = self._known.get(key)
+                if generator is None:
+                    inner = self._walk(factor)
+                    generator = self._generator(key, q, inner)
+                result *= generator**rest
+        return result
+
+    def reduces_to_zero(self, numerator: Expr) -> bool:
+        """Reduce modulo the relations, last generator first."""
+        for generator, power, equals in reversed(self._relations):
+            numerator = _power_replaced(numerator, generator, power, equals)
+            if numerator == 0:
+                return True
+            numerator = together(numerator).as_numer_denom()[0]
+        ring_element = sring(numerator)[1]
+        return ring_element == 0
+
+
+def _power_replaced(expr: Expr, generator: Symbol, power: int, equals: Expr) -> Expr:
+    """A polynomial with g^power replaced by what it equals, wherever it occurs."""
+    ring, element = sring(expr)
+    if generator not in ring.symbols:
+        return Integer(0) if element == 0 else expr
+    index = ring.symbols.index(generator)
+    total: dict[int, Any] = {}
+    for monomial, coefficient in element.terms():
+        whole, rest = divmod(monomial[index], power)
+        lowered = monomial[:index] + (rest,) + monomial[index + 1 :]
+        total.setdefault(whole, ring.zero)
+        total[whole] += ring({lowered: coefficient})
+    return sum((part.as_expr() * equals**whole for whole, part in total.items()), Integer(0))
+
+
+def _factors_under_a_root(base: Expr, q: int) -> list[tuple[Expr, int]]:
+    """Irreducible factors of the radicand with their powers.
+
+    Only factors that are known to be non-negative may leave a common root; the others stay together.
+    """
+    numerator, denominator = together(base).as_numer_denom()
+    found: list[tuple[Expr, int]] = []
+    unsure: Expr = Integer(1)
+    for part, sign in ((numerator, 1), (denominator, -1)):
+        for factor, power in _irreducible(part):
+            if factor.is_nonnegative:
+                found.append((factor, sign * power))
+            elif (-factor).is_nonnegative and power % 2 == 0:
+                found.append((-factor, sign * power))
+            else:
+                unsure *= factor ** (sign * power)
+    if unsure != 1:
+        found.append((unsure, 1))
+    return found
+
+
+def _irreducible(part: Expr) -> list[tuple[Expr, int]]:
+    if part.is_Integer:
+        return _prime_factors(part)
+    if part.is_number:
+        return [(part, 1)]
+    content, factors = factor_list(part)
+    found = [(factor, int(power)) for factor, power in factors]
+    return _prime_factors(content) + found
+
+
+def _prime_factors(number: Expr) -> list[tuple[Expr, int]]:
+    if not number.is_Rational:
+        return [(number, 1)]
+    from sympy import factorint
+
+    sign: list[tuple[Expr, int]] = [(Integer(-1), 1)] if number < 0 else []
+    primes = {**factorint(abs(number.p)), **{p: -e for p, e in factorint(number.q).items()}}
+    return sign + [(Integer(p), e) for p, e in primes.items() if p != 1]
+
+
+def _with_common_angles(expr: Expr) -> Expr:
+    """Sines and cosines of sums and multiples, written in those of the smallest angles that occur."""
+    functions = expr.atoms(sin, cos)
+    if not functions:
+        return expr
+    units = _smallest_angles(functions)
+    replaced = {}
+    for function in functions:
+        terms = [_as_multiple(term, units) for term in _angle_terms(function.args[0])]
+        inner = sum((n * unit for n, unit in terms), Integer(0))
+        replaced[function] = expand_trig(function.func(inner))
+    expanded = expr.xreplace(replaced)
+    return expanded.xreplace({dummy: angle for angle, dummy in units.values()})
+
+
+def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
+    return [term.as_coeff_Mul(rational=True) for term in angle.expand().as_ordered_terms()]
+
+
+def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
+    """For each angle up to a rational factor, the largest angle of which all that occur are whole multiples."""
+    found: dict[Expr, list[Rational]] = {}
+    for function in functions:
+        for coefficient, rest in _angle_terms(function.args[0]):
+            found.setdefault(rest, []).append(coefficient)
+    units = {}
+    for rest, coefficients in found.items():
+        denominator = ilcm(1, *(c.q for c in coefficients))
+        numerator = igcd(0, *(c.p * (denominator // c.q) for c in coefficients)) or 1
+        units[rest] = (Mul(Rational(numerator, denominator), rest), Dummy("angle", real=True))
+    return units
+
+
+def _as_multiple(term: tuple[Rational, Expr], units: dict[Expr, tuple[Expr, Symbol]]) -> tuple[Integer, Expr]:
+    coefficient, rest = term
+    angle, dummy = units[rest]
+    unit_coefficient = angle.as_coeff_Mul(rational=True)[0]
+    return Integer(coefficient / unit_coefficient), dummy

@@ -1,0 +1,15 @@
+"""A direction as an instructor gives it: by name, or by components."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sympy import Expr
+
+
+@dataclass(frozen=True)
+class Direction:
+    """Either a name that the body knows (`diagonal`, `x`) or three components along the body's axes."""
+
+    name: str | None = None
+    components: tuple[Expr, Expr, Expr] | None = None

@@ -1,0 +1,101 @@
+"""Steps of plain algebra: a value somewhere, the length of a vector, anything else by `let`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from sympy import Add, Expr, MatrixSymbol, Mul
+
+from derive.errors import Complaint, Rejected
+from derive.expressions import Dot, Group, Norm, Factors, Root, Terms, bound, component_names, explicit, scalar
+from derive.mechanics.rotation import length_by_turning
+from derive.step import Form, Level, Quantity, compared_with, establish, is_zero
+from derive.tidy import factored_matrix
+
+
+def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
+    """The value that a general result takes for a particular vector.
+
+    general      established with the components of a vector left open
+    particular   the vector to put in: same symbol, same axes
+    Second route: the law itself, evaluated with the particular vector from the start.
+    Errors: the general result does not contain that vector's components.
+    Source: none needed: substitution.
+    """
+    names = component_names(particular.symbol.name)
+    if not general.value.free_symbols & set(names):
+        message = f"`{general.key}` does not depend on the components of `{particular.key}`"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    others = {q.symbol: q.value for q in general.parents if q.symbol != particular.symbol}
+    law = general.step.chain[0].expr
+
+    def anew() -> Any:
+        return explicit(bound(law, {**others, particular.symbol: particular.value}))
+
+    def value(general_value: Any, vector: Any) -> Any:
+        if isinstance(vector, MatrixSymbol):
+            return general_value
+        return _put_in(general_value, {name: Group(v) for name, v in zip(names, vector, strict=True)})
+
+    return establish(
+        "equations.at",
+        general.symbol,
+        lambda vector: value(general.value, vector),
+        {"vector": particular},
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_at_{particular.key}",
+        kind=general.step.kind,
+        parents=[general],
+    )
+
+
+def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
+    """The value with each name replaced, the terms of its sum kept apart."""
+    sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
+    outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
+    kept = [Terms(*(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
+    return Factors(*([outside] if outside != 1 else []), *kept) if kept else outside
+
+
+def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
+    """Length of a vector, |v| = sqrt(v.v).
+
+    of      vector (3), any unit
+    Second route: turn the vector until it lies along one axis and read off its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    factor, rest = factored_matrix(of.value)
+    size = -factor if factor.could_extract_minus_sign() else factor
+    squares = [entry**2 for entry in rest if entry != 0]
+    worked = [] if is_zero(of.value) else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
+    return establish(
+        "equations.magnitude",
+        Norm(of.symbol),
+        lambda v: Root(Dot(v, v)),
+        {"vector": of},
+        between=worked,
+        put_in=Level.FULL,
+        routes={"turned": compared_with(lambda: length_by_turning(of.value))},
+        outcome=lambda length: "zero" if length == 0 else "generic",
+        key=key,
+        kind=of.step.kind,
+    )
+
+
+def let(key: str, law: Callable[..., Expr], *quantities: Quantity, symbol: str | None = None) -> Quantity:
+    """A name for an expression in quantities: a definition, shown with its substitution.
+
+    key          what the step is called
+    law          a function of the quantities
+    Source: none needed: a definition.
+    """
+    return establish(
+        "equations.let",
+        scalar(symbol or key),
+        law,
+        {q.key: q for q in quantities},
+        key=key,
+        definition=True,
+    )

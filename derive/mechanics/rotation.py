@@ -1,0 +1,227 @@
+"""Rotation of a rigid body: angular velocity, energy, angular momentum, torque. All vectors in body axes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, Integer, Rational, acos, cos, pi, sin
+
+from derive.expressions import (
+    Cross,
+    CarriedRate,
+    Dot,
+    Norm,
+    Factors,
+    Ratio,
+    applied,
+    column,
+    component_names,
+    explicit,
+    scalar,
+    scaled,
+    vector,
+)
+from derive.mechanics.bodies import Cuboid, Point
+from derive.step import Form, Level, Quantity, compared_with, establish, is_zero
+from derive.tidy import factored_matrix, tidied
+
+
+def any_angular_velocity(symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
+    """An angular velocity of which nothing is known: omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
+    """
+    components = column(*component_names(symbol))
+    return establish(
+        "rotation.any_angular_velocity",
+        vector(symbol),
+        lambda: components,
+        {},
+        key=key,
+        definition=True,
+        kind="angular speed",
+    )
+
+
+def spin(rate: Expr, along: Quantity, symbol: str = "omega", key: str = "spin") -> Quantity:
+    """Angular velocity of a steady rotation, omega d/|d|.
+
+    rate    angular speed, 1/s, positive
+    along   vector (3) along the axis, right-handed about it
+    Second route: put back: its length is the rate and its scalar product with d is that of parallel vectors.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
+    """
+    size = -rate if rate.could_extract_minus_sign() else rate
+    return establish(
+        "rotation.spin",
+        vector(symbol),
+        lambda w, d: scaled(w / Norm(d), d),
+        {"rate": rate, "axis": along},
+        between=[Form(scaled(Ratio(rate, tidied(Norm(along.value))), along.value), "length", Level.STANDARD)],
+        put_in=None,
+        routes={
+            "length": lambda omega: (length_by_turning(omega), size),
+            "parallel": lambda omega: (explicit(Dot(omega, along.value)), rate * tidied(Norm(along.value))),
+        },
+        key=key,
+        kind="angular speed",
+        context={"rate": rate},
+    )
+
+
+def length_by_turning(v: Any) -> Expr:
+    """A vector's length: turn it about z into the xz plane, then about y onto the z axis, and read off the component."""
+    factor, rest = factored_matrix(v)
+    size = -factor if factor.could_extract_minus_sign() else factor
+    x, y, z = rest
+    level = _turned_onto_first(x, y)
+    return tidied(size * _turned_onto_first(level, z))
+
+
+def _turned_onto_first(p: Expr, q: Expr) -> Expr:
+    """The first component of (p, q) after the turn in their plane that makes the second one vanish."""
+    radius = tidied(p**2 + q**2) ** Rational(1, 2)
+    return p if radius == 0 else p * (p / radius) + q * (q / radius)
+
+
+def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
+    """The integral over the body of a function of the position from the point of the tensor, times dm."""
+    body: Cuboid = inertia.context["body"]
+    point: Point = inertia.context["about"]
+    r = column(*(limit[0] for limit in body.limits(point.position)))
+    values = explicit(integrand(r))
+    if hasattr(values, "applyfunc"):
+        return values.applyfunc(lambda f: body.density.value * body.integral(f, point.position).doit())
+    return body.density.value * body.integral(values, point.position).doit()
+
+
+def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
+    """Kinetic energy of rotation, T = (1/2) omega . I omega.
+
+    inertia   tensor (3, 3), kg m^2, about a fixed point or the centre of mass
+    omega     vector (3), 1/s, same axes
+    Second route: half the integral of |omega x r|^2 dm over the body.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+
+    def by_speeds() -> Expr:
+        return _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), Cross(omega.value, r))) / 2
+
+    product = scaled(*factored_matrix(tidied(applied(inertia.value, omega.value))))
+    return establish(
+        "rotation.kinetic_energy",
+        scalar(symbol),
+        lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
+        {"omega": omega, "inertia": inertia},
+        between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.STANDARD)],
+        put_in=Level.FULL,
+        routes={"speeds": compared_with(by_speeds)},
+        key=key,
+        kind="energy",
+    )
+
+
+def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key: str = "angular_momentum") -> Quantity:
+    """Angular momentum, L = I omega: in general not along omega.
+
+    inertia   tensor (3, 3), kg m^2, about a fixed point or the centre of mass
+    omega     vector (3), 1/s, same axes
+    Second route: the integral of r x (omega x r) dm over the body.
+    Outcomes: parallel (omega is along a principal axis), generic.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
+    """
+    by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
+    return establish(
+        "rotation.angular_momentum",
+        vector(symbol),
+        applied,
+        {"inertia": inertia, "omega": omega},
+        routes={"moments": by_moments},
+        outcome=lambda L: "parallel" if is_zero(tidied(Cross(omega.value, L))) else "generic",
+        key=key,
+        kind="angular momentum",
+    )
+
+
+def cosine_between(a: Quantity, b: Quantity, key: str = "cosine") -> Quantity:
+    """Cosine of the angle between two vectors, a.b/(|a||b|).
+
+    a, b    vectors (3), not zero, same axes
+    Second route: the law of cosines in the triangle whose sides are the two directions.
+    Outcomes: parallel, perpendicular, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    lengths = [tidied(Norm(v.value)) for v in (a, b)]
+
+    def by_law_of_cosines() -> Expr:
+        (f, u), (g, v) = (factored_matrix(q.value) for q in (a, b))
+        sign = -1 if (f * g).could_extract_minus_sign() else 1
+        beside, opposite = [length_by_turning(w) for w in (u, v)], length_by_turning(u - v)
+        return sign * (beside[0] ** 2 + beside[1] ** 2 - opposite**2) / (2 * beside[0] * beside[1])
+
+    return establish(
+        "rotation.cosine_between",
+        cos(scalar("theta")),
+        lambda u, v: Ratio(Dot(u, v), Factors(Norm(u), Norm(v))),
+        {"a": a, "b": b},
+        between=[Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)],
+        put_in=Level.FULL,
+        routes={"triangle": compared_with(by_law_of_cosines)},
+        outcome=_relation_of_directions,
+        key=key,
+        kind="number",
+    )
+
+
+def _relation_of_directions(cosine: Expr) -> str:
+    return {Integer(1): "parallel", Integer(-1): "opposite", Integer(0): "perpendicular"}.get(cosine, "generic")
+
+
+def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "angle_between") -> Quantity:
+    """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
+
+    a, b    vectors (3), not zero, same axes
+    Second route: |a x b| is |a||b| sin theta, so tan theta = |a x b|/(a.b), cross-multiplied.
+    Outcomes: parallel, opposite, perpendicular, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    cosine = cosine_between(a, b)
+    across = tidied(Norm(Cross(a.value, b.value)))
+    along = tidied(Dot(a.value, b.value))
+    return establish(
+        "rotation.angle_between",
+        scalar(symbol),
+        lambda: acos(cosine.value),
+        {},
+        parents=[cosine],
+        routes={"tangent": lambda theta: (sin(theta) * along, cos(theta) * across)},
+        outcome=lambda theta: {Integer(0): "parallel", pi: "opposite", pi / 2: "perpendicular"}.get(theta, "generic"),
+        key=key,
+        kind="angle",
+    )
+
+
+def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
+    """Torque that keeps L turning with the body: tau = dL/dt = omega x L.
+
+    omega      vector (3), 1/s, body axes, constant
+    momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
+    Second route: carry L round the axis by a rotation matrix and differentiate.
+    Outcomes: zero (omega is along a principal axis), generic.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
+    """
+    (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
+    carried = CarriedRate(momentum.value, omega.value)
+    return establish(
+        "rotation.torque",
+        vector(symbol),
+        Cross,
+        {"omega": omega, "momentum": momentum},
+        before=[Form(CarriedRate(momentum.symbol, omega.symbol), "law")],
+        between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
+        put_in=Level.FULL,
+        routes={"carried_round": compared_with(lambda: carried)},
+        outcome=lambda tau: "zero" if is_zero(tau) else "generic",
+        key=key,
+        kind="torque",
+    )

@@ -1,0 +1,89 @@
+"""The last step of an answer: numbers put in, and the value rounded once, with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify
+
+from derive.expressions import Amount, Factors, MatrixAmount, bound, explicit
+from derive.rounding import rounded_form
+from derive.step import Form, Level, Quantity, establish
+
+
+def value_of(
+    answer: Quantity, amounts: Mapping[Symbol, Amount], unit: str, factor: Expr, figures: int, key: str | None = None
+) -> Quantity | None:
+    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left.
+
+    answer    any quantity
+    amounts   symbol -> its number with a unit
+    unit      as text, and `factor`, what one of it is in the SI
+    Second route: the exact expression in the machine's floating-point arithmetic.
+    Outcomes: measured (numbers were put in), exact.
+    Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
+    """
+    letters = _free(answer.value)
+    if not letters <= set(amounts):
+        return None
+    substituted = bound(answer.value, {letter: amounts[letter] for letter in letters})
+    exact = explicit(substituted)
+    shown = _with_unit(exact, unit, factor, figures)
+    return establish(
+        "numbers.value",
+        answer.symbol,
+        lambda: substituted,
+        {},
+        routes={"floats": lambda result: _by_floats(answer.value, letters, amounts, explicit(result))},
+        outcome="measured" if letters else "exact",
+        key=key or f"{answer.key}_value",
+        kind=answer.step.kind,
+        put_in=None,
+        result_shown=Level.FULL,
+        after=[] if shown == exact else [Form(shown, "rounded")],
+        parents=[answer],
+    )
+
+
+def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
+    """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded."""
+    if isinstance(answer.value, MatrixBase) or not answer.value.free_symbols or isinstance(answer.value, Add):
+        return None
+    number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
+    if number.is_Rational:
+        return None
+    return establish(
+        "numbers.value",
+        answer.symbol,
+        lambda: answer.value,
+        {},
+        routes={"floats": lambda result: _by_floats(Mul(number), set(), {}, number)},
+        outcome="exact",
+        key=f"{answer.key}_value",
+        kind=answer.step.kind,
+        after=[Form(Factors(rounded_form(number, figures), letters), "rounded")],
+        parents=[answer],
+    )
+
+
+def _free(value: Any) -> set[Symbol]:
+    return {symbol for symbol in value.free_symbols if isinstance(symbol, Symbol)}
+
+
+def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
+    rounded = rounded_form(exact / factor, figures)
+    if isinstance(exact, MatrixBase):
+        return MatrixAmount(rounded, unit, factor) if unit else rounded
+    return Amount(rounded, unit, factor) if unit and rounded != 0 else rounded
+
+
+def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
+    """The largest relative error of the float evaluation, which must be nothing but rounding of the last bits."""
+    ordered = sorted(letters, key=str)
+    numbers = [float(explicit(amounts[letter])) for letter in ordered]
+    entries = list(value) if isinstance(value, MatrixBase) else [value]
+    exacts = list(exact) if isinstance(exact, MatrixBase) else [exact]
+    scale = max((abs(float(e)) for e in exacts), default=0.0) or 1.0
+    errors = [abs(lambdify(ordered, v, "math")(*numbers) - float(e)) / scale for v, e in zip(entries, exacts, strict=True)]
+    return (Integer(0) if max(errors) < 1e-12 else Rational(max(errors))), Integer(0)

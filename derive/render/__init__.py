@@ -1,0 +1,1 @@
+"""From a document to text, LaTeX, JSON and PDF."""

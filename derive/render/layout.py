@@ -1,0 +1,148 @@
+"""Mathematics as it stands on paper, before any format: what is a fraction, what is raised, what is in brackets.
+
+`notation.py` decides the layout once; `latex.py` and `text.py` only print it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Number:
+    """Digits as printed."""
+
+    digits: str
+
+
+@dataclass(frozen=True)
+class Name:
+    """A symbol: `omega`, with subscript `x`, so many dots; style is scalar, vector or tensor."""
+
+    base: str
+    subscript: str = ""
+    dots: int = 0
+    style: str = "scalar"
+
+
+@dataclass(frozen=True)
+class Word:
+    """A unit or another word that is printed upright."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Mark:
+    """An operator or relation: + - = times dot cross approx comma space."""
+
+    kind: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """Things side by side."""
+
+    items: tuple[Layout, ...]
+
+
+@dataclass(frozen=True)
+class Fraction:
+    above: Layout
+    below: Layout
+
+
+@dataclass(frozen=True)
+class Raised:
+    base: Layout
+    power: Layout
+
+
+@dataclass(frozen=True)
+class RootSign:
+    inside: Layout
+
+
+@dataclass(frozen=True)
+class Fenced:
+    """Brackets of one kind, ( ) or | |, around a layout."""
+
+    inside: Layout
+    kind: str = "("
+
+
+@dataclass(frozen=True)
+class Limits:
+    """[F] between limits."""
+
+    inside: Layout
+    lower: Layout
+    upper: Layout
+
+
+@dataclass(frozen=True)
+class IntegralSign:
+    """The sign with its limits, if it has any."""
+
+    lower: Layout | None = None
+    upper: Layout | None = None
+
+
+@dataclass(frozen=True)
+class Applied:
+    """A function by its printed name, perhaps raised, and its argument."""
+
+    name: str
+    argument: Layout
+    power: Layout | None = None
+
+
+@dataclass(frozen=True)
+class Array:
+    """The entries of a vector or tensor, row by row."""
+
+    rows: tuple[tuple[Layout, ...], ...]
+
+
+Layout = (
+    Number | Name | Word | Mark | Row | Fraction | Raised | RootSign | Fenced | Limits | IntegralSign | Applied | Array
+)
+
+DOT, TIMES, CROSS, PLUS, MINUS, SPACE = (Mark(kind) for kind in ("dot", "times", "cross", "plus", "minus", "space"))
+
+
+def row(*items: Layout) -> Layout:
+    """Items side by side, rows within rows opened."""
+    flat: list[Layout] = []
+    for item in items:
+        flat.extend(item.items if isinstance(item, Row) else [item])
+    return flat[0] if len(flat) == 1 else Row(tuple(flat))
+
+
+def first_of(layout: Layout) -> Layout:
+    return first_of(layout.items[0]) if isinstance(layout, Row) and layout.items else layout
+
+
+def last_of(layout: Layout) -> Layout:
+    return last_of(layout.items[-1]) if isinstance(layout, Row) and layout.items else layout
+
+
+def begins_with_number(layout: Layout) -> bool:
+    """Whether it may not stand directly behind another factor: `3a`, `3/2 a`, `10^2`."""
+    first = first_of(layout)
+    if isinstance(first, Raised):
+        return begins_with_number(first.base)
+    if isinstance(first, Fraction):
+        return isinstance(first.above, Number) and isinstance(first.below, Number)
+    return isinstance(first, Number)
+
+
+def is_number(layout: Layout) -> bool:
+    """A plain number, or a fraction of plain numbers."""
+    if isinstance(layout, Fraction):
+        return is_number(layout.above) and is_number(layout.below)
+    return isinstance(layout, Number)
+
+
+def is_enclosed(layout: Layout) -> bool:
+    return isinstance(layout, Fenced | Limits | Array)

@@ -1,0 +1,465 @@
+"""From expressions to the layout of a textbook: 13/12 M a^2, not 13 M a^2/12; dots for rates; masses before lengths.
+
+`present()` pulls the common factor out of vectors and tensors; it changes no value. `Notation` holds the one thing
+that depends on the problem, the dimensions of its letters, which decide their order in a product.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from sympy import (
+    Add,
+    Derivative,
+    Expr,
+    Function,
+    Identity,
+    Integral,
+    MatAdd,
+    MatMul,
+    MatrixBase,
+    MatrixSymbol,
+    Mul,
+    Pow,
+    Rational,
+    Symbol,
+    fraction,
+)
+from sympy.core.function import AppliedUndef
+from sympy.core.numbers import Exp1, Pi
+
+from derive import expressions as ex
+from derive.dimensions import Dimension
+from derive.expressions import scaled
+from derive.render.layout import (
+    CROSS,
+    DOT,
+    MINUS,
+    PLUS,
+    SPACE,
+    Applied,
+    Array,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Limits,
+    Mark,
+    Name,
+    Number,
+    Raised,
+    RootSign,
+    Row,
+    Word,
+    begins_with_number,
+    is_enclosed,
+    is_number,
+    last_of,
+    row,
+)
+from derive.rounding import Rounded, decimal_text
+from derive.tidy import factored_matrix
+
+FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
+
+
+def present(value: Any) -> Any:
+    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
+    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
+        return value
+    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
+        return value
+    factor, rest = factored_matrix(value)
+    return value if factor == 1 else scaled(factor, rest)
+
+
+class Notation:
+    """The layout of any expression of the engine.
+
+    dimensions   of the letters, so that masses come first and rates last; unknown letters stand with the lengths
+    """
+
+    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None):
+        self._dimensions = dimensions or {}
+
+    def layout(self, expr: Any) -> Layout:
+        if isinstance(expr, MatrixBase):
+            return self._matrix(expr)
+        for kinds, method in self._methods:
+            if isinstance(expr, kinds):
+                return method(self, expr)
+        if isinstance(expr, Function):
+            return self._function(expr)
+        raise TypeError(f"no notation for {type(expr).__name__}")
+
+    def result(self, expr: Any) -> Layout:
+        """A result, with its common factor in front."""
+        return self.layout(present(expr))
+
+    def list_of(self, components: tuple[Any, ...]) -> Layout:
+        """Components in running text: (1, 1, 0)."""
+        items: list[Layout] = []
+        for component in components:
+            items += [Mark("comma")] * bool(items) + [self.layout(component)]
+        return Fenced(row(*items))
+
+    # --- sums and products ---
+
+    def _sum(self, expr: Any) -> Layout:
+        terms = list(expr.args) if isinstance(expr, ex.Terms) else _positive_first(expr.as_ordered_terms())
+        return self._terms(terms)
+
+    def _terms(self, terms: list[Any]) -> Layout:
+        items: list[Layout] = []
+        for term in terms:
+            negative, size = _sign_and_size(term)
+            if items or negative:
+                items.append(MINUS if negative else PLUS)
+            items.append(self._within_sum(size))
+        return row(*items)
+
+    def _within_sum(self, expr: Any) -> Layout:
+        inner = self.layout(expr)
+        return Fenced(inner) if isinstance(expr, Add | ex.Terms | MatAdd) else inner
+
+    def _product(self, expr: Expr) -> Layout:
+        negative, size = _sign_and_size(expr)
+        if negative:
+            return row(MINUS, self._within_sum(size))
+        above, below = fraction(size)
+        number_above, letters_above = _number_and_letters(above)
+        number_below, letters_below = _number_and_letters(below)
+        number_above, number_below = _root_cancelled(number_above, number_below)
+        if letters_below:
+            top = self._factors([*number_above, *self._ordered(letters_above)])
+            return Fraction(top, self._factors([*number_below, *self._ordered(letters_below)]))
+        letters = self._ordered(letters_above)
+        if not number_below:
+            return self._factors([*number_above, *letters])
+        if any(isinstance(f, Pow) for f in number_below):
+            return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
+        number = Fraction(self._factors(number_above), self._factors(number_below))
+        return row(number, self._factors(letters)) if letters else number
+
+    def _ordered(self, factors: list[Expr]) -> list[Expr]:
+        return sorted(factors, key=self._rank)
+
+    def _rank(self, factor: Expr) -> tuple[int, int, str]:
+        """Density and mass, accelerations, lengths, numbers, rates; then brackets and functions."""
+        base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
+        if not isinstance(base, Symbol):
+            return (2 if isinstance(base, Add | ex.Terms | ex.Group) else 1, 0, str(factor))
+        dimension = self._dimensions.get(base)
+        return (0, _rank_of_dimension(dimension), base.name)
+
+    def _factors(self, factors: list[Any]) -> Layout:
+        if not factors:
+            return Number("1")
+        alone = len(factors) == 1
+        return _side_by_side([self.layout(f) if alone else self._as_factor(f) for f in factors])
+
+    def _as_factor(self, expr: Any) -> Layout:
+        inner = self.layout(expr)
+        needs = isinstance(expr, Add | ex.Terms | MatAdd | ex.Amount | Integral) and not isinstance(inner, Fenced)
+        if isinstance(expr, Integral):
+            needs = False
+        negative = isinstance(inner, Row) and inner.items[0] == MINUS
+        return Fenced(inner) if needs or negative else inner
+
+    def _as_written(self, expr: ex.Factors) -> Layout:
+        """Factors in the order given, with a dot where two would run together."""
+        factors = list(expr.args)
+        if factors and isinstance(factors[0], Expr) and factors[0] == -1:
+            return row(MINUS, self._as_written(ex.Factors(*factors[1:])))
+        items: list[Layout] = []
+        for i, factor in enumerate(factors):
+            leads = i == 0
+            inner = self.layout(factor) if leads and not isinstance(factor, Add | ex.Terms) else self._as_factor(factor)
+            if items:
+                items.append(_between(items[-1], inner))
+            items.append(inner)
+        return row(*items)
+
+    def _power(self, expr: Pow) -> Layout:
+        base, exponent = expr.args
+        if exponent.is_Rational and exponent < 0:
+            return Fraction(Number("1"), self.layout(Pow(base, -exponent)))
+        if exponent == Rational(1, 2):
+            return RootSign(self.layout(base))
+        if isinstance(base, Function) and not isinstance(base, AppliedUndef) and exponent.is_Integer:
+            name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
+            return Applied(name, self._argument(base), Number(str(exponent)))
+        inner = self.layout(base)
+        atomic = isinstance(inner, Name | Number) and not (isinstance(inner, Name) and inner.dots) or is_enclosed(inner)
+        return Raised(inner if atomic else Fenced(inner), self.layout(exponent))
+
+    def _rational(self, expr: Rational) -> Layout:
+        if expr < 0:
+            return row(MINUS, self._rational(-expr))
+        if expr.q == 1:
+            return Number(str(expr.p))
+        return Fraction(Number(str(expr.p)), Number(str(expr.q)))
+
+    # --- names and functions ---
+
+    def _symbol(self, expr: Symbol) -> Layout:
+        return named(expr.name)
+
+    def _vector_or_tensor(self, expr: MatrixSymbol) -> Layout:
+        style = "vector" if expr.shape == (3, 1) else "tensor"
+        plain = named(expr.name)
+        return Name(plain.base, plain.subscript, plain.dots, style)
+
+    def _function(self, expr: Function) -> Layout:
+        if isinstance(expr, AppliedUndef):
+            return named(expr.func.__name__)
+        return Applied(FUNCTIONS.get(expr.func.__name__, expr.func.__name__), self._argument(expr))
+
+    def _argument(self, expr: Function) -> Layout:
+        inner = self.layout(expr.args[0])
+        return inner if isinstance(inner, Name | Number) else Fenced(inner)
+
+    def _derivative(self, expr: Derivative) -> Layout:
+        name, order = named(expr.expr.func.__name__), int(expr.derivative_count)
+        return Name(name.base, name.subscript, order)
+
+    # --- vectors and tensors ---
+
+    def _matrix(self, value: Any) -> Layout:
+        if all(entry == 0 for entry in value):
+            return Name("0", style="vector" if value.shape[1] == 1 else "tensor")
+        rows, columns = value.shape
+        return Array(tuple(tuple(self.layout(value[i, j]) for j in range(columns)) for i in range(rows)))
+
+    def _matrix_product(self, expr: MatMul) -> Layout:
+        scalars = [arg for arg in expr.args if not ex.is_matrix(arg)]
+        others = [arg if scalars else present(arg) for arg in expr.args if ex.is_matrix(arg)]
+        items = [] if not scalars or Mul(*scalars) == 1 else [self._scalar_in_front(Mul(*scalars))]
+        if scalars and Mul(*scalars) == -1:
+            items = [MINUS]
+        for other in others:
+            inner = self.layout(other)
+            items.append(Fenced(inner) if isinstance(other, MatAdd | ex.Cross) and len(expr.args) > 2 else inner)
+        return row(*items)
+
+    def _scalar_in_front(self, expr: Expr) -> Layout:
+        inner = self._as_factor(expr)
+        return Fenced(inner) if isinstance(expr, ex.Dot) else inner
+
+    def _between_vectors(self, mark: Mark) -> Callable[[Any], Layout]:
+        def laid_out(expr: Any) -> Layout:
+            sides = [self.layout(present(arg)) for arg in expr.args]
+            fenced = [
+                Fenced(side) if isinstance(arg, MatAdd | ex.Cross) else side
+                for arg, side in zip(expr.args, sides, strict=True)
+            ]
+            return row(fenced[0], mark, fenced[1])
+
+        return laid_out
+
+    def _dot(self, expr: ex.Dot) -> Layout:
+        return self._between_vectors(DOT)(expr)
+
+    def _cross(self, expr: ex.Cross) -> Layout:
+        return self._between_vectors(CROSS)(expr)
+
+    def _outer(self, expr: ex.Outer) -> Layout:
+        return row(*(self.layout(arg) for arg in expr.args))
+
+    def _norm(self, expr: ex.Norm) -> Layout:
+        return Fenced(self.layout(present(expr.args[0])), "|")
+
+    def _rate(self, expr: ex.CarriedRate) -> Layout:
+        inner = self.layout(expr.args[0])
+        return Fraction(row(Word("d"), inner), row(Word("d"), Name("t")))
+
+    def _identity(self, expr: Identity) -> Layout:
+        return Name("1", style="tensor")
+
+    # --- integrals ---
+
+    def _integral(self, expr: Integral) -> Layout:
+        """One variable: the integrand before its differential. Several: all signs first, outermost first."""
+        limits = list(reversed(expr.limits))
+        signs = []
+        for x, lower, upper in limits:
+            signs.append((IntegralSign(self.layout(lower), self.layout(upper)), row(Word("d"), self.layout(x))))
+        if len(limits) == 1:
+            sign, differential = signs[0]
+            if expr.function == 1:
+                return row(sign, differential)
+            return row(sign, self._as_factor(expr.function), SPACE, differential)
+        items: list[Layout] = [item for sign in signs for item in sign]
+        return row(*items, *([SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
+
+    def _mass_integral(self, expr: ex.MassIntegral) -> Layout:
+        return row(IntegralSign(), self._as_factor(expr.args[0]), SPACE, Word("d"), Name("m"))
+
+    def _bracket(self, expr: ex.Bracket) -> Layout:
+        antiderivative, _, lower, upper = expr.args
+        above, below = fraction(antiderivative)
+        whole = self.layout(above) if below == 1 else Fraction(self.layout(above), self.layout(below))
+        return Limits(whole, self.layout(lower), self.layout(upper))
+
+    # --- as written ---
+
+    def _group(self, expr: ex.Group) -> Layout:
+        return Fenced(self.layout(expr.args[0]))
+
+    def _ratio(self, expr: ex.Ratio) -> Layout:
+        return Fraction(*(self.layout(arg) for arg in expr.args))
+
+    def _root(self, expr: ex.Root) -> Layout:
+        return RootSign(self.layout(expr.args[0]))
+
+    def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
+        number, unit, _ = expr.args
+        inner = self.layout(number)
+        if unit.name in {"degree", "deg"}:
+            return row(inner, Word(unit.name))
+        return row(inner, SPACE, Word(unit.name)) if unit.name else inner
+
+    def _rounded(self, expr: Rounded) -> Layout:
+        text = decimal_text(expr)
+        negative, text = text.startswith("-"), text.lstrip("-")
+        digits, _, power = text.partition("e")
+        items: list[Layout] = [MINUS] if negative else []
+        items.append(Number(digits))
+        if power:
+            ten = Raised(Number("10"), Number(power) if not power.startswith("-") else row(MINUS, Number(power[1:])))
+            items += [Mark("times"), ten]
+        return row(*items)
+
+    _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
+        (Rational, _rational),
+        (Rounded, _rounded),
+        (Symbol, _symbol),
+        (MatrixSymbol, _vector_or_tensor),
+        (Pi, lambda self, _: Name("pi")),
+        (Exp1, lambda self, _: Name("e")),
+        (Derivative, _derivative),
+        (Add | ex.Terms, _sum),
+        (MatAdd, lambda self, expr: self._terms(list(expr.args))),
+        (MatMul, _matrix_product),
+        (Mul, _product),
+        (Pow, _power),
+        (ex.Factors, _as_written),
+        (ex.Group, _group),
+        (ex.Ratio, _ratio),
+        (ex.Root, _root),
+        (ex.Bracket, _bracket),
+        (ex.Amount | ex.MatrixAmount, _amount),
+        (ex.Dot, _dot),
+        (ex.Cross, _cross),
+        (ex.Outer, _outer),
+        (ex.Norm, _norm),
+        (ex.CarriedRate, _rate),
+        (ex.MassIntegral, _mass_integral),
+        (Integral, _integral),
+        (Identity, _identity),
+    )
+
+
+def named(name: str) -> Name:
+    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots."""
+    match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
+    if not match:
+        return Name(name)
+    sub, dots = match["sub"] or "", match["dots"]
+    if not dots and re.fullmatch(r"d*dot", sub):
+        sub, dots = "", sub
+    return Name(match["base"], sub, dots.count("d") if dots else 0)
+
+
+def _sign_and_size(term: Any) -> tuple[bool, Any]:
+    """Whether a term is printed with a minus sign, and the term without it."""
+    if isinstance(term, MatMul):
+        coefficient = Mul(*(arg for arg in term.args if not ex.is_matrix(arg)))
+        if coefficient.could_extract_minus_sign():
+            rest = [arg for arg in term.args if ex.is_matrix(arg)]
+            return True, rest[0] if coefficient == -1 and len(rest) == 1 else MatMul(-coefficient, *rest, evaluate=False)
+        return False, term
+    if isinstance(term, Expr) and (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative:
+        return True, -term
+    return False, term
+
+
+def _positive_first(terms: list[Any]) -> list[Any]:
+    """c^2 - a^2, not -a^2 + c^2."""
+    if terms and _sign_and_size(terms[0])[0]:
+        first = next((term for term in terms if not _sign_and_size(term)[0]), None)
+        if first is not None:
+            return [first, *(term for term in terms if term is not first)]
+    return terms
+
+
+def _number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
+    """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
+    factors = [f for f in Mul.make_args(expr) if f != 1]
+    numbers = [f for f in factors if f.is_number]
+    numbers.sort(key=lambda f: (0 if f.is_Rational else 1, str(f)))
+    return numbers, [f for f in factors if not f.is_number]
+
+
+def _root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], list[Expr]]:
+    """sqrt(14)/14 as 1/sqrt(14), sqrt(14)/7 as 2/sqrt(14), sqrt(14)/168 as 1/(12 sqrt(14)); sqrt(42)/28 stays."""
+    if len(below) != 1 or not below[0].is_Integer:
+        return above, below
+    root = next((f for f in above if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer), None)
+    if root is None:
+        return above, below
+    times = next((f for f in above if f.is_Integer), Rational(1))
+    left = times * root.base / below[0]
+    if left.p != times and not (left.q == 1 and times == 1):
+        return above, below
+    others = [f for f in above if f is not root and not f.is_Integer]
+    return [*([Rational(left.p)] if left.p != 1 else []), *others], [*([Rational(left.q)] if left.q != 1 else []), root]
+
+
+def _rank_of_dimension(dimension: Dimension | None) -> int:
+    if dimension is None or dimension.is_number:
+        return 3
+    if dimension.mass and not dimension.length:
+        return 0
+    if dimension.mass:
+        return 3
+    if dimension.length and dimension.time:
+        return 1
+    return 2 if dimension.length else 4
+
+
+def _side_by_side(items: list[Layout]) -> Layout:
+    placed: list[Layout] = []
+    for item in items:
+        if placed and begins_with_number(item) and not (is_enclosed(placed[-1]) and is_enclosed(item)):
+            placed.append(DOT)
+        placed.append(item)
+    return row(*placed)
+
+
+def _between(before: Layout, after: Layout) -> Layout:
+    """What stands between two factors as written: nothing beside a bracket or behind a number, else a dot."""
+    if begins_with_number(after):
+        return DOT
+    last = last_of(before)
+    if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
+        return SPACE
+    if _is_letter(before) and _is_letter(after):
+        return SPACE
+    starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
+    return SPACE if starts_integral or isinstance(after, IntegralSign) or _is_vector_row(after) else DOT
+
+
+def _is_letter(layout: Layout) -> bool:
+    return isinstance(layout, Name) or isinstance(layout, Raised) and isinstance(layout.base, Name)
+
+
+def _ends_in_differential(layout: Layout) -> bool:
+    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
+
+
+def _is_vector_row(layout: Layout) -> bool:
+    return isinstance(layout, Row) and any(item in (DOT, CROSS) for item in layout.items[1:2])
+

@@ -1,0 +1,117 @@
+"""A page as plain text for a terminal, 88 columns wide."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import Any
+
+from derive.dimensions import exponents
+from derive.document import Answer, Answers, Display, Document, Paragraph, PartPage
+from derive.parts import points_text
+from derive.render.layout import Layout, Mark, row
+from derive.render.lines import Printed, printed_lines
+from derive.render.notation import Notation
+from derive.render.text import plain
+from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
+
+COLUMNS = 88
+WIDTH = 60.0
+
+
+def page_text(document: Document, words: Phrases) -> str:
+    """The whole page."""
+    return _Page(document, words).text()
+
+
+class _Page:
+    def __init__(self, document: Document, words: Phrases):
+        self.document, self.words = document, words
+        self.notation = Notation(document.dimensions)
+
+    def text(self) -> str:
+        title = self._with_points(self._inline(self.document.title), self.document.points)
+        blocks = [title, "=" * COLUMNS, self._wrapped(self.document.statement)]
+        for part in self.document.parts:
+            blocks += ["", self._part(part)]
+        blocks += ["", "-" * COLUMNS, self._wrapped((Text(self.words.labels["checked"] + " "), *self.document.closing))]
+        return "\n".join(blocks) + "\n"
+
+    def _part(self, part: PartPage) -> str:
+        heading = self._with_points(f"({part.label}) {self._inline(part.ask)}", part.points)
+        blocks = [heading, "-" * min(len(heading), COLUMNS)]
+        for block in part.blocks:
+            match block:
+                case Paragraph(nodes):
+                    blocks += ["", self._wrapped(nodes)]
+                case Display():
+                    blocks += ["", self._display(block)]
+                case Answers(answers):
+                    blocks += ["", *(self._answer(answer) for answer in answers)]
+        return "\n".join(blocks)
+
+    def _with_points(self, text: str, points: Any) -> str:
+        if points is None:
+            return text
+        one, many = self.words.labels["points"]
+        worth = f"[{points_text(points)} {one if points == 1 else many}]"
+        if len(text) + len(worth) + 2 > COLUMNS:
+            return textwrap.fill(text, COLUMNS) + "\n" + worth.rjust(COLUMNS)
+        return text + " " * (COLUMNS - len(text) - len(worth)) + worth
+
+    def _wrapped(self, nodes: Sequence[Node]) -> str:
+        return textwrap.fill(self._inline(nodes), COLUMNS, break_long_words=False, break_on_hyphens=False)
+
+    def _inline(self, nodes: Sequence[Node]) -> str:
+        return " ".join("".join(self._node(node) for node in nodes).split(" ")).strip()
+
+    def _node(self, node: Node) -> str:
+        match node:
+            case Text(text):
+                return " ".join(text.split("\n"))
+            case Math(expr):
+                layout = self.notation.list_of(expr) if isinstance(expr, tuple) else self.notation.result(expr)
+                return plain(layout)
+            case DimensionMark(dimension):
+                return exponents(dimension)
+            case Unit(text):
+                return text
+            case Ref(key):
+                return f"({self.document.numbers[key]})"
+        return ""
+
+    def _display(self, display: Display) -> str:
+        lines: list[str] = []
+        for group in display.groups:
+            printed = printed_lines(group, self.notation, WIDTH)
+            indent = max(len(plain(line.left)) for line in printed if line.left is not None)
+            for line in printed:
+                lines += self._line(line, indent)
+        return "\n".join(lines)
+
+    def _line(self, line: Printed, indent: int) -> list[str]:
+        items: list[Layout] = [item for relation, side in line.sides for item in (Mark(relation), side)]
+        body = plain(row(*items)).split("\n")
+        left = plain(line.left) if line.left else ""
+        middle = next((i for i, text in enumerate(body) if text.startswith((" = ", " ≈ "))), 0)
+        lines = ["    " + (left.rjust(indent) if i == middle else " " * indent) + text for i, text in enumerate(body)]
+        reason = f"[{self._inline(line.reason)}]" if line.reason else ""
+        if reason and len(lines[middle]) + len(reason) + 10 <= COLUMNS:
+            lines[middle] += "  " + reason
+        elif reason:
+            lines.append(reason.rjust(COLUMNS - 8))
+        if line.number is not None:
+            number = f"({line.number})"
+            lines[middle] = lines[middle].ljust(COLUMNS - len(number)) + number
+            if len(lines[middle]) > COLUMNS:
+                lines[middle] = lines[middle][: -len(number)].rstrip() + "  " + number
+        return lines
+
+    def _answer(self, answer: Answer) -> str:
+        items: list[Layout] = [self.notation.layout(answer.symbol), Mark("equals"), self.notation.result(answer.value)]
+        if answer.rounded is not None:
+            items += [Mark("approx"), self.notation.layout(answer.rounded)]
+        body = plain(row(*items)).split("\n")
+        size = max(map(len, body))
+        rule = "─" * (size + 2)
+        return "\n".join(["    ┌" + rule + "┐", *(f"    │ {text.ljust(size)} │" for text in body), "    └" + rule + "┘"])

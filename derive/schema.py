@@ -1,0 +1,142 @@
+"""The keys of the files an instructor writes, in one table: what is checked, and the JSON schema for editors."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping as Table
+from dataclasses import dataclass
+from typing import Any
+
+from derive.dimensions import KINDS
+from derive.source import Faults, Mapping, Node, Scalar, abridged, nearest, shape_of
+from derive.units import UNIT_NAMES
+
+SHOWN = ("full", "result", "hidden")
+MAX_FIGURES = 15
+DEFAULT_FIGURES = 4
+
+_TEXT = {"type": "string"}
+_SCALAR = {"type": ["string", "number"]}
+_POINTS = {"type": "number", "minimum": 0, "multipleOf": 0.5}
+_FIGURES = {"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key: what it is for, whether it must be there, what an editor may offer."""
+
+    meaning: str
+    schema: Any
+    required: bool = False
+
+
+FORM_KEYS: Table[str, Key] = {
+    "unit": Key("unit of the number, such as `degree` or `N m`", {"type": "string", "examples": list(UNIT_NAMES)}),
+    "figures": Key("significant figures of the number", _FIGURES),
+}
+
+
+def _object(keys: Table[str, Key]) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "additionalProperties": False,
+        "required": [name for name, key in keys.items() if key.required],
+        "properties": {name: {"description": key.meaning, **key.schema} for name, key in keys.items()},
+    }
+
+
+def _mapping_of(schema: Any) -> dict[str, Any]:
+    return {"type": "object", "additionalProperties": schema}
+
+
+PART_KEYS: Table[str, Key] = {
+    "ask": Key("the question, in prose", _TEXT, required=True),
+    "answer": Key(
+        "key of the step that answers it, or a list of keys",
+        {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
+        required=True,
+    ),
+    "points": Key("points of this part", _POINTS),
+    "form": Key(
+        "unit and figures of its numbers, for all answers or by the answer's key",
+        {"anyOf": [_object(FORM_KEYS), _mapping_of(_object(FORM_KEYS))]},
+    ),
+}
+
+PROBLEM_KEYS: Table[str, Key] = {
+    "title": Key("the heading of the problem", _TEXT, required=True),
+    "solve": Key("the script beside this file whose `solve()` derives the answers", _TEXT, required=True),
+    "points": Key("points in all; those of the parts must add up to it", _POINTS),
+    "symbols": Key("letters and their kinds: `M: mass`", _mapping_of({"enum": list(KINDS)})),
+    "given": Key(
+        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them",
+        _mapping_of({"anyOf": [_SCALAR, {"type": "array", "items": _SCALAR}]}),
+    ),
+    "values": Key("numbers for declared letters, put in at the end: `a: 2 cm`", _mapping_of(_SCALAR)),
+    "statement": Key("the problem in prose; `<<mass>>` stands for what is given", _TEXT, required=True),
+    "parts": Key("the questions", {"type": "array", "items": _object(PART_KEYS), "minItems": 1}, required=True),
+    "wording": Key(
+        "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
+        _mapping_of({"anyOf": [_TEXT, _mapping_of(_TEXT)]}),
+    ),
+    "show": Key("how much of a step is shown, by the step's key", _mapping_of({"enum": list(SHOWN)})),
+    "figures": Key("significant figures where `form` says nothing", _FIGURES),
+    "source": Key("where the problem comes from", _TEXT),
+    "topic": Key("what it is about, for lists", _TEXT),
+    "note": Key("a closing remark, in prose", _TEXT),
+}
+
+SET_KEYS: Table[str, Key] = {
+    "course": Key("the course", _TEXT, required=True),
+    "title": Key("the heading of the set", _TEXT, required=True),
+    "date": Key("the date as it is to be printed", _TEXT),
+    "instructor": Key("who teaches the course", _TEXT),
+    "problems": Key("names of the problems in order", {"type": "array", "items": _TEXT, "minItems": 1}, required=True),
+}
+
+
+def problem_schema() -> str:
+    """The JSON schema that an editor uses to complete and to check a problem while it is written."""
+    schema = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "A problem", **_object(PROBLEM_KEYS)}
+    return json.dumps(schema, indent=2) + "\n"
+
+
+def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
+    """Unknown and missing keys of a mapping; a mistyped key is one fault, not two."""
+    missing = [name for name, wanted in keys.items() if wanted.required and node.get(name) is None]
+    for key, _ in node.pairs:
+        if key.text not in keys:
+            close = nearest(key.text, [name for name in keys if node.get(name) is None])
+            if close in missing:
+                missing.remove(close)
+            help_line = f"did you mean `{close}`?" if close else "the keys are " + ", ".join(f"`{k}`" for k in keys)
+            faults.error("unknown-key", f"{what} has no key `{abridged(key.text)}`", key.place, help=help_line)
+    for name in missing:
+        faults.error("missing-key", f"{what} needs `{name}`: {keys[name].meaning}", node.place)
+
+
+def wrong_type(faults: Faults, what: str, wanted: str, node: Node, help: str | None = None) -> None:
+    """The complaint that something is of another shape than its key asks for."""
+    if isinstance(node, Scalar) and node.empty:
+        faults.error("missing-value", f"{what} must be {wanted}, but it is empty", node.place, help=help)
+    else:
+        faults.error("wrong-type", f"{what} must be {wanted}, but it is {shape_of(node)}", node.place, help=help)
+
+
+def read_text(node: Mapping, key: str, faults: Faults) -> str | None:
+    """One line of plain text, if the key is there."""
+    value = node.get(key)
+    if value is None or (isinstance(value, Scalar) and not value.empty):
+        return value.text.strip() if value else None
+    wrong_type(faults, f"`{key}`", "text", value)
+    return None
+
+
+def read_figures(node: Node | None, faults: Faults) -> int | None:
+    """A number of significant figures, if it is given."""
+    if isinstance(node, Scalar) and re.fullmatch(r"\d{1,3}", node.text, re.ASCII) and 0 < int(node.text) <= MAX_FIGURES:
+        return int(node.text)
+    if node is not None:
+        wrong_type(faults, "`figures`", f"a whole number from 1 to {MAX_FIGURES}", node)
+    return None

@@ -1,0 +1,178 @@
+"""From a problem's id to its solution in every format: load, derive, number, word, print.
+
+Everything that leaves this module is plain text and numbers, so that it can cross from a worker to its parent.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
+from derive.dimensions import NUMBER, unit_of_kind
+from derive.document import Document, document_of
+from derive.errors import Complaint, Rejected
+from derive.expressions import Amount
+from derive.numbers import coefficient_of, value_of
+from derive.parts import points_text
+from derive.problem import Part, Problem, load_problem, problem_set, run_solve
+from derive.render.contract import contract
+from derive.render.latex_page import problem_latex, whole_latex
+from derive.render.text_page import page_text
+from derive.source import did_you_mean
+from derive.step import Level, Quantity, Step, recorded
+from derive.units import read_unit
+from derive.wording import Phrases, phrases
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """One problem, solved and printed."""
+
+    id: str
+    title: str
+    points: str
+    latex: str
+    text: str
+    json: str
+    warnings: tuple[Complaint, ...]
+    inputs: tuple[str, ...]
+    grades: dict[str, int]
+    agreed: bool
+
+
+def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered:
+    """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong."""
+    problem = load_problem(root, problem_id)
+    words = phrases(template_folder(root))
+    derivation, values = _derived(problem)
+    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"))
+    if faults:
+        raise Rejected(faults)
+    return Rendered(
+        id=problem_id,
+        title=problem.title.text,
+        points="" if problem.points is None else points_text(problem.points),
+        latex=problem_latex(document, words, template_folder(root)),
+        text=page_text(document, words),
+        json=contract(problem, derivation, values, document),
+        warnings=document.warnings,
+        inputs=problem.inputs,
+        grades=_grades(derivation, values),
+        agreed=True,
+    )
+
+
+def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step]]:
+    """The steps behind every answer, and the step that gives each answer its number, if it has one."""
+    with recorded() as established:
+        answers = returned_quantities(run_solve(problem))
+    known = with_ancestors(answers)
+    _check_answers(problem, known)
+    derivation = derivation_of([part.answers for part in problem.parts], known, established)
+    values: dict[str, Step] = {}
+    for part in problem.parts:
+        for key in part.answers:
+            value = _value(problem, part, known[key])
+            if value is not None:
+                values[key] = value.step
+    return derivation, values
+
+
+def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
+    faults = [
+        Complaint(
+            "no-such-answer",
+            f"`solve()` returns nothing called `{key}`",
+            part.place_of(key),
+            help=did_you_mean(key, known) or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
+        )
+        for part in problem.parts
+        for key in part.answers
+        if key not in known
+    ]
+    if faults:
+        raise Rejected(faults)
+
+
+def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
+    """The number of an answer: in the unit and to the figures that the part asks for."""
+    form = part.form_of(answer.key)
+    figures = form.figures or problem.figures
+    amounts = {m.symbol: Amount(m.number, m.unit, m.si / m.number) for m in problem.measured}
+    unit = read_unit(form.unit or unit_of_kind(answer.step.kind or "number") or "1", part.ask.place) if form.unit else None
+    if unit is not None and answer.step.kind and unit.dimension != _dimension(answer):
+        message = f"`{answer.key}` is {_article(answer)}, which is not measured in `{form.unit}`"
+        raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
+    text = form.unit or unit_of_kind(answer.step.kind or "number")
+    value = value_of(answer, amounts, text, unit.factor if unit else _one(), figures)
+    return value or (coefficient_of(answer, figures) if not problem.measured else None)
+
+
+def _dimension(answer: Quantity) -> Any:
+    from derive.dimensions import dimension_of_kind
+
+    return dimension_of_kind(answer.step.kind) if answer.step.kind else NUMBER
+
+
+def _article(answer: Quantity) -> str:
+    from derive.dimensions import kind_with_article
+
+    return kind_with_article(answer.step.kind or "number")
+
+
+def _one() -> Any:
+    from sympy import Integer
+
+    return Integer(1)
+
+
+def _grades(derivation: Derivation, values: dict[str, Step]) -> dict[str, int]:
+    counts = derivation.grades()
+    for step in values.values():
+        for evidence in step.evidence:
+            counts[evidence.grade.value] += 1
+    return counts
+
+
+# --- whole documents -----------------------------------------------------------------------------------------------------
+
+
+def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
+    """A complete .tex of one problem, numbered as in its set."""
+    heading = problem_set(root, set_id)
+    ids = [name if "/" in name else f"{set_id}/{name}" for name in heading.problems]
+    number = ids.index(problem.id) + 1 if problem.id in ids else ""
+    head = _head(root, heading, cover="")
+    return whole_latex(template_folder(root), head, [problem.latex.replace("@NUMBER@", str(number))])
+
+
+def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
+    """A complete .tex of the set: cover block, then its problems in order."""
+    heading = problem_set(root, set_id)
+    facts = [heading.course, heading.instructor, heading.date]
+    head = _head(root, heading, cover=", ".join(str(fact) for fact in facts if fact) or heading.title)
+    fragments = [problem.latex.replace("@NUMBER@", str(i)) for i, problem in enumerate(problems, 1)]
+    return whole_latex(template_folder(root), head, fragments)
+
+
+def _head(root: Path, heading: Any, cover: str) -> dict[str, str]:
+    words: Phrases = phrases(template_folder(root))
+    running = " \u00b7 ".join(str(part) for part in (heading.course, heading.title) if part)
+    return {
+        "title": heading.title,
+        "pdf_title": heading.title,
+        "running": running,
+        "kind": words.labels["solutions"],
+        "cover": cover,
+    }
+
+
+def template_folder(root: Path) -> Path:
+    """The course's own templates if it has them, else those of the installation."""
+    package = Path(__file__).parent
+    for folder in (root / "templates", package / "templates", package.parent / "templates"):
+        if (folder / "phrases" / "en.yaml").is_file():
+            return folder
+    raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))

@@ -1,0 +1,291 @@
+"""A verified step, the value it yields, and the one door through which steps are made.
+
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and it refuses unless
+
+    (a) each line of the chain equals the line before it, and
+    (b) every second, physical route to the result agrees with it.
+
+A verb states its law once, as a function. `establish` calls it with the *names* of its inputs, which gives the
+formula, and with their *values*, which gives the substitution; the tidy value of that is the result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any, NoReturn
+
+from sympy import Expr, Integer, MatrixSymbol, Symbol
+
+from derive.errors import Complaint, Unverified
+from derive.evidence import Evidence, Grade, Verdict, equal
+from derive.expressions import AXES, bound, component_names, explicit
+from derive.tidy import tidied
+
+
+class Level(StrEnum):
+    """How much algebra a reader wants; a form is shown at its own level and at every higher one."""
+
+    BRIEF = "brief"
+    STANDARD = "standard"
+    FULL = "full"
+
+    def shows(self, other: Level) -> bool:
+        order = list(Level)
+        return order.index(other) <= order.index(self)
+
+
+@dataclass(frozen=True)
+class Form:
+    """One line of a chain: an expression and why it equals the line before it.
+
+    `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal.
+    """
+
+    expr: Any
+    because: str
+    level: Level = Level.BRIEF
+
+
+@dataclass(frozen=True)
+class Step:
+    """What was established: the symbol, the chain that leads to its value, and how we know."""
+
+    key: str
+    rule: str
+    symbol: Any
+    chain: tuple[Form, ...]
+    inputs: tuple[str, ...]
+    roles: tuple[tuple[str, Any], ...]
+    outcome: str
+    evidence: tuple[Evidence, ...]
+    kind: str | None = None
+    words: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def result(self) -> Any:
+        return self.chain[-1].expr
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """A value that knows the step that made it, and the steps that step rests on.
+
+    Arithmetic on a quantity would lose its history, so it is refused; `let` is the verb for that.
+    """
+
+    value: Any
+    step: Step
+    parents: tuple[Quantity, ...] = ()
+    context: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def symbol(self) -> Any:
+        return self.step.symbol
+
+    @property
+    def key(self) -> str:
+        return self.step.key
+
+    def __repr__(self) -> str:
+        return f"Quantity({self.key}: {self.symbol} = {self.value})"
+
+    def _no_arithmetic(self, *_: Any) -> NoReturn:
+        raise Unverified(
+            Complaint(
+                "plain-arithmetic",
+                f"arithmetic on `{self.key}` would lose the steps behind it",
+                help=f'write it as a step: let("name", lambda x: ..., {self.key})',
+            )
+        )
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _no_arithmetic
+    __truediv__ = __rtruediv__ = __pow__ = __rpow__ = __neg__ = __matmul__ = _no_arithmetic
+
+
+Law = Callable[..., Any]
+Route = Callable[[Any], tuple[Any, Any]]
+
+
+def compared_with(other: Callable[[], Any]) -> Route:
+    """The plainest second route: another way to the same value."""
+    return lambda result: (result, other())
+
+
+def establish(
+    rule: str,
+    symbol: Any,
+    law: Law,
+    inputs: Mapping[str, Any],
+    *,
+    key: str | None = None,
+    before: Sequence[Form] = (),
+    between: Sequence[Form] = (),
+    after: Sequence[Form] = (),
+    routes: Mapping[str, Route] | None = None,
+    outcome: Callable[[Any], str] | str = "generic",
+    kind: str | None = None,
+    definition: bool = False,
+    put_in: Level | None = Level.STANDARD,
+    result_shown: Level = Level.BRIEF,
+    parents: Sequence[Quantity] = (),
+    context: Mapping[str, Any] | None = None,
+    words: Mapping[str, str] | None = None,
+) -> Quantity:
+    """Make a step, or refuse.
+
+    rule      which phrase and which source, `topic.verb`
+    symbol    what the page calls the result
+    law       a function of the inputs, in their order; it is called with names and with values
+    inputs    role -> Quantity, or plain SymPy value
+    before    forms that come ahead of the law, `between` the law and the result, `after` the result
+    routes    claim -> function of the result, giving two values that must be equal
+    outcome   a word, or a function of the result that gives one; it selects the phrase
+    words     name -> key of a term that phrases put into words ("about": "corner")
+    put_in    the level at which the substituted law is shown; None leaves it out
+    Raises `Unverified`, naming the step, when a line or a route disagrees.
+    """
+    key = key or rule.rpartition(".")[2]
+    quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
+    given = [q.value if isinstance(q, Quantity) else q for q in inputs.values()]
+    names = [q.symbol if isinstance(q, Quantity) else q for q in inputs.values()]
+
+    formula, substituted = law(*names), law(*given)
+    bindings = _bindings([*quantities.values(), *parents])
+    result = tidied(bound(explicit(substituted), bindings))
+    chain = _without_repeats(
+        [
+            *before,
+            Form(formula, "law"),
+            *([Form(substituted, "put_in", put_in)] if put_in else []),
+            *between,
+            Form(result, "result", result_shown),
+            *after,
+        ]
+    )
+    evidence = [_line_evidence(key, chain, i, bindings) for i in range(1, len(chain))]
+    evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
+    if not routes:
+        evidence.append(_unsupported(key, rule, definition))
+    step = Step(
+        key=key,
+        rule=rule,
+        symbol=symbol,
+        chain=tuple(chain),
+        inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
+        roles=tuple(zip(inputs, names, strict=True)),
+        outcome=outcome(result) if callable(outcome) else outcome,
+        evidence=tuple(evidence),
+        kind=kind,
+        words=tuple((words or {}).items()),
+    )
+    quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {})
+    record = _established.get()
+    if record is not None:
+        record.append(quantity)
+    return quantity
+
+
+_established: ContextVar[list[Quantity] | None] = ContextVar("established", default=None)
+
+
+@contextmanager
+def recorded() -> Iterator[list[Quantity]]:
+    """Collect every quantity established within, so that the page can name those it does not show."""
+    record: list[Quantity] = []
+    token = _established.set(record)
+    try:
+        yield record
+    finally:
+        _established.reset(token)
+
+
+def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
+    """A verb has a second route or says that it only gives something a name."""
+    if not definition:
+        raise Unverified(Complaint("no-second-route", f"`{key}` has no second route and is not a definition"))
+    return Evidence("definition", Grade.DEFINITION, rule)
+
+
+def _without_repeats(forms: Sequence[Form]) -> list[Form]:
+    """A form that looks just like the one before it says nothing; the lower level of the two is kept."""
+    kept: list[Form] = []
+    for form in forms:
+        if kept and kept[-1].expr == form.expr and "rounded" != form.because:
+            level = min(kept[-1].level, form.level, key=list(Level).index)
+            kept[-1] = Form(kept[-1].expr, kept[-1].because, level)
+        else:
+            kept.append(form)
+    return kept
+
+
+def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
+    """What the names in a formula stand for: a vector's name brings its components' names along."""
+    values: dict[Any, Any] = {}
+    for quantity in quantities:
+        values[quantity.symbol] = quantity.value
+        if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
+            names = component_names(quantity.symbol.name)
+            values.update(zip(names, list(quantity.value), strict=True))
+    # A name may not stand for something that holds that very name (a general omega has components omega_x, ...).
+    return {name: value for name, value in values.items() if name != value}
+
+
+def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any]) -> Evidence:
+    left, right = (explicit(bound(form.expr, bindings)) for form in chain[i - 1 : i + 1])
+    claim = f"line {i + 1} equals line {i}"
+    if chain[i].because == "rounded":
+        return _rounding_evidence(key, claim, left, chain[i].expr)
+    verdict = equal(left, right)
+    if not verdict:
+        raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)
+    return Evidence(claim, verdict.grade, verdict.detail)
+
+
+def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:
+    """A rounded value may differ by half a unit of its last place, and by no more."""
+    from derive.rounding import off_by_more_than_half_a_unit
+
+    offender = off_by_more_than_half_a_unit(exact, rounded)
+    if offender:
+        raise Unverified(Complaint("unverified", f"`{key}`: {offender[0]} is not {offender[1]} rounded"))
+    return Evidence(claim, Grade.APPROXIMATION, "within half a unit of the last place")
+
+
+def _route_evidence(key: str, claim: str, left: Any, right: Any) -> Evidence:
+    left, right = explicit(left), explicit(right)
+    verdict = equal(left, right)
+    if not verdict:
+        raise _refused(key, f"its second route `{claim}` disagrees", left, right, verdict)
+    return Evidence(claim, verdict.grade, verdict.detail)
+
+
+def _refused(key: str, what: str, left: Any, right: Any, verdict: Verdict) -> Unverified:
+    notes = [f"by the law     {_short(left)}", f"otherwise      {_short(right)}"]
+    at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
+    notes.append(f"they differ: {verdict.detail}" + (f" at {at}" if at else ""))
+    return Unverified(Complaint("unverified", f"`{key}`: {what}", notes=tuple(notes)))
+
+
+def _short(value: Any) -> str:
+    text = str(value)
+    return text if len(text) <= 300 else text[:300] + " ..."
+
+
+def scalar_component(quantity: Quantity, i: int) -> Symbol:
+    """The name of a vector quantity's component: c -> c_x."""
+    return component_names(quantity.symbol.name)[i]
+
+
+def entry_name(name: str, i: int, j: int) -> Symbol:
+    """The name of a tensor's entry: J_xy."""
+    return Symbol(f"{name}_{AXES[i]}{AXES[j]}", real=True)
+
+
+def is_zero(value: Any) -> bool:
+    value = explicit(value)
+    entries: list[Expr] = list(value) if hasattr(value, "shape") else [value]
+    return all(entry == Integer(0) for entry in entries)

@@ -1,0 +1,128 @@
+"""The form in which a result is handed on: one fraction, common factors in front, roots in the numerator.
+
+`tidied()` changes no value. It is what a person does before writing a result down and what keeps the next step small.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import Any
+
+from sympy import (
+    Add,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixBase,
+    Mul,
+    Pow,
+    Rational,
+    cancel,
+    factor_list,
+    factor_terms,
+    gcd,
+    lcm,
+    radsimp,
+    together,
+)
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.expressions import explicit
+
+
+def tidied(value: Any) -> Any:
+    """The explicit value in its tidy form, entry by entry for a matrix."""
+    value = explicit(value)
+    if isinstance(value, MatrixBase):
+        return ImmutableDenseMatrix(value.applyfunc(_tidied_scalar))
+    return _tidied_scalar(value)
+
+
+def _tidied_scalar(value: Expr) -> Expr:
+    if value.is_Atom or value.is_number and not value.has(Pow):
+        return value
+    if value.has(Pow) and any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(Pow)):
+        value = _roots_drawn_out(value)
+    try:
+        value = cancel(value) if value.is_rational_function() else _roots_in_the_numerator(together(value))
+    except PolynomialError:
+        value = together(value)
+    return _in_front(_roots_drawn_out(value))
+
+
+def _roots_in_the_numerator(value: Expr) -> Expr:
+    """7/sqrt(14) is sqrt(14)/2; a root of letters stays below, where it is easier to read."""
+    numerator, denominator = value.as_numer_denom()
+    if denominator.is_number or not denominator.has(Pow):
+        return radsimp(value) if len(Add.make_args(denominator)) <= 4 else value
+    above, below = (part.as_independent(*part.free_symbols, as_Add=False) for part in (numerator, denominator))
+    return radsimp(above[0] / below[0]) * above[1] / below[1]
+
+
+def _roots_drawn_out(value: Expr) -> Expr:
+    """Squares out from under each root, where their sign is known: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+
+    def drawn(power: Expr) -> Expr:
+        base = together(power.base)
+        numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
+        (outside, inside), (below, under) = numerator, denominator
+        root = Rational(1, power.exp.q)
+        return (outside / below) ** power.exp.p * Pow(inside / under, root) ** power.exp.p
+
+    return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, drawn)
+
+
+def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
+    """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
+    if part.is_number:
+        return Integer(1), part
+    try:
+        content, factors = factor_list(part)
+    except PolynomialError:
+        return Integer(1), part
+    outside, inside = Integer(1), content
+    for factor, power in factors:
+        whole = power // q if factor.is_nonnegative else 0
+        outside *= factor**whole
+        inside *= factor ** (power - q * whole)
+    # A sum that lost no factor is left as it was written, not factored.
+    return (outside, part) if outside == 1 else (outside, inside)
+
+
+def _in_front(value: Expr) -> Expr:
+    """Common factors of the terms in front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
+    numerator, denominator = together(value).as_numer_denom()
+    return Mul(factor_terms(numerator), Pow(factor_terms(denominator), -1))
+
+
+def common_factor(entries: list[Expr]) -> Expr:
+    """What the entries of a vector or tensor have in common: M a^2/12 of M a^2 diag(13, 10, 5)/12."""
+    present = [entry for entry in entries if entry != 0]
+    if not present:
+        return Integer(1)
+    parts = [together(entry).as_numer_denom() for entry in present]
+    try:
+        top = reduce(gcd, (n for n, _ in parts))
+        bottom = reduce(lcm, (d for _, d in parts))
+    except PolynomialError:
+        return Integer(1)
+    if isinstance(top, Add) or top == 0:
+        top = Integer(1)
+    roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))
+    factor = top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
+    return -factor if all(_leads_negative(entry) for entry in present) else factor
+
+
+def _numeric_roots(expr: Expr) -> set[Expr]:
+    return {f for f in Mul.make_args(expr) if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer}
+
+
+def _leads_negative(entry: Expr) -> bool:
+    return bool(entry.could_extract_minus_sign())
+
+
+def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
+    """A matrix as (common factor, what is left)."""
+    factor = common_factor(list(matrix))
+    rest = matrix.applyfunc(lambda e: tidied(e / factor))
+    return factor, ImmutableDenseMatrix(rest)

@@ -1,0 +1,194 @@
+"""From steps to words: the phrase of a rule and outcome, with its names filled by what was derived.
+
+A phrase gives nodes that know no format: `Text`, `Math`, `Ref` and one `Chain`. Only verified things have names here,
+so prose cannot point at anything else: an unknown name is an error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+from jinja2 import StrictUndefined, TemplateError, UndefinedError
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from derive.dimensions import Dimension, unit_of_kind
+from derive.errors import Complaint, Place, Rejected
+from derive.step import Step
+
+
+@dataclass(frozen=True)
+class Text:
+    text: str
+
+
+@dataclass(frozen=True)
+class Math:
+    """An expression in running text."""
+
+    expr: Any
+
+
+@dataclass(frozen=True)
+class DimensionMark:
+    """A dimension, M L^2 T^-2, which is printed upright."""
+
+    dimension: Dimension
+
+
+@dataclass(frozen=True)
+class Unit:
+    text: str
+
+
+@dataclass(frozen=True)
+class Ref:
+    """The number of a step's last line."""
+
+    key: str
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Where the lines of the step go."""
+
+
+Node = Text | Math | DimensionMark | Unit | Ref | Chain
+
+
+@dataclass(frozen=True)
+class Phrases:
+    """The words of one language: see `templates/phrases/en.yaml`."""
+
+    rules: Mapping[str, Mapping[str, str]]
+    routes: Mapping[str, Mapping[str, str]]
+    reasons: Mapping[str, Mapping[str, str]]
+    terms: Mapping[str, str]
+    grades: Mapping[str, str]
+    labels: Mapping[str, Any]
+
+    def phrase(self, step: Step) -> str:
+        try:
+            return self.rules[step.rule][step.outcome]
+        except KeyError:
+            message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
+            raise Rejected(Complaint("no-phrase", message)) from None
+
+    def reason(self, step: Step, because: str) -> str:
+        own = self.reasons.get(step.rule, {})
+        return own[because] if because in own else self.reasons["general"].get(because, "")
+
+    def route(self, step: Step, claim: str) -> str:
+        return self.routes.get(step.rule, {}).get(claim, "")
+
+    def term(self, word: str) -> str:
+        return self.terms.get(word, word)
+
+
+@cache
+def phrases(folder: Path) -> Phrases:
+    loaded = yaml.load((folder / "phrases" / "en.yaml").read_text(encoding="utf-8"), Loader=yaml.CSafeLoader)
+    return Phrases(**loaded)
+
+
+# --- filling -----------------------------------------------------------------------------------------------------------
+
+_TOKEN = re.compile("\x00(\\d+)\x00")
+
+
+class _Nodes:
+    """Collects what a template prints: a node leaves a token in the text, and `split` puts it back."""
+
+    def __init__(self) -> None:
+        self.found: list[Node | tuple[Node, ...]] = []
+
+    def token(self, value: Any) -> Any:
+        if not isinstance(value, Node | tuple):
+            return value
+        self.found.append(value)
+        return f"\x00{len(self.found) - 1}\x00"
+
+    def split(self, text: str) -> tuple[Node, ...]:
+        nodes: list[Node] = []
+        for i, piece in enumerate(_TOKEN.split(text)):
+            if i % 2 == 0:
+                if piece:
+                    nodes.append(Text(piece))
+                continue
+            value = self.found[int(piece)]
+            nodes.extend(value if isinstance(value, tuple) else (value,))
+        return tuple(nodes)
+
+
+def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
+    """A phrase of ours with its names filled in."""
+    nodes = _Nodes()
+    try:
+        text = _environment().from_string(template).render(
+            {name: nodes.token(value) for name, value in names.items()},
+        )
+    except UndefinedError as error:
+        raise Rejected(Complaint("undefined-name", f"a phrase names what this step does not have: {error.message}")) from error
+    except TemplateError as error:
+        raise Rejected(Complaint("bad-phrase", f"a phrase cannot be read: {error}")) from error
+    return nodes.split(text.strip())
+
+
+@cache
+def _environment() -> ImmutableSandboxedEnvironment:
+    return ImmutableSandboxedEnvironment(
+        variable_start_string="<<",
+        variable_end_string=">>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+        undefined=StrictUndefined,
+        autoescape=False,
+    )
+
+
+def told(pieces: Sequence[Any], names: Mapping[str, Any], missing: Callable[[str, Place], None]) -> tuple[Node, ...]:
+    """An instructor's prose with its mentions filled; an unknown name is reported and left out."""
+    nodes: list[Node] = []
+    for piece in pieces:
+        if isinstance(piece, str):
+            nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif piece.name in names:
+            value = names[piece.name]
+            nodes.extend(value if isinstance(value, tuple) else (value if isinstance(value, Node) else Text(str(value)),))
+        else:
+            missing(piece.name, piece.place)
+    return tuple(nodes)
+
+
+def joined(items: Iterable[tuple[Node, ...] | Node], last: str = "and") -> tuple[Node, ...]:
+    """`a, b and c`."""
+    groups = [item if isinstance(item, tuple) else (item,) for item in items]
+    nodes: list[Node] = []
+    for i, group in enumerate(groups):
+        if i:
+            nodes.append(Text(f" {last} " if i == len(groups) - 1 else ", "))
+        nodes.extend(group)
+    return tuple(nodes)
+
+
+def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:
+    """What a step's phrase may mention besides the page's keys."""
+    names: dict[str, Any] = {
+        "chain": Chain(),
+        "symbol": Math(step.symbol),
+        "result": Math(step.result),
+    }
+    names.update({role: Math(symbol) for role, symbol in step.roles})
+    names.update({name: words.term(word) for name, word in step.words})
+    if dimension is not None:
+        names["dimension"] = DimensionMark(dimension)
+    if step.kind and unit_of_kind(step.kind):
+        names["unit"] = Unit(unit_of_kind(step.kind))
+    return names

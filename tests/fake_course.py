@@ -1,0 +1,144 @@
+"""A small course for tests of the build: real sets and files, a stand-in for the derivation, a stand-in for TeX.
+
+What a problem's file says decides what becomes of it: `loop`, `refuse`, `bug` and `die` end its derivation in those
+ways, and anything else is its text. The stand-in for TeX copies its source, and notes each run.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import derive
+from derive.errors import Complaint, Place, Rejected
+
+TEX = """#!/bin/sh
+for source; do :; done
+echo "$source" >> "$TEX_RUNS"
+if grep -q SLOW "$source"; then sleep 60; fi
+if line=$(grep -n BAD "$source"); then
+  echo "./$source:${line%%:*}: Undefined control sequence." > "${source%.tex}.log"
+  exit 1
+fi
+cp "$source" "${source%.tex}.pdf"
+"""
+
+
+@dataclass(frozen=True)
+class Rendered:
+    id: str
+    title: str
+    points: str
+    latex: str
+    text: str
+    json: str
+    warnings: tuple[Complaint, ...]
+    inputs: tuple[str, ...]
+    grades: dict[str, int]
+    agreed: bool
+
+
+def rendered(root: Path, problem_id: str, detail: str | None) -> Rendered:
+    path = f"problems/{problem_id}.yaml"
+    said = (root / path).read_text().strip()
+    if said == "loop":
+        while True:
+            pass
+    if said == "refuse":
+        raise Rejected(Complaint("wrong-kind", "`mass` must be a mass", Place(path, 1, 1, said, 6)))
+    if said == "bug":
+        raise ZeroDivisionError("nobody thought of that")
+    if said == "die":
+        os.kill(os.getpid(), signal.SIGKILL)
+    if said == "print":
+        print("chatter of the script")
+    warnings = (Complaint("unshown", "`spin` is never shown", severity="warning"),) if said == "warn" else ()
+    with open(root / "derived.txt", "a") as notes:
+        notes.write(f"{problem_id} {detail}\n")
+    return Rendered(
+        id=problem_id,
+        title=said,
+        points="3",
+        latex=said,
+        text=f"{said} ω\n",
+        json='{"steps": [{}, {}], "reference": []}\n',
+        warnings=warnings,
+        inputs=(path,),
+        grades={"proved": 2, "definition": 1},
+        agreed=said != "differs",
+    )
+
+
+def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
+    return f"%% derive: {problem.id}\n{problem.latex}\n"
+
+
+def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
+    return "".join(problem_document(root, problem, set_id) for problem in problems)
+
+
+class Course:
+    """A root with one set `hw1` of problems `one` and `two`."""
+
+    def __init__(self, root: Path):
+        self.root = root
+        self.folder = root / "problems" / "hw1"
+        self.outputs = root / "build" / "hw1"
+        self.folder.mkdir(parents=True)
+        self.heading("one", "two")
+        self.problem("one", "first")
+        self.problem("two", "second")
+
+    def heading(self, *names: str) -> None:
+        listed = "".join(f"  - {name}\n" for name in names)
+        (self.folder / "set.yaml").write_text(f"course: Physics\ntitle: Homework\nproblems:\n{listed}")
+
+    def problem(self, name: str, said: str) -> None:
+        (self.folder / f"{name}.yaml").write_text(said + "\n")
+
+    def derived(self) -> list[str]:
+        """The problems derived since the last call."""
+        return self._noted("derived.txt")
+
+    def typeset(self) -> list[str]:
+        """The sources that went through TeX since the last call, sorted."""
+        return sorted(self._noted("runs.txt"))
+
+    def _noted(self, name: str) -> list[str]:
+        notes = self.root / name
+        lines = notes.read_text().splitlines() if notes.is_file() else []
+        notes.unlink(missing_ok=True)
+        return sorted(lines)
+
+    def contents(self) -> dict[str, bytes]:
+        """Every visible output with its content."""
+        return {p.name: p.read_bytes() for p in self.outputs.iterdir() if p.is_file() and not p.name.startswith(".")}
+
+
+def stand_in_course(root: Path, monkeypatch: Any) -> Course:
+    """The course, with both stand-ins in place of the real ones."""
+    course = Course(root)
+    replace_derivation(monkeypatch)
+    programs = root / "bin"
+    programs.mkdir()
+    (programs / "pdflatex").write_text(TEX)
+    (programs / "pdflatex").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{programs}:{os.environ['PATH']}")
+    monkeypatch.setenv("TEX_RUNS", str(root / "runs.txt"))
+    monkeypatch.setenv("DERIVE_ENGINE", "pdflatex")
+    monkeypatch.chdir(root)
+    return course
+
+
+def replace_derivation(monkeypatch: Any) -> None:
+    """Put the stand-in where `derive.solution` is imported from."""
+    fake = ModuleType("derive.solution")
+    for function in (rendered, problem_document, set_document):
+        setattr(fake, function.__name__, function)
+    monkeypatch.setitem(sys.modules, "derive.solution", fake)
+    monkeypatch.setattr(derive, "solution", fake, raising=False)

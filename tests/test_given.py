@@ -1,0 +1,251 @@
+"""What is given becomes a value, a letter with a number, or a complaint."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sympy import Integer, Rational, Symbol, pi
+
+from derive.errors import Rejected
+from derive.given import (
+    KINDS,
+    Angle,
+    Given,
+    Lengths,
+    Measured,
+    kind_of_annotation,
+    read_givens,
+    read_measured,
+    symbol_of_kind,
+)
+from derive.mechanics.direction import Direction
+from derive.reading import Declared
+from derive.source import Faults, Mapping, Source, yaml_tree
+
+BLOCK = {"a": "length", "M": "mass", "omega": "angular speed"}
+ASKED = {"sides": "Lengths", "mass": "Mass", "axis": "Direction", "rate": "AngularSpeed"}
+
+
+def declared(kinds: dict[str, str]) -> dict[str, Declared]:
+    return {name: Declared(name, symbol_of_kind(name, kind), kind) for name, kind in kinds.items()}
+
+
+def read(text: str, asked: dict[str, str], symbols: dict[str, str]) -> tuple[dict[str, Given], dict[str, Declared]]:
+    node = yaml_tree(Source("p.yaml", text))
+    assert isinstance(node, Mapping)
+    faults = Faults()
+    nodes = {key.text: value for key, value in node.pairs}
+    kinds = {name: KINDS[asked[name]] for name in nodes}
+    givens, found = read_givens(nodes, kinds, declared(symbols), faults, notes=dict.fromkeys(nodes, "asked here"))
+    faults.stop()
+    return {given.name: given for given in givens}, found
+
+
+def given(text: str, kind: str, symbols: dict[str, str] | None = None) -> Given:
+    return read(f"x: {text}\n", {"x": kind}, BLOCK if symbols is None else symbols)[0]["x"]
+
+
+def value(text: str, kind: str, symbols: dict[str, str] | None = None) -> Any:
+    return given(text, kind, symbols).value
+
+
+def codes(text: str, kind: str, symbols: dict[str, str] | None = None) -> list[str]:
+    with pytest.raises(Rejected) as caught:
+        given(text, kind, symbols)
+    return [complaint.code for complaint in caught.value.complaints]
+
+
+a, M, omega = (symbol_of_kind(name, kind) for name, kind in BLOCK.items())
+b, c = symbol_of_kind("b", "length"), symbol_of_kind("c", "length")
+
+
+def test_an_expression_in_declared_letters_goes_to_solve_as_it_is() -> None:
+    assert value("[a, 2*a, 3*a/2]", "Lengths") == (a, 2 * a, Rational(3, 2) * a)
+    assert given("2*M", "Mass").measured == ()
+
+
+def test_a_number_with_a_unit_becomes_the_letter_declared_for_its_kind() -> None:
+    found = given("1.5 kg", "Mass")
+    assert (found.value, found.measured) == (M, (Measured(M, Rational(3, 2), "kg", Rational(3, 2)),))
+
+
+def test_numbers_take_declared_letters_first_and_then_usual_ones() -> None:
+    found = given("[2 cm, 4 cm, 6 cm]", "Lengths")
+    assert found.value == (a, b, c)
+    assert [measured.si for measured in found.measured] == [Rational(1, 50), Rational(1, 25), Rational(3, 50)]
+
+
+def test_equal_numbers_share_a_letter_so_that_a_cube_stays_a_cube() -> None:
+    found = given("[2 cm, 20 mm, 0.02 m]", "Lengths")
+    assert found.value == (a, a, a)
+    assert len(found.measured) == 1
+
+
+def test_equal_numbers_of_different_givens_keep_different_letters() -> None:
+    found, _ = read("x: 2 cm\ny: 2 cm\n", {"x": "Length", "y": "Length"}, {})
+    assert found["x"].value != found["y"].value
+
+
+def test_a_letter_that_another_given_uses_is_not_taken() -> None:
+    found, symbols = read("x: 2 cm\ny: 3*a\n", {"x": "Length", "y": "Length"}, BLOCK)
+    assert str(found["x"].value) == "l"
+    assert symbols["l"].kind == "length"
+
+
+def test_a_letter_declared_for_another_kind_is_not_taken() -> None:
+    assert value("[1 m, 2 m, 3 m]", "Lengths", {"a": "angle", "b": "mass"}) == tuple(
+        symbol_of_kind(name, "length") for name in ("c", "a_1", "a_2")
+    )
+
+
+def test_letters_never_run_out() -> None:
+    text = "".join(f"x{n}: {n + 1} kg\n" for n in range(9))
+    found, _ = read(text, {f"x{n}": "Mass" for n in range(9)}, {"M_1": "length"})
+    letters = [str(given.value) for given in found.values()]
+    assert len(set(letters)) == 9
+    assert "M_1" not in letters
+
+
+def test_numbers_are_exact() -> None:
+    assert given("900 rpm", "AngularSpeed").measured[0].si == 30 * pi
+    assert given("45 deg", "Angle").measured[0].si == pi / 4
+    assert given("1/3 m", "Length").measured[0].si == Rational(1, 3)
+    assert given("1e-3 m", "Length").measured[0].number == Rational(1, 1000)
+
+
+def test_a_minus_sign_on_a_rate_stays_outside_its_letter() -> None:
+    found = given("-900 rpm", "AngularSpeed")
+    assert (found.value, found.measured[0].number, found.measured[0].si) == (-omega, 900, 30 * pi)
+
+
+def test_zero_needs_no_letter() -> None:
+    found = given("0 deg", "Angle")
+    assert (found.value, found.measured) == (0, ())
+
+
+def test_letters_for_sizes_are_positive_and_the_others_real() -> None:
+    assert given("2 kg", "Mass", {}).value.is_positive
+    angle = given("-45 deg", "Angle").value
+    assert angle.is_real
+    assert angle.is_positive is None
+
+
+def test_numbers_without_a_unit_are_for_numbers_only() -> None:
+    assert value("3", "Number") == Integer(3)
+    assert value("pi/4", "Angle") == pi / 4
+    assert value("0", "Angle") == 0
+    assert codes("45", "Angle") == ["missing-unit"]
+    assert codes("1.5", "Mass") == ["missing-unit"]
+    assert codes("45 deg", "Number") == ["wrong-kind"]
+
+
+def test_a_space_does_not_make_a_declared_letter_a_unit() -> None:
+    with pytest.raises(Rejected, match=r"write `2\*M`"):
+        value("2 M", "Mass")
+    with pytest.raises(Rejected, match=r"write `2\*m` for the symbol"):
+        value("2 m", "Mass", {"m": "mass"})
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "code"),
+    [
+        ("a", "Mass", "wrong-kind"),
+        ("2 cm", "Mass", "wrong-kind"),
+        ("[M]", "Mass", "wrong-kind"),
+        ("", "Mass", "missing-value"),
+        ("2 kgs", "Mass", "unknown-unit"),
+        ("2 kg + M", "Mass", "unknown-unit"),
+        ("0 kg", "Mass", "not-positive"),
+        ("-2 kg", "Mass", "not-positive"),
+        ("M - 2*M", "Mass", "not-positive"),
+        ("0 rpm", "AngularSpeed", "not-positive"),
+        ("0*omega", "AngularSpeed", "not-positive"),
+        ("15 Hz", "AngularSpeed", "ambiguous-unit"),
+        ("1/0 kg", "Mass", "too-large"),
+        ("1e999 kg", "Mass", "too-large"),
+        ("1e999999999 kg", "Mass", "too-large"),
+        ("1" * 31 + " kg", "Mass", "too-large"),
+        ("[a, a]", "Lengths", "wrong-length"),
+        ("[a, a, a, a]", "Lengths", "wrong-length"),
+        ("[]", "Lengths", "wrong-length"),
+        ("a", "Lengths", "wrong-kind"),
+        ("{a: a}", "Lengths", "wrong-kind"),
+        ("[0, 0, 0]", "Direction", "zero-axis"),
+        ("[a - a, 0, 0]", "Direction", "zero-axis"),
+        ("[1, 1]", "Direction", "wrong-length"),
+        ("[1, a, 0]", "Direction", "dimension"),
+        ("diagnal", "Direction", "wrong-kind"),
+        ("{}", "Direction", "wrong-kind"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(text: str, kind: str, code: str) -> None:
+    assert codes(text, kind) == [code]
+
+
+def test_a_difference_that_may_be_positive_is_accepted() -> None:
+    assert value("[a - b, a, b]", "Lengths", {"a": "length", "b": "length"}) == (a - b, a, b)
+
+
+def test_a_rate_may_be_turned_round() -> None:
+    assert value("-omega", "AngularSpeed") == -omega
+
+
+def test_the_faults_of_a_list_and_of_its_neighbours_are_told_together() -> None:
+    with pytest.raises(Rejected) as caught:
+        read("sides: [q, M, 2]\nmass: a\naxis: [0, 0, 0]\nrate: 3 rmp\n", ASKED, BLOCK)
+    assert [complaint.code for complaint in caught.value.complaints] == [
+        "undeclared-symbol",
+        "wrong-kind",
+        "missing-unit",
+        "wrong-kind",
+        "zero-axis",
+        "unknown-unit",
+    ]
+    assert caught.value.complaints[1].notes == ("asked here",)
+
+
+def test_a_direction_is_a_name_or_components_of_one_dimension() -> None:
+    assert given("diagonal", "Direction").word == "diagonal"
+    assert value("[1, 1, 0]", "Direction") == Direction(None, (Integer(1), Integer(1), Integer(0)))
+    assert value("[a, 0, -2*a]", "Direction") == Direction(None, (a, Integer(0), -2 * a))
+
+
+def measured(text: str) -> Measured:
+    node = yaml_tree(Source("p.yaml", text))
+    assert isinstance(node, Mapping)
+    return read_measured(*node.pairs[0], declared({**BLOCK, "n": "number", "theta": "angle", "tau": "torque"}))
+
+
+def test_a_number_is_attached_to_a_declared_letter() -> None:
+    assert measured("a: 2 cm") == Measured(a, Integer(2), "cm", Rational(1, 50))
+    assert measured("n: 3") == Measured(Symbol("n", real=True), Integer(3), "", Integer(3))
+    assert measured("tau: -3/2 N m").si == Rational(-3, 2)
+    assert measured("theta: 0 deg").factor == pi / 180
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("q: 2 cm", "undeclared-symbol"),
+        ("a: 2 s", "wrong-kind"),
+        ("a: a", "wrong-kind"),
+        ("a: 2", "missing-unit"),
+        ("a: -2 cm", "not-positive"),
+        ("omega: -2 rad/s", "not-positive"),
+        ("a:", "missing-value"),
+        ("a: [2 cm]", "wrong-kind"),
+    ],
+)
+def test_a_number_that_does_not_fit_its_letter_is_refused(text: str, code: str) -> None:
+    with pytest.raises(Rejected) as caught:
+        measured(text)
+    assert [complaint.code for complaint in caught.value.complaints] == [code]
+
+
+def test_a_kind_is_known_by_its_annotation_or_by_its_name() -> None:
+    assert kind_of_annotation(Lengths) == KINDS["Lengths"]
+    assert kind_of_annotation("given.Angle") == kind_of_annotation(Angle)
+    assert kind_of_annotation(Direction) == KINDS["Direction"]
+    assert kind_of_annotation(str) is None
+    assert kind_of_annotation("Masss") is None
