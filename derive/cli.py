@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import re
 import signal
 import sys
 import traceback
@@ -182,7 +183,7 @@ def _list(arguments: argparse.Namespace) -> int:
             continue
         found = [node.get(key) if isinstance(node, Mapping) else None for key in ("points", "title")]
         points, title = (value.text.strip() if isinstance(value, Scalar) else "" for value in found)
-        rows.append((problem_id, points, title))
+        rows.append((problem_id, points, re.sub(r"<<\s*(\w+)\s*>>", r"\1", title)))  # named, as it is not derived
     print(table(rows))
     return 0
 
@@ -235,7 +236,9 @@ def _deliver(content: bytes, output: str | None) -> None:
 
     path = Path(output or "-")
     if output in (None, "-"):
-        sys.stdout.buffer.write(content)
+        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and say nothing.
+        with open(1, "wb", closefd=False) as out:
+            out.write(content)
     elif path.exists() and not path.is_file() and not path.is_dir():
         with writing(path):  # a device or a pipe cannot be replaced
             path.write_bytes(content)

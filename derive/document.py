@@ -21,6 +21,7 @@ from derive.problem import ANY_OUTCOME, Problem
 from derive.source import did_you_mean
 from derive.step import Form, Level, Step
 from derive.wording import (
+    AXIS_NAMES,
     Chain,
     Math,
     Node,
@@ -81,6 +82,7 @@ class Answer:
     symbol: Any
     value: Any
     rounded: Any | None
+    relation: str = "approx"
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,7 @@ class _Writer:
         every = [*derivation.steps, *values.values()]
         self.dimensions, self.faults = dimension_table(problem.dimensions, every)
         for measured in problem.measured:
-            amount = Amount(measured.number, measured.unit, measured.si / measured.number)
+            amount = Amount(measured.number, measured.unit, measured.factor)
             self.dimensions[amount] = problem.dimensions.get(measured.symbol)
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
@@ -163,7 +165,7 @@ class _Writer:
     # --- names ---
 
     def _page_names(self) -> dict[str, Any]:
-        names: dict[str, Any] = {step.key: Math(step.symbol) for step in self.derivation.steps}
+        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: Math(step.symbol) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = self._given(given)
         return names
@@ -171,13 +173,18 @@ class _Writer:
     def _given(self, given: Any) -> tuple[Node, ...]:
         """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
         if given.word is not None:
-            return (Text(self.words.term(given.word)),)
+            return self.words.term(given.word)
         if given.kind.name == "Direction":
-            return Text(self.words.term("components") + " along "), Math(tuple(given.value.components))
-        amounts = {m.symbol: Amount(m.number, m.unit, m.si / m.number) for m in self.problem.measured}
+            return *self.words.term("components"), Text(" along "), Math(tuple(given.value.components))
+        amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in self.problem.measured}
         values = given.value if isinstance(given.value, tuple) else (given.value,)
-        items = [(Math(v), Text(" = "), Math(amounts[v])) if v in amounts else (Math(v),) for v in values]
-        return joined(items, self.words.labels["and"])
+        if len(set(values)) == len(values) and all(v in amounts or not v.free_symbols & set(amounts) for v in values):
+            items = [(Math(v), Text(" = "), Math(amounts[v])) if v in amounts else (Math(v),) for v in values]
+            return joined(items, self.words.labels["and"])
+        behind = [m for m in amounts if any(v.has(m) for v in values)]
+        numbers = joined([(Math(m), Text(" = "), Math(amounts[m])) for m in behind], self.words.labels["and"])
+        stated = joined([(Math(v),) for v in values], self.words.labels["and"])
+        return (*stated, Text(f" {self.words.labels['with']} "), *numbers) if behind else stated
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
         return told(pieces, {**self.page_names, **(names or {})}, self._unknown)
@@ -199,10 +206,9 @@ class _Writer:
         blocks: list[Block] = []
         for key in self.derivation.parts[index]:
             self._append(blocks, self.derivation.step(key))
-        for key in part.answers:
-            value = self.values.get(key)
-            if value is not None and value.outcome == "measured":
-                self._append(blocks, value)
+        measured = [v for key in part.answers if (v := self.values.get(key)) and v.outcome == "measured"]
+        for i, value in enumerate(measured):
+            self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
         return PartPage(chr(ord("a") + index), self._told(part.ask.pieces), part.points, _punctuated(blocks))
 
@@ -210,15 +216,17 @@ class _Writer:
         step = self.derivation.step(key)
         value = self.values.get(key)
         rounded = None
-        if value is not None and value.chain[-1].because == "rounded":
+        if value is not None:
             rounded = value.chain[-1].expr
-        return Answer(key, step.symbol, step.result, rounded)
+        relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
+        return Answer(key, step.symbol, step.result, rounded, relation)
 
-    def _append(self, blocks: list[Block], step: Step) -> None:
+    def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
+        """A step's words and lines; one that goes on from the step before needs no words of its own."""
         mode = self.problem.show.get(step.key, "")
         if mode == "hidden":
             return
-        nodes = self._phrase(step)
+        nodes = (Chain(),) if goes_on else self._phrase(step)
         self.numbers[step.key] = len(self.numbers) + 1
         equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
         before, after = _around_chain(nodes)

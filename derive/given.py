@@ -357,6 +357,7 @@ def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction,
         return Given(name, kind, value, (), value.name)
     measured: dict[Expr, Measured] = {}
     exprs: list[Expr] = []
+    smallest = _common_measure(value)
     for entry in value:
         if isinstance(entry, Expr):
             exprs.append(entry)
@@ -368,8 +369,21 @@ def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction,
         # A letter that is assumed positive takes the size; the sign stays outside.
         sign = -1 if kind.each in _SIGNED and entry.number < 0 else 1
         size = entry.si * sign
-        # Equal numbers share a letter, so that a cube stays a cube.
+        # Equal numbers share a letter, so that a cube stays a cube; 2 cm, 4 cm, 6 cm are a, 2a, 3a.
+        times = size / smallest.si if smallest else 1
+        if smallest:
+            entry, size = smallest, smallest.si
         if size not in measured:
             measured[size] = Measured(letters.letter(kind), entry.number * sign, entry.unit, size)
-        exprs.append(sign * measured[size].symbol)
+        exprs.append(sign * times * measured[size].symbol)
     return Given(name, kind, exprs[0] if kind.count == 1 else tuple(exprs), tuple(measured.values()))
+
+
+def _common_measure(value: tuple[Expr | _Number, ...]) -> _Number | None:
+    """The smallest of several positive numbers, if all of them are small whole multiples of it."""
+    numbers = [entry for entry in value if isinstance(entry, _Number) and entry.number > 0]
+    if len(numbers) < len(value):
+        return None
+    smallest = min(numbers, key=lambda entry: float(entry.si))
+    ratios = [entry.si / smallest.si for entry in numbers]
+    return smallest if all(ratio.is_Integer and ratio <= 12 for ratio in ratios) else None

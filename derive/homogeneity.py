@@ -15,7 +15,7 @@ from typing import Any
 from sympy import Add, Basic, Function, Identity, Integral, MatAdd, MatMul, MatrixBase, MatrixSymbol, Mul, Pow, Symbol
 
 from derive import expressions as ex
-from derive.dimensions import NUMBER, Dimension, dimension_of_kind, exponents, named
+from derive.dimensions import NUMBER, Dimension, dimension_of_kind, exponents, kind_with_article, named
 from derive.errors import Complaint
 from derive.evidence import Grade
 from derive.step import Step
@@ -44,7 +44,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, ex.Amount | ex.MatrixAmount):
         return None
     if getattr(expr, "is_number", False):
-        return None if expr.is_zero else NUMBER
+        return None if ex.explicit(expr) == 0 else NUMBER
     if isinstance(expr, Add | MatAdd | ex.Terms):
         return _common(expr.args, table)
     if isinstance(expr, Mul | MatMul | ex.Factors | ex.Dot | ex.Cross | ex.Outer | ex.CarriedRate):
@@ -128,8 +128,8 @@ def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[St
             complaints.append(_complaint(step, str(fault)))
             dimension = dimension_of_kind(step.kind) if step.kind else None
         if step.kind and dimension is not None and dimension != dimension_of_kind(step.kind):
-            wanted = f"{exponents(dimension_of_kind(step.kind))} as a {step.kind}"
-            complaints.append(_complaint(step, f"its dimension is {exponents(dimension)}, not {wanted} must have"))
+            wanted = f"{kind_with_article(step.kind)} must have {exponents(dimension_of_kind(step.kind))}"
+            complaints.append(_complaint(step, f"its dimension is {exponents(dimension)}, but {wanted}"))
         table.update(local)
         table.update(_names_of(step, dimension))
     return table, complaints

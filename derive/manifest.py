@@ -45,7 +45,7 @@ def package_version(name: str) -> str | None:
 
 def engine_digest(root: Path) -> str:
     """Of derive's own modules, the templates, and the packages that decide what is derived."""
-    folders = {_PACKAGE, root / "templates"}
+    folders = sorted({_PACKAGE, root / "templates", _PACKAGE.parent / "templates"})
     files = sorted(p for f in folders for p in f.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
     modules = [part for p in files for part in (p.name, p.read_bytes())]
     return digest(*modules, *(f"{name}=={package_version(name)}" for name in PACKAGES))

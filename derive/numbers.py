@@ -7,9 +7,10 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify
 
-from derive.expressions import Amount, Factors, MatrixAmount, bound, explicit
+from derive.expressions import Amount, Factors, MatrixAmount, bound, explicit, scaled
 from derive.rounding import rounded_form
-from derive.step import Form, Level, Quantity, establish
+from derive.step import Form, Quantity, establish
+from derive.tidy import factored_matrix
 
 
 def value_of(
@@ -27,9 +28,17 @@ def value_of(
     letters = _free(answer.value)
     if not letters <= set(amounts):
         return None
-    substituted = bound(answer.value, {letter: amounts[letter] for letter in letters})
+    if not letters and all(entry.is_Integer for entry in _entries(answer.value)):
+        return None
+    numbers = {letter: amounts[letter] for letter in letters}
+    if isinstance(answer.value, MatrixBase):
+        common, rest = factored_matrix(answer.value)
+        substituted = bound(rest, numbers) if common == 1 else scaled(bound(common, numbers), bound(rest, numbers))
+    else:
+        substituted = bound(answer.value, numbers)
     exact = explicit(substituted)
     shown = _with_unit(exact, unit, factor, figures)
+    lossless = explicit(shown) == exact
     return establish(
         "numbers.value",
         answer.symbol,
@@ -40,8 +49,8 @@ def value_of(
         key=key or f"{answer.key}_value",
         kind=answer.step.kind,
         put_in=None,
-        result_shown=Level.FULL,
-        after=[] if shown == exact else [Form(shown, "rounded")],
+        show_result=False,
+        after=[Form(shown, "value" if lossless else "rounded")],
         parents=[answer],
     )
 
@@ -67,6 +76,10 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
     )
 
 
+def _entries(value: Any) -> list[Expr]:
+    return list(value) if isinstance(value, MatrixBase) else [value]
+
+
 def _free(value: Any) -> set[Symbol]:
     return {symbol for symbol in value.free_symbols if isinstance(symbol, Symbol)}
 
@@ -82,8 +95,7 @@ def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount
     """The largest relative error of the float evaluation, which must be nothing but rounding of the last bits."""
     ordered = sorted(letters, key=str)
     numbers = [float(explicit(amounts[letter])) for letter in ordered]
-    entries = list(value) if isinstance(value, MatrixBase) else [value]
-    exacts = list(exact) if isinstance(exact, MatrixBase) else [exact]
+    entries, exacts = _entries(value), _entries(exact)
     scale = max((abs(float(e)) for e in exacts), default=0.0) or 1.0
     errors = [abs(lambdify(ordered, v, "math")(*numbers) - float(e)) / scale for v, e in zip(entries, exacts, strict=True)]
     return (Integer(0) if max(errors) < 1e-12 else Rational(max(errors))), Integer(0)

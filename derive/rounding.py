@@ -56,7 +56,7 @@ def decimal_text(number: Rounded) -> str:
     decimal = Decimal(value.p) / Decimal(value.q)
     place = decimal.adjusted() - int(figures) + 1
     kept = decimal.quantize(Decimal(1).scaleb(place))
-    if -5 < decimal.adjusted() < 6 and place <= 0:
+    if -4 < decimal.adjusted() < 6 and place <= 0:
         return f"{kept:f}"
     return f"{kept:e}".replace("e+", "e").replace("E+", "e").replace("E", "e")
 

@@ -100,7 +100,7 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
     figures = form.figures or problem.figures
-    amounts = {m.symbol: Amount(m.number, m.unit, m.si / m.number) for m in problem.measured}
+    amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in problem.measured}
     unit = read_unit(form.unit or unit_of_kind(answer.step.kind or "number") or "1", part.ask.place) if form.unit else None
     if unit is not None and answer.step.kind and unit.dimension != _dimension(answer):
         message = f"`{answer.key}` is {_article(answer)}, which is not measured in `{form.unit}`"

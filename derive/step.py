@@ -130,7 +130,7 @@ def establish(
     kind: str | None = None,
     definition: bool = False,
     put_in: Level | None = Level.STANDARD,
-    result_shown: Level = Level.BRIEF,
+    show_result: bool = True,
     parents: Sequence[Quantity] = (),
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
@@ -162,7 +162,7 @@ def establish(
             Form(formula, "law"),
             *([Form(substituted, "put_in", put_in)] if put_in else []),
             *between,
-            Form(result, "result", result_shown),
+            *([Form(result, "result")] if show_result else []),
             *after,
         ]
     )

@@ -11,6 +11,7 @@ from typing import Any
 from sympy import (
     Add,
     Expr,
+    Function,
     ImmutableDenseMatrix,
     Integer,
     MatrixBase,
@@ -18,6 +19,7 @@ from sympy import (
     Pow,
     Rational,
     cancel,
+    expand,
     factor_list,
     factor_terms,
     gcd,
@@ -41,13 +43,24 @@ def tidied(value: Any) -> Any:
 def _tidied_scalar(value: Expr) -> Expr:
     if value.is_Atom or value.is_number and not value.has(Pow):
         return value
-    if value.has(Pow) and any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(Pow)):
-        value = _roots_drawn_out(value)
+    if isinstance(value, Function):
+        return value.func(*(_tidied_scalar(arg) for arg in value.args))
+    if _has_roots(value):
+        value = _roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value))))
+        return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
     try:
-        value = cancel(value) if value.is_rational_function() else _roots_in_the_numerator(together(value))
+        return min((_in_front(cancel(value)), _in_front(value)), key=_length)
     except PolynomialError:
-        value = together(value)
-    return _in_front(_roots_drawn_out(value))
+        return _in_front(value)
+
+
+def _length(value: Expr) -> tuple[int, str]:
+    """How much there is to write; between equals, always the same one."""
+    return int(value.count_ops()), str(value)
+
+
+def _has_roots(value: Expr) -> bool:
+    return any(power.exp.is_Rational and not power.exp.is_Integer for power in value.atoms(Pow))
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
@@ -57,6 +70,11 @@ def _roots_in_the_numerator(value: Expr) -> Expr:
         return radsimp(value) if len(Add.make_args(denominator)) <= 4 else value
     above, below = (part.as_independent(*part.free_symbols, as_Add=False) for part in (numerator, denominator))
     return radsimp(above[0] / below[0]) * above[1] / below[1]
+
+
+def _expanded_above(value: Expr) -> Expr:
+    numerator, denominator = value.as_numer_denom()
+    return expand(numerator) / denominator
 
 
 def _roots_drawn_out(value: Expr) -> Expr:
@@ -74,6 +92,14 @@ def _roots_drawn_out(value: Expr) -> Expr:
 
 def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
     """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
+    outside, inside = Integer(1), Integer(1)
+    for factor in Mul.make_args(factor_terms(part)):
+        out, kept = _square_free_factor(factor, q)
+        outside, inside = outside * out, inside * kept
+    return outside, inside
+
+
+def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
     if part.is_number:
         return Integer(1), part
     try:
@@ -85,7 +111,7 @@ def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
         whole = power // q if factor.is_nonnegative else 0
         outside *= factor**whole
         inside *= factor ** (power - q * whole)
-    # A sum that lost no factor is left as it was written, not factored.
+    # A sum that lost no factor is left as it was written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
 
 

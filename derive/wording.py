@@ -19,6 +19,7 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
+from derive.expressions import AXES, scalar
 from derive.step import Step
 
 
@@ -58,6 +59,8 @@ class Chain:
     """Where the lines of the step go."""
 
 
+AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
+
 Node = Text | Math | DimensionMark | Unit | Ref | Chain
 
 
@@ -86,8 +89,9 @@ class Phrases:
     def route(self, step: Step, claim: str) -> str:
         return self.routes.get(step.rule, {}).get(claim, "")
 
-    def term(self, word: str) -> str:
-        return self.terms.get(word, word)
+    def term(self, word: str) -> tuple[Node, ...]:
+        """The words for a word of a step or of what is given: `diagonal` is "the long diagonal"."""
+        return filled(self.terms.get(word, word), AXIS_NAMES)
 
 
 @cache
@@ -187,6 +191,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     }
     names.update({role: Math(symbol) for role, symbol in step.roles})
     names.update({name: words.term(word) for name, word in step.words})
+    names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)
     if step.kind and unit_of_kind(step.kind):

@@ -236,15 +236,14 @@ def test_doctor_tries_the_engine(course: Course, capfd: pytest.CaptureFixture[st
 
 def test_a_reader_that_has_had_enough_is_no_error(course: Course) -> None:
     course.problem("one", "x" * 500_000)
-    run = subprocess.Popen(
-        command("solve", "hw1/one"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=alone(course)
-    )
-    assert run.stdout
-    run.stdout.read(1)
-    run.stdout.close()
-    assert run.stderr
-    assert run.stderr.read() == b""
-    assert run.wait() == 141
+    piped = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command("solve", "hw1/one"), env=alone(course), **piped) as run:
+        assert run.stdout
+        run.stdout.read(1)
+        run.stdout.close()
+        assert run.stderr
+        assert run.stderr.read() == b""
+    assert run.returncode == 141
 
 
 @pytest.mark.parametrize(

@@ -69,7 +69,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     factor, rest = factored_matrix(of.value)
     size = -factor if factor.could_extract_minus_sign() else factor
     squares = [entry**2 for entry in rest if entry != 0]
-    worked = [] if is_zero(of.value) else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
+    worked = [] if len(squares) < 2 else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
     return establish(
         "equations.magnitude",
         Norm(of.symbol),

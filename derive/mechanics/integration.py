@@ -76,7 +76,9 @@ def _mass_collected(integral: Integral, sign: int, rho: Symbol, volume: Expr) ->
     value = tidied(integral.doit())
     if value == 0:
         return []
-    number, rest = tidied(value / volume).as_coeff_Mul()
+    number, rest = tidied(value / volume).primitive()
+    if rest.could_extract_minus_sign():
+        number, rest = -number, -rest
     number_part = [number] if number != 1 else []
     return [
         Form(rho * value, "added", Level.FULL),

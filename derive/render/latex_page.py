@@ -18,8 +18,8 @@ from derive.render.lines import Printed, printed_lines
 from derive.render.notation import Notation
 from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
 
-WIDTH = 56.0
-WIDTH_WITH_REASON = 44.0
+WIDTH = 60.0
+RELATIONS = {"equals": "=", "approx": r"\approx"}
 
 
 def problem_latex(document: Document, words: Phrases, folder: Path) -> str:
@@ -111,18 +111,16 @@ class _Page:
         """The rows of an align environment; the last row of each step is numbered."""
         rows: list[Printed] = []
         stops: list[str] = []
-        with_reason = any(line.reason for group in display.groups for line in group.lines)
         for group, stop in zip(display.groups, display.stops, strict=True):
-            lines = printed_lines(group, self.notation, WIDTH_WITH_REASON if with_reason else WIDTH)
+            lines = printed_lines(group, self.notation, WIDTH)
             rows += lines
             stops += [""] * (len(lines) - 1) + [stop]
         return " \\\\\n".join(self._row(printed, stop) for printed, stop in zip(rows, stops, strict=True))
 
     def _row(self, printed: Printed, stop: str) -> str:
         left = latex(printed.left) if printed.left else ""
-        marks = {"equals": "=", "approx": r"\approx"}
-        sides = [f"{marks[relation]} {latex(side)}" for relation, side in printed.sides]
-        body = f"{left} &{sides[0]}" + "".join(f" {side}" for side in sides[1:]) + stop
+        sides = " ".join(f"{RELATIONS[relation]} {latex(side)}" for relation, side in printed.sides)
+        body = f"{left} &" + (rf"\fit{{{sides}}}" if printed.width > WIDTH else sides) + stop
         if printed.reason:
             body += rf" \why{{{self.inline(printed.reason)}}}"
         if printed.number is None:
@@ -132,8 +130,9 @@ class _Page:
     def answer(self, answer: Answer) -> str:
         left = latex(self.notation.layout(answer.symbol))
         right = latex(self.notation.result(answer.value))
-        rounded = rf" \approx {latex(self.notation.layout(answer.rounded))}" if answer.rounded is not None else ""
-        return f"{left} = {right}{rounded}"
+        if answer.rounded is None:
+            return f"{left} = {right}"
+        return f"{left} = {right} {RELATIONS[answer.relation]} {latex(self.notation.layout(answer.rounded))}"
 
     def margin(self, display: Display) -> str:
         grade, *routes = display.margin

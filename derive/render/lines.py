@@ -22,7 +22,7 @@ from derive.render.layout import (
     Word,
 )
 from derive.render.notation import Notation
-from derive.wording import Node
+from derive.wording import Node, Text
 
 
 @dataclass(frozen=True)
@@ -45,14 +45,22 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
     for line in equations.lines:
         side = (line.relation, right_side(line, notation))
         last = packed[-1] if packed else None
-        if last and not last.reason and len(last.sides) < 3 and last.width + 2 + width(side[1]) <= limit:
-            packed[-1] = Printed(last.left, (*last.sides, side), line.reason)
+        if last and last.sides[-1][1] == side[1] and line.relation == "equals":
+            continue  # what is laid out alike is one line to the reader
+        room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit
+        if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
+            packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
         else:
             left = notation.layout(line.left) if line.left is not None else None
             packed.append(Printed(left, (side,), line.reason))
     end = packed[-1]
     packed[-1] = Printed(end.left, end.sides, end.reason, equations.number)
     return packed
+
+
+def reason_width(reason: tuple[Node, ...]) -> float:
+    """A reason is set small, with a gap before it."""
+    return 3 + 0.75 * sum(len(node.text) if isinstance(node, Text) else 3 for node in reason) if reason else 0
 
 
 def right_side(line: Line, notation: Notation) -> Layout:

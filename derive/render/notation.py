@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from typing import Any
 
 from sympy import (
@@ -25,6 +26,7 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
+    factorint,
     fraction,
 )
 from sympy.core.function import AppliedUndef
@@ -108,6 +110,10 @@ class Notation:
     # --- sums and products ---
 
     def _sum(self, expr: Any) -> Layout:
+        if isinstance(expr, Add):
+            content, rest = expr.primitive()
+            if content != 1 and content.q == 1:
+                return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
         terms = list(expr.args) if isinstance(expr, ex.Terms) else _positive_first(expr.as_ordered_terms())
         return self._terms(terms)
 
@@ -149,10 +155,10 @@ class Notation:
     def _rank(self, factor: Expr) -> tuple[int, int, str]:
         """Density and mass, accelerations, lengths, numbers, rates; then brackets and functions."""
         base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
-        if not isinstance(base, Symbol):
+        if not isinstance(base, Symbol | ex.Amount):
             return (2 if isinstance(base, Add | ex.Terms | ex.Group) else 1, 0, str(factor))
         dimension = self._dimensions.get(base)
-        return (0, _rank_of_dimension(dimension), base.name)
+        return (0, _rank_of_dimension(dimension), str(base))
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:
@@ -306,7 +312,8 @@ class Notation:
     # --- as written ---
 
     def _group(self, expr: ex.Group) -> Layout:
-        return Fenced(self.layout(expr.args[0]))
+        inner = self.layout(expr.args[0])
+        return inner if isinstance(inner, Name | Number) else Fenced(inner)
 
     def _ratio(self, expr: ex.Ratio) -> Layout:
         return Fraction(*(self.layout(arg) for arg in expr.args))
@@ -316,7 +323,7 @@ class Notation:
 
     def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
         number, unit, _ = expr.args
-        inner = self.layout(number)
+        inner = _decimal(number) if isinstance(number, Rational) else self.layout(number)
         if unit.name in {"degree", "deg"}:
             return row(inner, Word(unit.name))
         return row(inner, SPACE, Word(unit.name)) if unit.name else inner
@@ -373,6 +380,15 @@ def named(name: str) -> Name:
     return Name(match["base"], sub, dots.count("d") if dots else 0)
 
 
+def _decimal(number: Rational) -> Layout:
+    """1.5, as it was written, not 3/2; a third stays a fraction."""
+    sign = (MINUS,) if number < 0 else ()
+    if set(factorint(number.q)) - {2, 5}:
+        return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
+    places = max(factorint(number.q).values(), default=0)
+    return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+
+
 def _sign_and_size(term: Any) -> tuple[bool, Any]:
     """Whether a term is printed with a minus sign, and the term without it."""
     if isinstance(term, MatMul):
@@ -397,10 +413,12 @@ def _positive_first(terms: list[Any]) -> list[Any]:
 
 def _number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
     """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
-    factors = [f for f in Mul.make_args(expr) if f != 1]
-    numbers = [f for f in factors if f.is_number]
+    factors = [f for factor in Mul.make_args(expr) for f in _with_content_apart(factor) if f != 1]
+    numbers = [f for f in factors if f.is_number and not f.has(ex.Amount)]
+    rational = Mul(*(f for f in numbers if f.is_Rational))
+    numbers = [*([rational] if rational != 1 else []), *(f for f in numbers if not f.is_Rational)]
     numbers.sort(key=lambda f: (0 if f.is_Rational else 1, str(f)))
-    return numbers, [f for f in factors if not f.is_number]
+    return numbers, [f for f in factors if not f.is_number or f.has(ex.Amount)]
 
 
 def _root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], list[Expr]]:
@@ -416,6 +434,11 @@ def _root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], l
         return above, below
     others = [f for f in above if f is not root and not f.is_Integer]
     return [*([Rational(left.p)] if left.p != 1 else []), *others], [*([Rational(left.q)] if left.q != 1 else []), root]
+
+
+def _with_content_apart(factor: Expr) -> tuple[Expr, ...]:
+    """12 a^2 + 12 b^2 as 12 and a^2 + b^2."""
+    return factor.primitive() if isinstance(factor, Add) else (factor,)
 
 
 def _rank_of_dimension(dimension: Dimension | None) -> int:

@@ -110,7 +110,7 @@ class _Page:
     def _answer(self, answer: Answer) -> str:
         items: list[Layout] = [self.notation.layout(answer.symbol), Mark("equals"), self.notation.result(answer.value)]
         if answer.rounded is not None:
-            items += [Mark("approx"), self.notation.layout(answer.rounded)]
+            items += [Mark(answer.relation), self.notation.layout(answer.rounded)]
         body = plain(row(*items)).split("\n")
         size = max(map(len, body))
         rule = "─" * (size + 2)
