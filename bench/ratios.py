@@ -77,7 +77,7 @@ def main() -> None:
         cold = seconds(make, before=clean)
         edit = seconds(make, before=lambda: edited(script))
         idle = seconds(make, rounds=4 * ROUNDS)
-        usage = seconds(run(python, "-m", "derive", "--help"), rounds=2 * ROUNDS)
+        usage = seconds(run(str(Path(python).with_name("derive")), "--help"), rounds=2 * ROUNDS)
         empty = seconds(run(python, "-c", "pass"), rounds=2 * ROUNDS)
 
     print(

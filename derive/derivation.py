@@ -63,7 +63,9 @@ def with_ancestors(quantities: Iterable[Quantity]) -> dict[str, Quantity]:
             return
         if known is not None and known.step != quantity.step:
             message = f"two different steps are both called `{quantity.key}`"
-            raise Rejected(Complaint("key-clash", message, help=f'name one: key="{quantity.key}_2nd" or, better, a word'))
+            raise Rejected(
+                Complaint("key-clash", message, help=f'name one: key="{quantity.key}_2nd" or, better, a word')
+            )
         for parent in quantity.parents:
             visit(parent)
         found.setdefault(quantity.key, quantity)

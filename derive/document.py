@@ -29,6 +29,7 @@ from derive.wording import (
     Ref,
     Text,
     filled,
+    given_words,
     joined,
     names_of_step,
     told,
@@ -167,38 +168,26 @@ class _Writer:
     def _page_names(self) -> dict[str, Any]:
         names: dict[str, Any] = {**AXIS_NAMES, **{step.key: Math(step.symbol) for step in self.derivation.steps}}
         for given in self.problem.givens:
-            names[given.name] = self._given(given)
+            names[given.name] = given_words(given, self.problem.measured, self.words)
         return names
-
-    def _given(self, given: Any) -> tuple[Node, ...]:
-        """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
-        if given.word is not None:
-            return self.words.term(given.word)
-        if given.kind.name == "Direction":
-            return *self.words.term("components"), Text(" along "), Math(tuple(given.value.components))
-        amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in self.problem.measured}
-        values = given.value if isinstance(given.value, tuple) else (given.value,)
-        if len(set(values)) == len(values) and all(v in amounts or not v.free_symbols & set(amounts) for v in values):
-            items = [(Math(v), Text(" = "), Math(amounts[v])) if v in amounts else (Math(v),) for v in values]
-            return joined(items, self.words.labels["and"])
-        behind = [m for m in amounts if any(v.has(m) for v in values)]
-        numbers = joined([(Math(m), Text(" = "), Math(amounts[m])) for m in behind], self.words.labels["and"])
-        stated = joined([(Math(v),) for v in values], self.words.labels["and"])
-        return (*stated, Text(f" {self.words.labels['with']} "), *numbers) if behind else stated
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
         return told(pieces, {**self.page_names, **(names or {})}, self._unknown)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
-        self.faults.append(Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line))
+        self.faults.append(
+            Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line)
+        )
 
     def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
         for key in named:
             if key not in self.symbols:
                 help_line = did_you_mean(key, self.symbols)
                 place = self.problem.place_of(section, key)
-                self.faults.append(Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line))
+                self.faults.append(
+                    Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line)
+                )
 
     # --- parts ---
 
@@ -331,4 +320,3 @@ def _trimmed(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
     while kept and isinstance(kept[-1], Text) and not kept[-1].text.strip():
         kept.pop()
     return tuple(kept)
-

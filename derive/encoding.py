@@ -13,15 +13,19 @@ from sympy.core.symbol import Str
 
 from derive import expressions, rounding
 
+# fmt: off
 _SYMPY = (
-    "Add Mul Pow Integral Derivative Tuple Abs sin cos tan asin acos atan atan2 exp log sinh cosh tanh sqrt Identity "
-    "MatMul MatAdd Function StrictGreaterThan StrictLessThan GreaterThan LessThan Equality Unequality"
-).split()
+    "Add", "Mul", "Pow", "Integral", "Derivative", "Tuple", "Abs", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
+    "exp", "log", "sinh", "cosh", "tanh", "Identity", "MatMul", "MatAdd", "Equality", "Unequality",
+    "StrictGreaterThan", "StrictLessThan", "GreaterThan", "LessThan",
+)
 _NODES = (
-    "Dot Norm Cross CarriedRate Group Factors Terms Ratio Root Bracket Amount MatrixAmount MassIntegral Outer"
-).split()
+    "Dot", "Norm", "Cross", "CarriedRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket", "Amount",
+    "MatrixAmount", "MassIntegral", "Outer",
+)
+# fmt: on
 _CLASSES: dict[str, Any] = {
-    **{getattr(sympy, name).__name__: getattr(sympy, name) for name in _SYMPY if name != "sqrt"},
+    **{getattr(sympy, name).__name__: getattr(sympy, name) for name in _SYMPY},
     **{name: getattr(expressions, name) for name in _NODES},
     "Rounded": rounding.Rounded,
 }

@@ -290,7 +290,7 @@ class _Tower:
                 return True
             numerator = together(numerator).as_numer_denom()[0]
         ring_element = sring(numerator)[1]
-        return ring_element == 0
+        return bool(ring_element == 0)
 
 
 def _power_replaced(expr: Expr, generator: Symbol, power: int, equals: Expr) -> Expr:

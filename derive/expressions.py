@@ -8,6 +8,7 @@ vector and (3, 3) for a tensor. A *node* is an operation that is shown before it
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 from sympy import (
@@ -159,7 +160,7 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
 class Group(ScalarNode):
     """A value kept together in its bracket: the `(6 a^3 rho)` that is about to become M."""
 
-    def __new__(cls, inner: Expr) -> Expr:  # type: ignore[misc]
+    def __new__(cls, inner: Expr) -> Expr:
         return inner if isinstance(inner, Group) else super().__new__(cls, inner)
 
     def _evaluated(self, inner: Expr) -> Expr:
@@ -227,7 +228,7 @@ class MatrixAmount(Node, MatrixExpr):
 
     @property
     def shape(self) -> tuple[Any, Any]:
-        return self.args[0].shape  # type: ignore[no-any-return, attr-defined]
+        return self.args[0].shape  # type: ignore[no-any-return]
 
     def doit(self, **hints: Any) -> Value:
         return explicit(self.args[0]) * self.args[2]
@@ -245,7 +246,7 @@ class MassIntegral(Node, MatrixExpr):
 
     @property
     def shape(self) -> tuple[Any, Any]:
-        return self.args[0].shape  # type: ignore[no-any-return, attr-defined]
+        return self.args[0].shape  # type: ignore[no-any-return]
 
     def doit(self, **hints: Any) -> Value:
         integrand, r, density, position, jacobian, *limits = self.args
@@ -282,9 +283,14 @@ def explicit(expr: Value) -> Value:
     """The expression with every node carried out, and matrices as explicit matrices."""
     if isinstance(expr, MatrixBase):
         return ImmutableDenseMatrix(expr.applyfunc(explicit))
-    value = expr.doit() if isinstance(expr, Basic) else Integer(expr)
+    return _carried_out(expr) if isinstance(expr, Basic) else Integer(expr)
+
+
+@lru_cache(maxsize=4096)  # each line of a chain is compared with the one before and the one after
+def _carried_out(expr: Basic) -> Value:
+    value = expr.doit()
     if isinstance(value, MatrixExpr) and not value.has(MatrixSymbol):
-        value = ImmutableDenseMatrix(value.as_explicit())
+        value = value.as_explicit()
     return ImmutableDenseMatrix(value) if isinstance(value, MatrixBase) else value
 
 

@@ -88,7 +88,7 @@ def _common(terms: Iterable[Any], table: Mapping[Any, Dimension | None]) -> Dime
 
 def _product(dimensions: Iterable[Dimension | None]) -> Dimension | None:
     found = list(dimensions)
-    return None if None in found else reduce(mul, found, NUMBER)  # type: ignore[arg-type]
+    return None if None in found else reduce(mul, found, NUMBER)
 
 
 def _integral(function: Any, limits: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
@@ -162,7 +162,7 @@ def _names_of(step: Step, dimension: Dimension | None) -> Table:
         dimension = dimension_of_kind(step.kind)
     names: Table = {step.symbol: dimension}
     if isinstance(step.symbol, MatrixSymbol) and step.symbol.shape == (3, 1):
-        names.update({name: dimension for name in ex.component_names(step.symbol.name)})
+        names.update(dict.fromkeys(ex.component_names(step.symbol.name), dimension))
     return names
 
 

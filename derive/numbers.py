@@ -97,5 +97,7 @@ def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount
     numbers = [float(explicit(amounts[letter])) for letter in ordered]
     entries, exacts = _entries(value), _entries(exact)
     scale = max((abs(float(e)) for e in exacts), default=0.0) or 1.0
-    errors = [abs(lambdify(ordered, v, "math")(*numbers) - float(e)) / scale for v, e in zip(entries, exacts, strict=True)]
+    errors = [
+        abs(lambdify(ordered, v, "math")(*numbers) - float(e)) / scale for v, e in zip(entries, exacts, strict=True)
+    ]
     return (Integer(0) if max(errors) < 1e-12 else Rational(max(errors))), Integer(0)

@@ -31,7 +31,7 @@ def _decimal(exact: Expr, digits: int) -> Decimal:
         return +Decimal(str(Float(exact.evalf(digits + 5), digits + 5)))
 
 
-class Rounded(Expr):  # type: ignore[misc]
+class Rounded(Expr):
     """A decimal with its significant figures, so that 21.60 keeps its zero. Arguments: the rational, the figures."""
 
     is_commutative = True

@@ -11,19 +11,20 @@ from typing import Any
 
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
 from derive.dimensions import NUMBER, unit_of_kind
-from derive.document import Document, document_of
+from derive.document import document_of
 from derive.errors import Complaint, Rejected
 from derive.expressions import Amount
 from derive.numbers import coefficient_of, value_of
-from derive.parts import points_text
-from derive.problem import Part, Problem, load_problem, problem_set, run_solve
+from derive.parts import Part, points_text
+from derive.problem import Problem, load_problem, problem_set, run_solve
 from derive.render.contract import contract
 from derive.render.latex_page import problem_latex, whole_latex
-from derive.render.text_page import page_text
+from derive.render.notation import Notation
+from derive.render.text_page import inline_text, page_text
 from derive.source import did_you_mean
 from derive.step import Level, Quantity, Step, recorded
 from derive.units import read_unit
-from derive.wording import Phrases, phrases
+from derive.wording import AXIS_NAMES, Phrases, Text, given_words, phrases, told
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered
         raise Rejected(faults)
     return Rendered(
         id=problem_id,
-        title=problem.title.text,
+        title=inline_text(document.title, Notation(document.dimensions)),
         points="" if problem.points is None else points_text(problem.points),
         latex=problem_latex(document, words, template_folder(root)),
         text=page_text(document, words),
@@ -62,6 +63,17 @@ def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered
         grades=_grades(derivation, values),
         agreed=True,
     )
+
+
+def headline(root: Path, problem_id: str) -> tuple[str, str]:
+    """A problem's points and title without deriving it; a step that the title mentions is named by its key."""
+    problem = load_problem(root, problem_id)
+    words = phrases(template_folder(root))
+    names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
+    names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
+    title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None)
+    points = "" if problem.points is None else points_text(problem.points)
+    return points, inline_text(title, Notation(problem.dimensions))
 
 
 def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step]]:
@@ -86,7 +98,8 @@ def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
             "no-such-answer",
             f"`solve()` returns nothing called `{key}`",
             part.place_of(key),
-            help=did_you_mean(key, known) or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
+            help=did_you_mean(key, known)
+            or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
         )
         for part in problem.parts
         for key in part.answers
@@ -101,7 +114,9 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     form = part.form_of(answer.key)
     figures = form.figures or problem.figures
     amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in problem.measured}
-    unit = read_unit(form.unit or unit_of_kind(answer.step.kind or "number") or "1", part.ask.place) if form.unit else None
+    unit = (
+        read_unit(form.unit or unit_of_kind(answer.step.kind or "number") or "1", part.ask.place) if form.unit else None
+    )
     if unit is not None and answer.step.kind and unit.dimension != _dimension(answer):
         message = f"`{answer.key}` is {_article(answer)}, which is not measured in `{form.unit}`"
         raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
@@ -136,7 +151,7 @@ def _grades(derivation: Derivation, values: dict[str, Step]) -> dict[str, int]:
     return counts
 
 
-# --- whole documents -----------------------------------------------------------------------------------------------------
+# --- whole documents ---
 
 
 def problem_document(root: Path, problem: Rendered, set_id: str) -> str:

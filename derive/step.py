@@ -214,7 +214,7 @@ def _without_repeats(forms: Sequence[Form]) -> list[Form]:
     """A form that looks just like the one before it says nothing; the lower level of the two is kept."""
     kept: list[Form] = []
     for form in forms:
-        if kept and kept[-1].expr == form.expr and "rounded" != form.because:
+        if kept and kept[-1].expr == form.expr and form.because != "rounded":
             level = min(kept[-1].level, form.level, key=list(Level).index)
             kept[-1] = Form(kept[-1].expr, kept[-1].because, level)
         else:

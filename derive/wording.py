@@ -19,7 +19,8 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
-from derive.expressions import AXES, scalar
+from derive.expressions import AXES, Amount, scalar
+from derive.given import Given, Measured
 from derive.step import Step
 
 
@@ -100,7 +101,7 @@ def phrases(folder: Path) -> Phrases:
     return Phrases(**loaded)
 
 
-# --- filling -----------------------------------------------------------------------------------------------------------
+# --- filling ---
 
 _TOKEN = re.compile("\x00(\\d+)\x00")
 
@@ -133,11 +134,17 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
     """A phrase of ours with its names filled in."""
     nodes = _Nodes()
     try:
-        text = _environment().from_string(template).render(
-            {name: nodes.token(value) for name, value in names.items()},
+        text = (
+            _environment()
+            .from_string(template)
+            .render(
+                {name: nodes.token(value) for name, value in names.items()},
+            )
         )
     except UndefinedError as error:
-        raise Rejected(Complaint("undefined-name", f"a phrase names what this step does not have: {error.message}")) from error
+        raise Rejected(
+            Complaint("undefined-name", f"a phrase names what this step does not have: {error.message}")
+        ) from error
     except TemplateError as error:
         raise Rejected(Complaint("bad-phrase", f"a phrase cannot be read: {error}")) from error
     return nodes.split(text.strip())
@@ -165,7 +172,9 @@ def told(pieces: Sequence[Any], names: Mapping[str, Any], missing: Callable[[str
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
         elif piece.name in names:
             value = names[piece.name]
-            nodes.extend(value if isinstance(value, tuple) else (value if isinstance(value, Node) else Text(str(value)),))
+            nodes.extend(
+                value if isinstance(value, tuple) else (value if isinstance(value, Node) else Text(str(value)),)
+            )
         else:
             missing(piece.name, piece.place)
     return tuple(nodes)
@@ -197,3 +206,25 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     if step.kind and unit_of_kind(step.kind):
         names["unit"] = Unit(unit_of_kind(step.kind))
     return names
+
+
+def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Node, ...]:
+    """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+    if given.word is not None:
+        return words.term(given.word)
+    if given.kind.name == "Direction":
+        return *words.term("components"), Text(f" {words.labels['along']} "), Math(tuple(given.value.components))
+    amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in measured}
+    values = given.value if isinstance(given.value, tuple) else (given.value,)
+    last = words.labels["and"]
+    if len(set(values)) == len(values) and all(v in amounts or not v.free_symbols & set(amounts) for v in values):
+        return joined([_stated(v, amounts) if v in amounts else (Math(v),) for v in values], last)
+    behind = [symbol for symbol in amounts if any(v.has(symbol) for v in values)]
+    names = joined([(Math(v),) for v in values], last)
+    if not behind:
+        return names
+    return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
+
+
+def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Node, ...]:
+    return Math(symbol), Text(" = "), Math(amounts[symbol])

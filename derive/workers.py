@@ -7,6 +7,7 @@ takes its TeX along, and it ends by itself if the parent is gone. The parent sta
 from __future__ import annotations
 
 import contextlib
+import gc
 import multiprocessing
 import os
 import signal
@@ -164,6 +165,9 @@ def _child(work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int])
         signal.signal(signum, signal.SIG_DFL)
     os.close(lifeline[1])
     threading.Thread(target=_end_with_parent, args=(lifeline[0],), daemon=True).start()
+    # A worker is short-lived: collecting garbage in it often costs more than the garbage.
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
     # What a script prints is for the person at the terminal, not part of the answer.
     os.dup2(2, 1)
     sys.stdout = sys.stderr

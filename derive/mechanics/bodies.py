@@ -16,7 +16,7 @@ from sympy import Expr, Integer, Integral, MatMul, Pow, Symbol, Tuple, sqrt
 from sympy.matrices import ImmutableMatrix
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import MassIntegral, Factors, Ratio, column, scalar, vector
+from derive.expressions import Factors, MassIntegral, Ratio, column, scalar, vector
 from derive.mechanics.direction import Direction
 from derive.step import Level, Quantity, compared_with, establish
 

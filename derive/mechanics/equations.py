@@ -8,9 +8,9 @@ from typing import Any
 from sympy import Add, Expr, MatrixSymbol, Mul
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import Dot, Group, Norm, Factors, Root, Terms, bound, component_names, explicit, scalar
+from derive.expressions import Dot, Factors, Group, Norm, Root, Terms, bound, component_names, explicit, scalar
 from derive.mechanics.rotation import length_by_turning
-from derive.step import Form, Level, Quantity, compared_with, establish, is_zero
+from derive.step import Form, Level, Quantity, compared_with, establish
 from derive.tidy import factored_matrix
 
 

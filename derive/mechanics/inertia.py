@@ -14,8 +14,8 @@ from derive.errors import Complaint, Rejected
 from derive.expressions import (
     Cross,
     Dot,
-    Outer,
     Factors,
+    Outer,
     Terms,
     column,
     component_names,

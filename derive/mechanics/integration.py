@@ -9,7 +9,7 @@ from __future__ import annotations
 from sympy import Expr, Integral, Mul, Symbol, integrate
 from sympy.core import Add
 
-from derive.expressions import Bracket, Group, Factors, Terms
+from derive.expressions import Bracket, Factors, Group, Terms
 from derive.step import Form, Level
 from derive.tidy import tidied
 

@@ -7,11 +7,11 @@ from typing import Any
 from sympy import Expr, Integer, Rational, acos, cos, pi, sin
 
 from derive.expressions import (
-    Cross,
     CarriedRate,
+    Cross,
     Dot,
-    Norm,
     Factors,
+    Norm,
     Ratio,
     applied,
     column,
@@ -70,7 +70,7 @@ def spin(rate: Expr, along: Quantity, symbol: str = "omega", key: str = "spin") 
 
 
 def length_by_turning(v: Any) -> Expr:
-    """A vector's length: turn it about z into the xz plane, then about y onto the z axis, and read off the component."""
+    """A vector's length: turn it about z into the xz plane, then about y onto z, and read off the component."""
     factor, rest = factored_matrix(v)
     size = -factor if factor.could_extract_minus_sign() else factor
     x, y, z = rest

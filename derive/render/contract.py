@@ -1,8 +1,8 @@
 """The JSON of `derive solve ID --format json`: the contract that other programs read.
 
 `sympy` is plain SymPy text with the symbols' own names. Unevaluated nodes become what SymPy itself has: a mass integral
-an `Integral`, a bracket the difference it stands for, a vector's name a `MatrixSymbol`. A name that SymPy would take for
-something of its own (`I`, `E`, `S`, `beta`) is written `Symbol('I')`.
+an `Integral`, a bracket the difference it stands for, a vector's name a `MatrixSymbol`. A name that SymPy would take
+for something of its own (`I`, `E`, `S`, `beta`) is written `Symbol('I')`.
 """
 
 from __future__ import annotations
@@ -24,11 +24,12 @@ from derive.parts import points_text
 from derive.problem import Problem
 from derive.render.latex import latex
 from derive.render.notation import Notation
+from derive.render.text_page import inline_text
 from derive.rounding import Rounded, decimal_text
 from derive.step import Form, Step
 
 
-class _PlainSymPy(StrPrinter):  # type: ignore[misc]
+class _PlainSymPy(StrPrinter):
     """SymPy's own text, with names that cannot be mistaken and nodes lowered to what SymPy knows."""
 
     def _print_Symbol(self, expr: Symbol) -> str:
@@ -81,7 +82,7 @@ class _PlainSymPy(StrPrinter):  # type: ignore[misc]
         return f"({a})*({b}).T"
 
     def _print_CarriedRate(self, expr: Any) -> str:
-        return self._print(ex.Cross(expr.args[1], expr.args[0]))
+        return self._print_Cross(ex.Cross(expr.args[1], expr.args[0]))
 
     def _print_Bracket(self, expr: Any) -> str:
         return f"({self._print(expr.doit())})"
@@ -93,10 +94,10 @@ class _PlainSymPy(StrPrinter):  # type: ignore[misc]
         return f"({self._print(expr.doit())})"
 
     def _print_MatrixAmount(self, expr: Any) -> str:
-        return self._print(ex.explicit(expr))
+        return self._print_MatrixBase(ex.explicit(expr))
 
     def _print_Rounded(self, expr: Any) -> str:
-        return self._print(expr.args[0])
+        return str(self._print(expr.args[0]))
 
     def _print_MassIntegral(self, expr: Any) -> str:
         integrand, r, density, position, jacobian, *limits = expr.args
@@ -119,10 +120,9 @@ def contract(
     """The JSON text."""
     notation = Notation(document.dimensions)
     answers = {key: derivation.step(key) for part in problem.parts for key in part.answers}
-    title = " ".join(problem.title.text.split())
     data = {
         "problem": problem.id,
-        "title": title,
+        "title": inline_text(document.title, notation),
         "points": _points(problem.points),
         "given": {given.name: _given(given) for given in problem.givens},
         "parts": [
@@ -137,7 +137,7 @@ def contract(
 
 
 def _points(points: Any) -> int | float | None:
-    return None if points is None else json.loads(points_text(points))  # type: ignore[no-any-return]
+    return None if points is None else json.loads(points_text(points))
 
 
 def _given(given: Any) -> Any:

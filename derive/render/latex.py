@@ -8,6 +8,7 @@ from functools import cache
 from pylatexenc.latexencode import UnicodeToLatexEncoder
 
 from derive.render.layout import (
+    GREEK,
     Applied,
     Array,
     Fenced,
@@ -25,11 +26,7 @@ from derive.render.layout import (
     begins_with_number,
 )
 
-GREEK = set(
-    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "
-    "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega".split()
-)
-FUNCTIONS = set("sin cos tan arccos arcsin arctan exp ln sinh cosh tanh".split())
+FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
 MARKS = {
     "dot": r"\cdot ",
     "times": r"\times ",
@@ -123,7 +120,9 @@ def _separated(pieces: list[str]) -> list[str]:
 
 def _runs_into(before: Layout, item: Layout) -> bool:
     """A thin space where two factors touch: after a fraction, before a differential."""
-    return isinstance(before, Fraction | Array | RootSign) and not isinstance(item, Mark) and not begins_with_number(item)
+    return (
+        isinstance(before, Fraction | Array | RootSign) and not isinstance(item, Mark) and not begins_with_number(item)
+    )
 
 
 def _is_tall(layout: Layout, inline: bool) -> bool:
@@ -175,9 +174,15 @@ def _unit(text: str) -> str:
 
 @cache
 def _encoder() -> UnicodeToLatexEncoder:
-    return UnicodeToLatexEncoder(non_ascii_only=False, replacement_latex_protection="braces-all", unknown_char_policy="replace")
+    return UnicodeToLatexEncoder(
+        non_ascii_only=False, replacement_latex_protection="braces-all", unknown_char_policy="replace"
+    )
 
 
 def escaped(text: str) -> str:
     """Plain text that TeX prints as it is: every special character is made harmless."""
-    return _encoder().unicode_to_latex(text) if not text.isascii() or any(c in text for c in "\\{}$&#^_%~<>|\"'`") else text
+    return (
+        _encoder().unicode_to_latex(text)
+        if not text.isascii() or any(c in text for c in "\\{}$&#^_%~<>|\"'`")
+        else text
+    )

@@ -121,11 +121,11 @@ class _Page:
         left = latex(printed.left) if printed.left else ""
         sides = " ".join(f"{RELATIONS[relation]} {latex(side)}" for relation, side in printed.sides)
         body = f"{left} &" + (rf"\fit{{{sides}}}" if printed.width > WIDTH else sides) + stop
-        if printed.reason:
-            body += rf" \why{{{self.inline(printed.reason)}}}"
+        reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
         if printed.number is None:
-            return body + r" \notag"
-        return body + rf" \tag{{{printed.number}}}\anchor{{{_anchor(self.document.id, printed.number)}}}"
+            return body + (rf" \tag*{{{reason}\blanknumber}}" if reason else r" \notag")
+        anchor = rf"\anchor{{{_anchor(self.document.id, printed.number)}}}"
+        return body + rf" \tag*{{{reason}\eqnumber{{{printed.number}}}}}{anchor}"
 
     def answer(self, answer: Answer) -> str:
         left = latex(self.notation.layout(answer.symbol))

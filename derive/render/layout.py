@@ -108,6 +108,14 @@ Layout = (
     Number | Name | Word | Mark | Row | Fraction | Raised | RootSign | Fenced | Limits | IntegralSign | Applied | Array
 )
 
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
+    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
+    "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
+    "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
+    "Omega": "Ω",
+}  # fmt: skip
+
 DOT, TIMES, CROSS, PLUS, MINUS, SPACE = (Mark(kind) for kind in ("dot", "times", "cross", "plus", "minus", "space"))
 
 

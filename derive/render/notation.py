@@ -395,7 +395,9 @@ def _sign_and_size(term: Any) -> tuple[bool, Any]:
         coefficient = Mul(*(arg for arg in term.args if not ex.is_matrix(arg)))
         if coefficient.could_extract_minus_sign():
             rest = [arg for arg in term.args if ex.is_matrix(arg)]
-            return True, rest[0] if coefficient == -1 and len(rest) == 1 else MatMul(-coefficient, *rest, evaluate=False)
+            return True, rest[0] if coefficient == -1 and len(rest) == 1 else MatMul(
+                -coefficient, *rest, evaluate=False
+            )
         return False, term
     if isinstance(term, Expr) and (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative:
         return True, -term
@@ -485,4 +487,3 @@ def _ends_in_differential(layout: Layout) -> bool:
 
 def _is_vector_row(layout: Layout) -> bool:
     return isinstance(layout, Row) and any(item in (DOT, CROSS) for item in layout.items[1:2])
-

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from derive.dimensions import exponents
@@ -22,6 +22,26 @@ WIDTH = 60.0
 def page_text(document: Document, words: Phrases) -> str:
     """The whole page."""
     return _Page(document, words).text()
+
+
+def inline_text(nodes: Sequence[Node], notation: Notation, numbers: Mapping[str, int] | None = None) -> str:
+    """Running text; `numbers` are those of the equations it may refer to."""
+    return " ".join("".join(_node(node, notation, numbers or {}) for node in nodes).split())
+
+
+def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
+    match node:
+        case Text(text):
+            return text
+        case Math(expr):
+            return plain(notation.list_of(expr) if isinstance(expr, tuple) else notation.result(expr))
+        case DimensionMark(dimension):
+            return exponents(dimension)
+        case Unit(text):
+            return text
+        case Ref(key):
+            return f"({numbers[key]})"
+    return ""
 
 
 class _Page:
@@ -63,22 +83,7 @@ class _Page:
         return textwrap.fill(self._inline(nodes), COLUMNS, break_long_words=False, break_on_hyphens=False)
 
     def _inline(self, nodes: Sequence[Node]) -> str:
-        return " ".join("".join(self._node(node) for node in nodes).split(" ")).strip()
-
-    def _node(self, node: Node) -> str:
-        match node:
-            case Text(text):
-                return " ".join(text.split("\n"))
-            case Math(expr):
-                layout = self.notation.list_of(expr) if isinstance(expr, tuple) else self.notation.result(expr)
-                return plain(layout)
-            case DimensionMark(dimension):
-                return exponents(dimension)
-            case Unit(text):
-                return text
-            case Ref(key):
-                return f"({self.document.numbers[key]})"
-        return ""
+        return inline_text(nodes, self.notation, self.document.numbers)
 
     def _display(self, display: Display) -> str:
         lines: list[str] = []
@@ -114,4 +119,6 @@ class _Page:
         body = plain(row(*items)).split("\n")
         size = max(map(len, body))
         rule = "─" * (size + 2)
-        return "\n".join(["    ┌" + rule + "┐", *(f"    │ {text.ljust(size)} │" for text in body), "    └" + rule + "┘"])
+        return "\n".join(
+            ["    ┌" + rule + "┐", *(f"    │ {text.ljust(size)} │" for text in body), "    └" + rule + "┘"]
+        )
