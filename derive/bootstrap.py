@@ -58,6 +58,11 @@ def works(uv: str | None) -> bool:
         return False
 
 
+def has_venv() -> bool:
+    """Whether this Python can do without uv; Debian splits these modules off."""
+    return bool(importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip"))
+
+
 def check_tools(uv: str | None) -> None:
     name = Path(sys.executable).name or "python3"
     if sys.version_info < OLDEST:
@@ -65,7 +70,7 @@ def check_tools(uv: str | None) -> None:
         raise Stopped(
             f"error[python]: derive needs Python 3.11 or later, and this is {this}: install a newer one, or uv"
         )
-    if not uv and not (importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip")):
+    if not uv and not has_venv():
         mend = f"`apt install {name}-venv`, or install uv, then `make` again"
         raise Stopped(f"error[venv]: {name} has no working venv module: {mend}")
 
@@ -114,7 +119,13 @@ def set_up(stamp: str) -> None:
     with alone():
         mark = VENV / stamp
         if not (mark.is_file() and mark.read_text() == wanted and works(uv)) or UNFINISHED.exists():
-            install(stamp, uv)
+            try:
+                install(stamp, uv)
+            except Stopped as stopped:
+                if not uv or not has_venv():
+                    raise
+                print(f"{stopped}\ntrying pip instead of uv", flush=True)  # it may know a way that uv was not told
+                install(stamp, None)
         for name in {stamp, ".runtime"}:
             (VENV / name).write_text(wanted)
 

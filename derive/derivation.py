@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.encoding import decoded, encoded
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Place, Rejected
 from derive.evidence import Evidence, Grade
 from derive.step import Form, Level, Quantity, Step
 
@@ -40,20 +40,24 @@ class Derivation:
         return counts
 
 
-def returned_quantities(value: Any) -> list[Quantity]:
-    """What a script returned, flattened; anything but quantities in tuples, lists and mappings is refused."""
+def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity]:
+    """What a script returned, flattened; anything but quantities in tuples, lists and mappings is refused.
+
+    `place` is where the script returns it.
+    """
     if isinstance(value, Quantity):
         return [value]
     if isinstance(value, dict):
         value = list(value.values())
     if not isinstance(value, tuple | list) or not value:
-        got = "nothing" if value is None else f"a {type(value).__name__}"
+        kind = type(value).__name__
+        got = "nothing" if value is None or value == () else f"{'an' if kind[0] in 'aeiou' else 'a'} `{kind}`"
         message = f"`solve()` must return its answers, each made by a verb, but it returned {got}"
-        raise Rejected(Complaint("script", message, help="end it with, for example, `return I, T, theta`"))
-    return [quantity for item in value for quantity in returned_quantities(item)]
+        raise Rejected(Complaint("script", message, place, help="end it with, for example, `return I, T, theta`"))
+    return [quantity for item in value for quantity in returned_quantities(item, place)]
 
 
-def with_ancestors(quantities: Iterable[Quantity]) -> dict[str, Quantity]:
+def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -> dict[str, Quantity]:
     """Every quantity that these rest on and they themselves, parents first, by key; two of one key are refused."""
     found: dict[str, Quantity] = {}
 
@@ -64,7 +68,7 @@ def with_ancestors(quantities: Iterable[Quantity]) -> dict[str, Quantity]:
         if known is not None and known.step != quantity.step:
             message = f"two different steps are both called `{quantity.key}`"
             raise Rejected(
-                Complaint("key-clash", message, help=f'name one: key="{quantity.key}_2nd" or, better, a word')
+                Complaint("key-clash", message, place, help='name one of them with `key="..."`')
             )
         for parent in quantity.parents:
             visit(parent)

@@ -232,6 +232,8 @@ def _value(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> 
     expr, dimension = read_expression(scalar, symbols)
     text = " ".join(scalar.text.split())
     is_bare = expr.is_Rational and dimension == NUMBER and not (expr.is_zero and wanted.kind == "angle")
+    if expr.is_zero and wanted.kind in _POSITIVE:
+        _check_sign(expr, scalar, wanted)
     if is_bare and wanted.kind != "number":
         units = ("deg", "rad") if wanted.kind == "angle" else (unit_of_kind(wanted.kind),)
         help_line = "write " + " or ".join(f"`{text} {unit}`" for unit in units)

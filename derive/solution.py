@@ -79,8 +79,8 @@ def headline(root: Path, problem_id: str) -> tuple[str, str]:
 def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step]]:
     """The steps behind every answer, and the step that gives each answer its number, if it has one."""
     with recorded() as established:
-        answers = returned_quantities(run_solve(problem))
-    known = with_ancestors(answers)
+        answers = returned_quantities(run_solve(problem), problem.script.returns)
+    known = with_ancestors(answers, problem.script.returns)
     _check_answers(problem, known)
     derivation = derivation_of([part.answers for part in problem.parts], known, established)
     values: dict[str, Step] = {}

@@ -171,7 +171,8 @@ def _child(work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int])
     # What a script prints is for the person at the terminal, not part of the answer.
     os.dup2(2, 1)
     sys.stdout = sys.stderr
-    value, error = None, None
+    value: Any = None
+    error: DeriveError | Bug | None = None
     try:
         value = work()
     except DeriveError as stopped:

@@ -114,11 +114,11 @@ def test_the_tests_are_added_to_an_environment_without_them(checkout: Checkout) 
 
 
 def test_a_failed_installation_says_why_without_an_address_and_is_repaired(checkout: Checkout) -> None:
-    code, _, err = checkout.set_up(FAILING="yes")
+    code, out, err = checkout.set_up(FAILING="yes", PIP_NO_INDEX="yes")
     assert code == 1
-    assert err == (
-        "error[install]: cannot install the packages, run `make` again to retry: error: no route to (address)\n"
-    )
+    failed = "error[install]: cannot install the packages, run `make` again to retry: "
+    assert f"{failed}error: no route to (address)\ntrying pip instead of uv\n" in out
+    assert err.startswith(failed + "ERROR: ")
     assert not checkout.has(".runtime")
     checkout.asked()
     assert checkout.set_up()[0] == 0

@@ -131,6 +131,8 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
             return not inline
         case Array() | Limits():
             return True
+        case IntegralSign():
+            return not inline
         case Row(items):
             return any(_is_tall(item, inline) for item in items)
         case Raised(base, _) | RootSign(base) | Fenced(base, _):

@@ -1,0 +1,43 @@
+"""The plain-text page of each pinned problem, whole, as a reviewer reads it.
+
+After a change that is meant, `python -m tests.test_transcripts` writes them anew; read the difference before you commit.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from derive.solution import rendered
+from tests.course import course_in
+
+FOLDER = Path(__file__).parent / "transcripts"
+PAGES = {
+    "block": ({}, None),
+    "block-brief": ({}, "brief"),
+    "block-full": ({}, "full"),
+    "block-cube": ({"[a, 2*a, 3*a]": "[a, a, a]"}, None),
+    "block-numbers": (
+        {"[a, 2*a, 3*a]": "[2 cm, 4 cm, 6 cm]", "mass: M\n": "mass: 1.5 kg\n", "rate: omega": "rate: 900 rpm"},
+        None,
+    ),
+}
+
+
+def page(name: str, folder: Path) -> str:
+    edits, detail = PAGES[name]
+    return rendered(course_in(folder, edits), "hw9/block", detail).text
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_the_page_reads_as_its_transcript(name: str, tmp_path: Path) -> None:
+    expected = (FOLDER / f"{name}.txt").read_text(encoding="utf-8")
+    assert page(name, tmp_path) == expected
+
+
+if __name__ == "__main__":
+    for each in PAGES:
+        with tempfile.TemporaryDirectory() as temporary:
+            (FOLDER / f"{each}.txt").write_text(page(each, Path(temporary)), encoding="utf-8")
