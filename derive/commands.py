@@ -89,12 +89,14 @@ def _problem_id(text: str) -> str:
 def _list(arguments: argparse.Namespace) -> int:
     from derive.problem import problem_ids
     from derive.solution import headline
+    from derive.workers import Job, done
 
     root = _root(arguments)
     rows = [("problem", "points", "title")]
     for problem_id in problem_ids(root):
         try:
-            rows.append((problem_id, *headline(root, problem_id)))
+            points, title = done(Job(f"`{problem_id}`", partial(headline, root, problem_id), limit=10))
+            rows.append((problem_id, points, title))
         except DeriveError as error:
             rows.append((problem_id, "", f"(does not read: {error.complaints[0].message})"))
     print(table(rows))

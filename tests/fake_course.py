@@ -74,6 +74,11 @@ def rendered(root: Path, problem_id: str, detail: str | None) -> Rendered:
     )
 
 
+def headline(root: Path, problem_id: str) -> tuple[str, str]:
+    found = rendered(root, problem_id, None)
+    return found.points, found.title
+
+
 def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
     return f"%% derive: {problem.id}\n{problem.latex}\n"
 
@@ -138,7 +143,7 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 def replace_derivation(monkeypatch: Any) -> None:
     """Put the stand-in where `derive.solution` is imported from."""
     fake = ModuleType("derive.solution")
-    for function in (rendered, problem_document, set_document):
+    for function in (rendered, headline, problem_document, set_document):
         setattr(fake, function.__name__, function)
     monkeypatch.setitem(sys.modules, "derive.solution", fake)
     monkeypatch.setattr(derive, "solution", fake, raising=False)
