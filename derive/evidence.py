@@ -199,6 +199,8 @@ def vanishes(expr: Expr) -> bool:
         return True
     if expr.has(nan, zoo, oo) or expr.count_ops() > LARGEST:
         return False
+    if expr.is_rational_function() and expr.expand() == 0:
+        return True
     try:
         return _vanishes_as_polynomial(expr)
     except (PolynomialError, NotImplementedError, ZeroDivisionError, ValueError):

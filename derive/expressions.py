@@ -12,6 +12,7 @@ from functools import lru_cache
 from typing import Any, TypeAlias
 
 from sympy import (
+    Add,
     Basic,
     Expr,
     ImmutableDenseMatrix,
@@ -22,6 +23,7 @@ from sympy import (
     MatrixBase,
     MatrixExpr,
     MatrixSymbol,
+    Poly,
     Symbol,
     Tuple,
     diff,
@@ -251,7 +253,7 @@ class MassIntegral(Node, MatrixExpr):
     def doit(self, **hints: Any) -> Value:
         integrand, r, density, position, jacobian, *limits = self.args
         at = explicit(integrand.xreplace({r: position}))
-        return at.applyfunc(lambda f: Integral(density * f * jacobian, *limits).doit())
+        return at.applyfunc(lambda f: explicit(Integral(density * f * jacobian, *limits)))
 
     def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
         return explicit(self)[i, j]
@@ -288,10 +290,21 @@ def explicit(expr: Value) -> Value:
 
 @lru_cache(maxsize=4096)  # each line of a chain is compared with the one before and the one after
 def _carried_out(expr: Basic) -> Value:
-    value = expr.doit()
+    value = _definite(expr) if isinstance(expr, Integral) else expr.doit()
     if isinstance(value, MatrixExpr) and not value.has(MatrixSymbol):
         value = value.as_explicit()
     return ImmutableDenseMatrix(value) if isinstance(value, MatrixBase) else value
+
+
+def _definite(integral: Integral) -> Expr:
+    """A definite integral; powers are integrated as powers, for which SymPy's integrator is slow."""
+    value = explicit(integral.function)
+    for x, lower, upper in integral.limits:
+        if not value.is_polynomial(x):
+            return integral.doit()
+        terms = Poly(value, x).terms()
+        value = Add(*(c * (upper ** (n + 1) - lower ** (n + 1)) / (n + 1) for (n,), c in terms))
+    return value.expand()
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:

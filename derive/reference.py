@@ -15,77 +15,23 @@ A letter that the step's value lacks stands for what the steps before it found: 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping as Table
-from collections.abc import Sequence as Row
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixSymbol, Rational, Symbol
 
 from derive.derivation import returned_quantities, with_ancestors
-from derive.dimensions import NUMBER, Dimension, dimension_of_kind, kind_with_article, named
+from derive.dimensions import Dimension, dimension_of_kind, kind_with_article, named
 from derive.errors import Complaint, DeriveError, Place
 from derive.evidence import Grade, Verdict, equal
 from derive.expressions import AXES, component_names, explicit
-from derive.problem import Problem, _Loader, problem_ids, run_solve
-from derive.reading import Declared, read_expression
+from derive.problem import Problem, run_solve
 from derive.rounding import Rounded, off_by_more_than_half_a_unit
-from derive.schema import MAX_FIGURES, Key, check_keys, read_text, wrong_type
-from derive.source import Faults, Mapping, Node, Scalar, Sequence, did_you_mean, read_yaml
+from derive.source import did_you_mean
+from derive.stated import Entry, Stated, stated_groups
 from derive.step import Quantity
-from derive.units import Unit, read_unit
-
-GROUP_KEYS: Table[str, Key] = {
-    "problem": Key("the problem of this set that the document solves", {}, required=True),
-    "symbols": Key("letters of the document and their kinds, also those that steps bring in", {}),
-    "given": Key("what the document starts from, as in the problem's file", {}, required=True),
-    "values": Key("numbers for letters, put in where a stated value lacks the letter", {}),
-    "entries": Key("the values that the document states", {}, required=True),
-}
-ENTRY_KEYS: Table[str, Key] = {
-    "part": Key("the part of the document", {}),
-    "answer": Key("the key of the step that has this value", {}, required=True),
-    "states": Key("the value: an expression, 3 of them, or 3 rows of 3", {}, required=True),
-    "to": Key("decimals agree to so many figures; a list has one number for each entry", {}),
-    "in": Key("the unit of the stated value", {}),
-    "erratum": Key("the document is wrong here", {}),
-}
-ERRATUM_KEYS: Table[str, Key] = {
-    "why": Key("what is wrong, in a few words", {}, required=True),
-    "right": Key("the value that it should state", {}, required=True),
-}
-
-_FIGURES = re.compile(r"[1-9][0-9]?", re.ASCII)
-_VALUE = "an expression, a list of 3, or 3 rows of 3"
-
-
-@dataclass(frozen=True)
-class Stated:
-    """A value as the document has it: its entries with their dimensions, and how it was written."""
-
-    entries: tuple[tuple[Expr, Dimension], ...]
-    shape: tuple[int, ...]
-    text: str
-    place: Place = field(repr=False)
-
-    @property
-    def letters(self) -> set[Symbol]:
-        return {letter for expr, _ in self.entries for letter in expr.free_symbols}
-
-
-@dataclass(frozen=True)
-class Entry:
-    """One line of the file; `figures` has one number for each entry of the value, `unit` is of all of them."""
-
-    answer: str
-    part: str | None
-    states: Stated
-    right: Stated | None
-    why: str
-    figures: tuple[int, ...]
-    unit: Unit | None
-    place: Place = field(repr=False)
+from derive.units import read_unit
 
 
 @dataclass(frozen=True)
@@ -115,16 +61,11 @@ class Comparison:
 Steps = Table[str, Quantity]
 
 
-def reference_path(problem: Problem) -> str:
-    """Where the references of its set are, whether or not there are any; relative to the root."""
-    return f"problems/{problem.set_id}/reference.yaml"
-
-
 def comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
     """Every entry about this problem, compared; `known` are its steps for what its own file gives."""
     derived: list[tuple[dict[str, Any], Steps]] = [(_given(problem), known)]
     found = []
-    for pinned, entries in _groups(problem):
+    for pinned, entries in stated_groups(problem):
         given = _given(pinned)
         steps = next((steps for other, steps in derived if other == given), None)
         if steps is None:
@@ -140,7 +81,7 @@ def _given(problem: Problem) -> dict[str, Any]:
 
 def _derived_again(pinned: Problem) -> Steps:
     try:
-        return with_ancestors(returned_quantities(run_solve(pinned)))
+        return with_ancestors(returned_quantities(run_solve(pinned), pinned.script.returns), pinned.script.returns)
     except DeriveError as error:
         place = pinned.place_of("given")
         note = f"this is for what is given at {place.path}:{place.line}"
@@ -151,36 +92,41 @@ def _derived_again(pinned: Problem) -> Steps:
 
 
 def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
-    def comparison(outcome: str, grade: Grade | None, detail: str, complaint: Complaint | None = None) -> Comparison:
-        return Comparison(pinned.id, entry, outcome, grade, detail, complaint)
-
-    def fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
-        return Complaint(code, message, place, notes, help, severity="warning")
-
     step = steps.get(entry.answer)
     if step is None:
         message = f"no step is called `{entry.answer}`"
-        help_line = did_you_mean(entry.answer, steps)
-        complaint = fault("unknown-step", message, entry.place, help=help_line)
-        return comparison("unknown step", None, message, complaint)
+        fault = _fault("unknown-step", message, entry.place, help=did_you_mean(entry.answer, steps))
+        return Comparison(pinned.id, entry, "unknown step", None, message, fault)
     verdict = _verdict(entry.states, step, entry, pinned)
-    said = _said(verdict)
-    if entry.right is not None and verdict:
+    if entry.right is None:
+        return _agreement(entry, step, verdict, pinned)
+    if verdict:
         message = f"the document is right about `{entry.answer}`, so this is no erratum"
-        return comparison("differs", verdict.grade, message, fault("no-erratum", message, entry.states.place, said))
-    wrong = entry.states
-    if entry.right is not None:
-        wrong, verdict = entry.right, _verdict(entry.right, step, entry, pinned)
-        if verdict:
-            return comparison("erratum", verdict.grade, f"{entry.why}: {said}")
+        fault = _fault("no-erratum", message, entry.states.place, verdict.detail)
+        return Comparison(pinned.id, entry, "differs", verdict.grade, message, fault)
+    right = _verdict(entry.right, step, entry, pinned)
+    if right:
+        return Comparison(pinned.id, entry, "erratum", right.grade, f"{entry.why}: {_said(verdict)}")
+    return _difference(entry, step, right, pinned, "`right`", entry.right.place)
+
+
+def _agreement(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem) -> Comparison:
     if not verdict:
-        what = "what the document states" if wrong is entry.states else "`right`"
-        notes = (f"derived    {_short(step.value)}", f"stated against derived: {_said(verdict)}")
-        complaint = fault("differs", f"`{entry.answer}` differs from {what}", wrong.place, *notes)
-        return comparison("differs", verdict.grade, _said(verdict), complaint)
+        return _difference(entry, step, verdict, pinned, "what the document states", entry.states.place)
     figures = min(entry.figures, default=0)
-    plural = "figure" if figures == 1 else "figures"
-    return comparison(f"agrees to {figures} {plural}" if figures else "agrees", verdict.grade, verdict.detail)
+    outcome = f"agrees to {figures} figure{'s' * (figures > 1)}" if figures else "agrees"
+    return Comparison(pinned.id, entry, outcome, verdict.grade, verdict.detail)
+
+
+def _difference(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem, what: str, place: Place) -> Comparison:
+    notes = (f"derived: {_short(step.value)}", f"stated against derived: {_said(verdict)}")
+    fault = _fault("differs", f"`{entry.answer}` differs from {what}", place, *notes)
+    return Comparison(pinned.id, entry, "differs", verdict.grade, _said(verdict), fault)
+
+
+def _fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
+    """A warning, for the derivation is right by its own evidence; `derive check` fails on it all the same."""
+    return Complaint(code, message, place, notes, help, severity="warning")
 
 
 def _said(verdict: Verdict) -> str:
@@ -198,21 +144,19 @@ def _verdict(stated: Stated, step: Quantity, entry: Entry, pinned: Problem) -> V
     derived = explicit(step.value)
     shape = tuple(int(n) for n in getattr(derived, "shape", ()))
     if shape != stated.shape:
-        return Verdict(Grade.REFUTED, f"{_SHAPES.get(stated.shape)} against {_SHAPES.get(shape, 'another shape')}")
+        return Verdict(Grade.REFUTED, f"{_SHAPES[stated.shape]} against {_SHAPES.get(shape, 'another shape')}")
     letters = _meanings(stated, step, derived, pinned)
     values = [explicit(expr.xreplace(letters)) for expr, _ in stated.entries]
-    numbers = {m.symbol: m.si for m in pinned.measured if not any(m.symbol in v.free_symbols for v in values)}
-    factor = entry.unit.factor if entry.unit else Integer(1)
+    kept = {letter for value in values for letter in value.free_symbols}
+    numbers = {m.symbol: m.si for m in pinned.measured if m.symbol not in kept}
+    unit = entry.unit or read_unit("rad")
     worst = Verdict(Grade.PROVED, "identical")
     for i, right in enumerate(derived if shape else [derived]):
-        right, dimension = (
-            right.xreplace(numbers),
-            stated.entries[i][1] * (entry.unit.dimension if entry.unit else NUMBER),
-        )
-        verdict = _of_kind(dimension, values[i], step.step.kind) if not numbers else None
+        right = right.xreplace(numbers)
+        verdict = _of_kind(stated.entries[i][1] * unit.dimension, values[i], step.step.kind)
         if verdict is None and entry.figures:
-            verdict = _to_figures(values[i], right / factor, entry.figures[i % len(entry.figures)])
-        verdict = verdict or equal(values[i] * factor, right)
+            verdict = _to_figures(values[i], right / unit.factor, entry.figures[i % len(entry.figures)])
+        verdict = verdict or equal(values[i] * unit.factor, right)
         if not verdict:
             return replace(verdict, detail=_named_entry(i, shape) + verdict.detail)
         if worst.grade is Grade.PROVED and verdict.detail != "identical":
@@ -232,17 +176,14 @@ def _named_entry(i: int, shape: tuple[int, ...]) -> str:
 def _meanings(stated: Stated, step: Quantity, derived: Any, pinned: Problem) -> dict[Symbol, Expr]:
     """What each letter of a stated value is in the derivation: the same letter, or what an earlier step found."""
     own = {letter.name: letter for letter in derived.free_symbols}
-    own |= {declared.name: declared.symbol for declared in pinned.symbols.values() if declared.name not in own}
     given = {letter.name for expr in _expressions(_given(pinned).values()) for letter in expr.free_symbols}
-    found = _found_before(step)
-    meanings = {}
-    for letter in stated.letters:
-        values = found.get(letter.name, [])
-        is_own = letter in {*derived.free_symbols} or letter.name in given or len(values) != 1
-        meanings[letter] = (
-            own[letter.name] if is_own or letter.name in {s.name for s in derived.free_symbols} else values[0]
-        )
-    return meanings
+    found = {name: values for name, values in _found_before(step).items() if name not in {*own, *given}}
+    declared = {name: own.get(name, known.symbol) for name, known in pinned.symbols.items()}
+    # A name that stands for two things among the steps before (the tensors of two bodies, say) stands for none here.
+    return {
+        letter: values[0] if len(values := found.get(letter.name, [])) == 1 else declared[letter.name]
+        for letter in stated.letters
+    }
 
 
 def _expressions(values: Any) -> list[Expr]:
@@ -253,7 +194,7 @@ def _found_before(step: Quantity) -> dict[str, list[Any]]:
     """Name -> the different values that it has among the steps behind this one; those of general vectors left out."""
     found: dict[str, list[Any]] = {}
     for quantity in with_ancestors(step.parents).values():
-        names: Row[Symbol] = [quantity.symbol] if isinstance(quantity.symbol, Symbol) else []
+        names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()
         values = [quantity.value]
         if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
             names, values = component_names(quantity.symbol.name), list(quantity.value)
@@ -290,142 +231,3 @@ def _coefficients(expr: Expr) -> dict[Expr, Expr]:
         if number != 0:
             found[letters] = found.get(letters, Integer(0)) + number
     return found
-
-
-# --- reading ---------------------------------------------------------------------------------------------------------
-
-
-def _groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
-    """The groups about this problem, each as the problem with what it pins, or `Rejected` with every fault.
-
-    Groups of other problems are read when those are derived: their faults are not faults of this one.
-    """
-    path = reference_path(problem)
-    if not (problem.root / path).exists():
-        return []
-    node = read_yaml(problem.root / path, path)
-    faults = Faults()
-    if not isinstance(node, Sequence):
-        wrong_type(faults, "a reference", "a list of groups, each with `problem`, `given` and `entries`", node)
-    ids = problem_ids(problem.root)
-    items = node.items if isinstance(node, Sequence) else ()
-    groups = [group for item in items if (group := _group(item, problem, ids, faults))]
-    faults.stop()
-    return groups
-
-
-def _group(node: Node, problem: Problem, ids: list[str], faults: Faults) -> tuple[Problem, list[Entry]] | None:
-    if not isinstance(node, Mapping):
-        wrong_type(faults, "a group", "a mapping with `problem`, `given` and `entries`", node)
-        return None
-    name = read_text(node, "problem", faults)
-    if name is not None and f"{problem.set_id}/{name}" not in ids:
-        place = node.get("problem")
-        help_line = did_you_mean(name, (i.partition("/")[2] for i in ids if i.startswith(f"{problem.set_id}/")))
-        message = f"there is no problem `{name}` in this set"
-        faults.error("no-such-problem", message, place.place if place else node.place, help=help_line)
-    elif name is None or f"{problem.set_id}/{name}" == problem.id:
-        check_keys(node, GROUP_KEYS, "a group", faults)
-        pinned = _pinned(problem, node, faults)
-        return (pinned, _entries(node.get("entries"), pinned.symbols, faults)) if name else None
-    return None
-
-
-def _pinned(problem: Problem, node: Mapping, faults: Faults) -> Problem:
-    """The problem with the symbols, the given and the values of a group; its parts and its words do not matter here."""
-    loader = _Loader(problem.root, problem.id, reference_path(problem), node)
-    loader.faults = faults
-    symbols = loader.symbols()
-    values = loader.values(symbols)
-    givens, symbols = loader.givens(problem.script, symbols, values) if node.get("given") else ((), symbols)
-    measured = (*values, *(measured for given in givens for measured in given.measured))
-    return replace(problem, symbols=symbols, givens=givens, measured=measured, places=loader.places)
-
-
-def _entries(node: Node | None, symbols: Table[str, Declared], faults: Faults) -> list[Entry]:
-    if node is None:
-        return []
-    if not isinstance(node, Sequence) or not node.items:
-        wrong_type(faults, "`entries`", "a list of entries", node)
-        return []
-    # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
-    # the derivation knows of it comes back when the two are compared.
-    letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in symbols.items()}
-    return [entry for item in node.items if (entry := _entry(item, letters, faults))]
-
-
-def _entry(node: Node, letters: Table[str, Declared], faults: Faults) -> Entry | None:
-    if not isinstance(node, Mapping):
-        wrong_type(faults, "an entry", "a mapping with `answer` and `states`", node)
-        return None
-    check_keys(node, ENTRY_KEYS, "an entry", faults)
-    answer, part, unit = (read_text(node, key, faults) for key in ("answer", "part", "in"))
-    states = _stated(node.get("states"), "`states`", letters, faults)
-    why, right = _erratum(node.get("erratum"), letters, faults)
-    read = None
-    with faults:
-        read = read_unit(unit, _place(node, "in")) if unit else None
-    figures = _figures(node.get("to"), states, faults)
-    if answer is None or states is None:
-        return None
-    return Entry(answer, part, states, right, why, figures, read, _place(node, "answer"))
-
-
-def _place(node: Mapping, key: str) -> Place:
-    value = node.get(key)
-    return value.place if value else node.place
-
-
-def _erratum(node: Node | None, letters: Table[str, Declared], faults: Faults) -> tuple[str, Stated | None]:
-    if node is None:
-        return "", None
-    if not isinstance(node, Mapping):
-        wrong_type(faults, "`erratum`", "a mapping with `why` and `right`", node)
-        return "", None
-    check_keys(node, ERRATUM_KEYS, "an erratum", faults)
-    return read_text(node, "why", faults) or "", _stated(node.get("right"), "`right`", letters, faults)
-
-
-def _stated(node: Node | None, key: str, letters: Table[str, Declared], faults: Faults) -> Stated | None:
-    """A stated value. It is in the grammar of the problem files; another notation would be told apart here."""
-    if node is None:
-        return None
-    rows = [_items(item) for item in _items(node)]
-    scalars = [item for row in rows for item in row if isinstance(item, Scalar)]
-    lengths = {len(row) for row in rows}
-    is_list = isinstance(node, Sequence)
-    nested = is_list and any(isinstance(item, Sequence) for item in _items(node))
-    if len(scalars) != (9 if nested else 3 if is_list else 1) or lengths != {3 if nested else 1}:
-        wrong_type(faults, key, _VALUE, node)
-        return None
-    entries = []
-    for scalar in scalars:
-        with faults:
-            entries.append(read_expression(scalar, letters))
-    shape = (3, 3) if nested else (3, 1) if is_list else ()
-    return Stated(tuple(entries), shape, _text(node), node.place)
-
-
-def _items(node: Node) -> tuple[Node, ...]:
-    return node.items if isinstance(node, Sequence) else (node,)
-
-
-def _text(node: Node) -> str:
-    if isinstance(node, Sequence):
-        return "[" + ", ".join(_text(item) for item in node.items) + "]"
-    return " ".join(node.text.split()) if isinstance(node, Scalar) else ""
-
-
-def _figures(node: Node | None, states: Stated | None, faults: Faults) -> tuple[int, ...]:
-    if node is None:
-        return ()
-    items = _items(node)
-    for item in items:
-        text = item.text if isinstance(item, Scalar) else ""
-        if not _FIGURES.fullmatch(text) or int(text) > MAX_FIGURES:
-            wrong_type(faults, "`to`", f"a whole number from 1 to {MAX_FIGURES}, or a list of them", item)
-            return ()
-    if isinstance(node, Sequence) and states and len(items) != len(states.entries):
-        message = f"`to` has {len(items)} numbers, but the value has {len(states.entries)} entries"
-        faults.error("wrong-length", message, node.place)
-    return tuple(int(item.text) for item in items if isinstance(item, Scalar))

@@ -17,11 +17,13 @@ from derive.expressions import Amount
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
+from derive.reference import comparisons
 from derive.render.contract import contract
 from derive.render.latex_page import problem_latex, whole_latex
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text, page_text
 from derive.source import did_you_mean
+from derive.stated import reference_path
 from derive.step import Level, Quantity, Step, recorded
 from derive.units import read_unit
 from derive.wording import AXIS_NAMES, Phrases, Text, given_words, phrases, told
@@ -47,21 +49,23 @@ def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong."""
     problem = load_problem(root, problem_id)
     words = phrases(template_folder(root))
-    derivation, values = _derived(problem)
+    derivation, values, known = _derived(problem)
     document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"))
     if faults:
         raise Rejected(faults)
+    compared = comparisons(problem, known)
+    failures = tuple(c.complaint for c in compared if c.complaint)
     return Rendered(
         id=problem_id,
         title=inline_text(document.title, Notation(document.dimensions)),
         points="" if problem.points is None else points_text(problem.points),
         latex=problem_latex(document, words, template_folder(root)),
         text=page_text(document, words),
-        json=contract(problem, derivation, values, document),
-        warnings=document.warnings,
-        inputs=problem.inputs,
+        json=contract(problem, derivation, values, document, reference=[c.facts() for c in compared]),
+        warnings=(*document.warnings, *failures),
+        inputs=(*problem.inputs, reference_path(problem)),
         grades=_grades(derivation, values),
-        agreed=True,
+        agreed=not failures,
     )
 
 
@@ -76,8 +80,8 @@ def headline(root: Path, problem_id: str) -> tuple[str, str]:
     return points, inline_text(title, Notation(problem.dimensions))
 
 
-def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step]]:
-    """The steps behind every answer, and the step that gives each answer its number, if it has one."""
+def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity]]:
+    """The steps behind every answer, the step that gives each answer its number, and all steps by key."""
     with recorded() as established:
         answers = returned_quantities(run_solve(problem), problem.script.returns)
     known = with_ancestors(answers, problem.script.returns)
@@ -89,7 +93,7 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step]]:
             value = _value(problem, part, known[key])
             if value is not None:
                 values[key] = value.step
-    return derivation, values
+    return derivation, values, known
 
 
 def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:

@@ -71,9 +71,15 @@ def test_a_number_with_a_unit_becomes_the_letter_declared_for_its_kind() -> None
 
 
 def test_numbers_take_declared_letters_first_and_then_usual_ones() -> None:
-    found = given("[2 cm, 4 cm, 6 cm]", "Lengths")
+    found = given("[2 cm, 3 cm, 5 cm]", "Lengths")
     assert found.value == (a, b, c)
-    assert [measured.si for measured in found.measured] == [Rational(1, 50), Rational(1, 25), Rational(3, 50)]
+    assert [measured.si for measured in found.measured] == [Rational(1, 50), Rational(3, 100), Rational(1, 20)]
+
+
+def test_whole_multiples_of_the_smallest_share_its_letter() -> None:
+    found = given("[4 cm, 2 cm, 60 mm]", "Lengths")
+    assert found.value == (2 * a, a, 3 * a)
+    assert [measured.si for measured in found.measured] == [Rational(1, 50)]
 
 
 def test_equal_numbers_share_a_letter_so_that_a_cube_stays_a_cube() -> None:
@@ -94,7 +100,7 @@ def test_a_letter_that_another_given_uses_is_not_taken() -> None:
 
 
 def test_a_letter_declared_for_another_kind_is_not_taken() -> None:
-    assert value("[1 m, 2 m, 3 m]", "Lengths", {"a": "angle", "b": "mass"}) == tuple(
+    assert value("[2 m, 3 m, 5 m]", "Lengths", {"a": "angle", "b": "mass"}) == tuple(
         symbol_of_kind(name, "length") for name in ("c", "a_1", "a_2")
     )
 

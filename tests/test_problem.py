@@ -121,10 +121,9 @@ def test_the_given_values_reach_solve_under_their_names(tmp_path: Path) -> None:
 def test_numbers_are_kept_beside_their_letters(tmp_path: Path) -> None:
     edits = ("[a, 2*a, 3*a]", "[2 cm, 4 cm, 6 cm]"), ("mass: M", "mass: 1.5 kg"), ("rate: omega", "rate: 900 rpm")
     problem = loaded(tmp_path, *edits)
+    assert problem.givens[0].value == tuple(n * problem.measured[0].symbol for n in (1, 2, 3))
     assert {str(m.symbol): m.si for m in problem.measured} == {
         "a": Rational(1, 50),
-        "b": Rational(1, 25),
-        "c": Rational(3, 50),
         "M": Rational(3, 2),
         "omega": 30 * pi,
     }

@@ -12,7 +12,7 @@ from itertools import product
 from operator import mul
 from typing import Any
 
-from sympy import Expr, Integer, Integral, MatMul, Pow, Symbol, Tuple, sqrt
+from sympy import Expr, Integer, Integral, MatMul, Pow, Rational, Symbol, Tuple
 from sympy.matrices import ImmutableMatrix
 
 from derive.errors import Complaint, Rejected
@@ -86,14 +86,17 @@ class Cuboid:
         return MassIntegral(integrand, vector("r"), density, position, Integer(1), *inward)
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Eight equal particles with the same mass, centre and second moments as the block.
+        """Six equal particles, at the centres of the faces, with the block's mass, centre and second moments.
 
-        They stand at the middle +- side/(2 sqrt 3) along each edge. No integral is used, so what is computed from
+        Two of them, at +-side/2, give 2 (M/6)(side/2)^2 = M side^2/12. No integral is used, so what is computed from
         them checks what is computed by integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1 (equimomental
         bodies).
         """
-        offsets = [(side / 2 - side / (2 * sqrt(3)), side / 2 + side / (2 * sqrt(3))) for side in self.sides]
-        return [(self.mass / 8, column(*place)) for place in product(*offsets)]
+        found = []
+        for axis, end in product(range(3), (0, 1)):
+            place = [side * (Rational(1, 2) if k != axis else end) for k, side in enumerate(self.sides)]
+            found.append((self.mass / 6, column(*place)))
+        return found
 
     def direction(self, axis: Direction) -> Quantity:
         """A vector along the axis: a named edge, the long diagonal, or given components."""

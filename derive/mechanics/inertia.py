@@ -174,7 +174,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
 def _square_of_distance(body: Cuboid, point: Point) -> Expr:
     """The integral of r.r dm about a point."""
     at = [limit[0] for limit in body.limits(point.position)]
-    return body.density.value * body.integral(sum(x**2 for x in at), point.position).doit()
+    return body.density.value * explicit(body.integral(sum(x**2 for x in at), point.position))
 
 
 def _components(v: Any) -> tuple[Any, ...]:
@@ -196,7 +196,7 @@ def _entry_moved(there: Quantity, centre: Quantity, name: str, key: str, pair: t
     def directly() -> Expr:
         at = [limit[0] for limit in body.limits(body.middle.position)]
         weight = sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j]
-        return body.density.value * body.integral(weight, body.middle.position).doit()
+        return body.density.value * explicit(body.integral(weight, body.middle.position))
 
     return establish(
         "inertia.entry_moved",

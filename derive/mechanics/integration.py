@@ -9,7 +9,7 @@ from __future__ import annotations
 from sympy import Expr, Integral, Mul, Symbol, integrate
 from sympy.core import Add
 
-from derive.expressions import Bracket, Factors, Group, Terms
+from derive.expressions import Bracket, Factors, Group, Terms, explicit
 from derive.step import Form, Level
 from derive.tidy import tidied
 
@@ -32,7 +32,7 @@ def worked_integral(integral: Integral, rho: Symbol, volume: Expr) -> list[Form]
         Form(_times(sign * rho, [_with_brackets(parts) for parts in split]), "antiderivative", Level.STANDARD),
         Form(_times(sign * rho, [_with_values(parts) for parts in split]), "limits", Level.FULL),
         Form(
-            _times(sign * rho, [Mul(*(integrate(f, limit) for f, limit in parts)) for parts in split]),
+            _times(sign * rho, [Mul(*(explicit(Integral(f, limit)) for f, limit in parts)) for parts in split]),
             "multiplied",
             Level.STANDARD,
         ),
@@ -67,13 +67,13 @@ def _with_brackets(parts: list[tuple[Expr, OneVariable]]) -> Expr:
 
 def _with_values(parts: list[tuple[Expr, OneVariable]]) -> Expr:
     plain = [upper - lower for f, (_, lower, upper) in parts if f == 1]
-    values = [integrate(f, limit) for f, limit in parts if f != 1]
+    values = [explicit(Integral(f, limit)) for f, limit in parts if f != 1]
     return Factors(*plain, *values)
 
 
 def _mass_collected(integral: Integral, sign: int, rho: Symbol, volume: Expr) -> list[Form]:
     """13/3 (6 a^3 rho) a^2: the density and the volume brought together, ready to become the mass."""
-    value = tidied(integral.doit())
+    value = tidied(integral)
     if value == 0:
         return []
     number, rest = tidied(value / volume).primitive()

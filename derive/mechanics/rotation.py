@@ -91,8 +91,8 @@ def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     r = column(*(limit[0] for limit in body.limits(point.position)))
     values = explicit(integrand(r))
     if hasattr(values, "applyfunc"):
-        return values.applyfunc(lambda f: body.density.value * body.integral(f, point.position).doit())
-    return body.density.value * body.integral(values, point.position).doit()
+        return values.applyfunc(lambda f: body.density.value * explicit(body.integral(f, point.position)))
+    return body.density.value * explicit(body.integral(values, point.position))
 
 
 def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
