@@ -67,9 +67,7 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
             return
         if known is not None and known.step != quantity.step:
             message = f"two different steps are both called `{quantity.key}`"
-            raise Rejected(
-                Complaint("key-clash", message, place, help='name one of them with `key="..."`')
-            )
+            raise Rejected(Complaint("key-clash", message, place, help='name one of them with `key="..."`'))
         for parent in quantity.parents:
             visit(parent)
         found.setdefault(quantity.key, quantity)

@@ -61,8 +61,19 @@ class Display:
     """Equations set together, and what the margin says of them."""
 
     groups: tuple[Equations, ...]
-    margin: tuple[str, ...] = ()
+    grades: frozenset[Grade] = frozenset()
+    routes: tuple[str, ...] = ()
     end: str = "."
+
+    @property
+    def grade(self) -> Grade:
+        """How sure the least sure of all its lines is."""
+        order = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.PROVED, Grade.DEFINITION)
+        return next(grade for grade in order if grade in self.grades)
+
+    def with_more(self, other: Display) -> Display:
+        """The lines of both; the margin names the first step's routes."""
+        return Display((*self.groups, *other.groups), self.grades | other.grades, self.routes or other.routes)
 
     @property
     def stops(self) -> tuple[str, ...]:
@@ -219,9 +230,9 @@ class _Writer:
         self.numbers[step.key] = len(self.numbers) + 1
         equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
         before, after = _around_chain(nodes)
-        display = Display((equations,), self._margin(step))
+        display = Display((equations,), frozenset(e.grade for e in step.evidence), self._routes(step))
         if not before and blocks and isinstance(blocks[-1], Display):
-            blocks[-1] = Display((*blocks[-1].groups, equations), blocks[-1].margin)
+            blocks[-1] = blocks[-1].with_more(display)
         else:
             blocks.extend([Paragraph(before)] if before else [])
             blocks.append(display)
@@ -268,11 +279,8 @@ class _Writer:
 
     # --- how it was checked ---
 
-    def _margin(self, step: Step) -> tuple[str, ...]:
-        grades = {e.grade for e in step.evidence}
-        worst = next(g for g in (Grade.SAMPLED, Grade.APPROXIMATION, Grade.PROVED, Grade.DEFINITION) if g in grades)
-        routes = [words for e in step.evidence if (words := self.words.route(step, e.claim))]
-        return (self.words.grades[worst], *routes[:1])
+    def _routes(self, step: Step) -> tuple[str, ...]:
+        return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
 
     def _closing(self) -> tuple[Node, ...]:
         steps = [*self.derivation.steps, *self.values.values()]
@@ -283,7 +291,7 @@ class _Writer:
         others = ", ".join(_count_by_grade(routes, self.words)) or "none"
         text = (
             f"{len(lines)} equalities between neighbouring lines, shown or not: {counts}. "
-            f"{len(routes)} results reached again by a second route: {others}. "
+            f"{len(routes)} second routes to the results: {others}. "
             f"{sum(e.grade is Grade.DEFINITION for e in evidence)} definitions. "
             "Every line is homogeneous in mass, length and time."
         )

@@ -73,4 +73,5 @@ def decoded(data: list[Any]) -> Any:
         return ImmutableDenseMatrix(rows, columns, [decoded(entry) for entry in entries])
     if name in _CONSTANTS:
         return _CONSTANTS[name]
-    return _CLASSES[name](*(decoded(arg) for arg in args))
+    as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # else 2(a + b) is multiplied out
+    return _CLASSES[name](*(decoded(arg) for arg in args), **as_written)

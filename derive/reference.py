@@ -156,12 +156,14 @@ def _verdict(stated: Stated, step: Quantity, entry: Entry, pinned: Problem) -> V
         verdict = _of_kind(stated.entries[i][1] * unit.dimension, values[i], step.step.kind)
         if verdict is None and entry.figures:
             verdict = _to_figures(values[i], right / unit.factor, entry.figures[i % len(entry.figures)])
-        verdict = verdict or equal(values[i] * unit.factor, right)
+        if verdict is None:
+            verdict = equal(values[i] * unit.factor, right)
         if not verdict:
             return replace(verdict, detail=_named_entry(i, shape) + verdict.detail)
         if worst.grade is Grade.PROVED and verdict.detail != "identical":
             worst = verdict
-    return worst
+    names = ", ".join(sorted(letter.name for letter, value in letters.items() if str(value) != letter.name))
+    return replace(worst, detail=f"{worst.detail}, for {names} as derived") if names else worst
 
 
 _SHAPES: Table[tuple[int, ...], str] = {(): "a scalar", (3, 1): "a vector", (3, 3): "a tensor"}

@@ -9,8 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from sympy import Integer, Symbol
+
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
-from derive.dimensions import NUMBER, unit_of_kind
+from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
 from derive.errors import Complaint, Rejected
 from derive.expressions import Amount
@@ -86,6 +88,7 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
         answers = returned_quantities(run_solve(problem), problem.script.returns)
     known = with_ancestors(answers, problem.script.returns)
     _check_answers(problem, known)
+    _check_letters(problem, known)
     derivation = derivation_of([part.answers for part in problem.parts], known, established)
     values: dict[str, Step] = {}
     for part in problem.parts:
@@ -113,38 +116,34 @@ def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
         raise Rejected(faults)
 
 
+def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
+    """A letter of the problem's own may not also be what a step calls its result."""
+    faults = []
+    for key, quantity in known.items():
+        symbol = quantity.symbol
+        if isinstance(symbol, Symbol) and symbol.name in problem.symbols:
+            message = f"`{symbol.name}` is a letter of this problem, but the step `{key}` calls its result so too"
+            help_line = 'use another letter, or give the verb `symbol="..."`'
+            faults.append(Complaint("letter-clash", message, problem.place_of("symbols"), help=help_line))
+    if faults:
+        raise Rejected(faults)
+
+
 def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
-    figures = form.figures or problem.figures
+    kind = answer.step.kind or "number"
     amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in problem.measured}
-    unit = (
-        read_unit(form.unit or unit_of_kind(answer.step.kind or "number") or "1", part.ask.place) if form.unit else None
-    )
-    if unit is not None and answer.step.kind and unit.dimension != _dimension(answer):
-        message = f"`{answer.key}` is {_article(answer)}, which is not measured in `{form.unit}`"
-        raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
-    text = form.unit or unit_of_kind(answer.step.kind or "number")
-    value = value_of(answer, amounts, text, unit.factor if unit else _one(), figures)
+    unit, factor = unit_of_kind(kind), Integer(1)
+    if form.unit is not None:
+        asked = read_unit(form.unit, part.ask.place)
+        if asked.dimension != dimension_of_kind(kind):
+            message = f"`{answer.key}` is {kind_with_article(kind)}, which is not measured in `{form.unit}`"
+            raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
+        unit, factor = form.unit, asked.factor
+    figures = form.figures or problem.figures
+    value = value_of(answer, amounts, unit, factor, figures)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
-
-
-def _dimension(answer: Quantity) -> Any:
-    from derive.dimensions import dimension_of_kind
-
-    return dimension_of_kind(answer.step.kind) if answer.step.kind else NUMBER
-
-
-def _article(answer: Quantity) -> str:
-    from derive.dimensions import kind_with_article
-
-    return kind_with_article(answer.step.kind or "number")
-
-
-def _one() -> Any:
-    from sympy import Integer
-
-    return Integer(1)
 
 
 def _grades(derivation: Derivation, values: dict[str, Step]) -> dict[str, int]:

@@ -105,10 +105,12 @@ def _group(node: Node, problem: Problem, ids: list[str], faults: Faults) -> tupl
         help_line = did_you_mean(name, (i.partition("/")[2] for i in ids if i.startswith(f"{problem.set_id}/")))
         message = f"there is no problem `{name}` in this set"
         faults.error("no-such-problem", message, place.place if place else node.place, help=help_line)
-    elif name is None or f"{problem.set_id}/{name}" == problem.id:
+    elif name is None:
+        check_keys(node, GROUP_KEYS, "a group", faults)
+    elif f"{problem.set_id}/{name}" == problem.id:
         check_keys(node, GROUP_KEYS, "a group", faults)
         pinned = _pinned(problem, node, faults)
-        return (pinned, _entries(node.get("entries"), pinned.symbols, faults)) if name else None
+        return pinned, _entries(node.get("entries"), pinned.symbols, faults)
     return None
 
 
@@ -126,9 +128,11 @@ def _pinned(problem: Problem, node: Mapping, faults: Faults) -> Problem:
 def _entries(node: Node | None, symbols: Table[str, Declared], faults: Faults) -> list[Entry]:
     if node is None:
         return []
-    if not isinstance(node, Sequence) or not node.items:
+    if not isinstance(node, Sequence):
         wrong_type(faults, "`entries`", "a list of entries", node)
         return []
+    if not node.items:
+        faults.error("missing-value", "`entries` must be a list of entries, but it is empty", node.place)
     # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
     # the derivation knows of it comes back when the two are compared.
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in symbols.items()}
@@ -171,19 +175,23 @@ def _stated(node: Node | None, key: str, letters: Table[str, Declared], faults: 
     if node is None:
         return None
     rows = [_items(item) for item in _items(node)]
+    nested = any(isinstance(item, Sequence) for item in _items(node))
+    lengths = [len(row) for row in rows]
+    shape = (3, 3) if nested else (3, 1) if isinstance(node, Sequence) else ()
     scalars = [item for row in rows for item in row if isinstance(item, Scalar)]
-    lengths = {len(row) for row in rows}
-    is_list = isinstance(node, Sequence)
-    nested = is_list and any(isinstance(item, Sequence) for item in _items(node))
-    if len(scalars) != (9 if nested else 3 if is_list else 1) or lengths != {3 if nested else 1}:
-        wrong_type(faults, key, _VALUE, node)
+    if isinstance(node, Mapping) or lengths != {(): [1], (3, 1): [1] * 3, (3, 3): [3] * 3}[shape]:
+        found = f"has rows of {', '.join(map(str, lengths))}" if nested else f"has {len(rows)}"
+        message = f"{key} must be {_VALUE}, but it {found if shape else 'is a mapping'}"
+        faults.error("wrong-length" if shape else "wrong-type", message, node.place)
+        return None
+    if len(scalars) < sum(lengths):
+        wrong_type(faults, f"an entry of {key}", "an expression", next(i for r in rows for i in r if i not in scalars))
         return None
     entries = []
     for scalar in scalars:
         with faults:
             entries.append(read_expression(scalar, letters))
-    shape = (3, 3) if nested else (3, 1) if is_list else ()
-    return Stated(tuple(entries), shape, _text(node), node.place)
+    return None if len(entries) < len(scalars) else Stated(tuple(entries), shape, _text(node), node.place)
 
 
 def _items(node: Node) -> tuple[Node, ...]:

@@ -18,10 +18,10 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NoReturn
 
-from sympy import Expr, Integer, MatrixSymbol, Symbol
+from sympy import Expr, MatrixSymbol, Symbol
 
-from derive.errors import Complaint, Unverified
-from derive.evidence import Evidence, Grade, Verdict, equal
+from derive.errors import Complaint, Rejected, Unverified
+from derive.evidence import Evidence, Grade, Verdict, equal, vanishes
 from derive.expressions import AXES, bound, component_names, explicit
 from derive.tidy import tidied
 
@@ -156,6 +156,7 @@ def establish(
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
     result = tidied(bound(explicit(substituted), bindings))
+    _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
             *before,
@@ -201,6 +202,13 @@ def recorded() -> Iterator[list[Quantity]]:
         yield record
     finally:
         _established.reset(token)
+
+
+def _check_letter(key: str, symbol: Any, result: Any) -> None:
+    """A letter that already means something in the result cannot also be its name."""
+    if isinstance(symbol, Symbol) and any(other.name == symbol.name for other in result.free_symbols):
+        message = f"`{key}` is called {symbol.name}, but {symbol.name} already stands for something that is given"
+        raise Rejected(Complaint("letter-clash", message, help='use another letter, or give the verb `symbol="..."`'))
 
 
 def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
@@ -288,4 +296,4 @@ def entry_name(name: str, i: int, j: int) -> Symbol:
 def is_zero(value: Any) -> bool:
     value = explicit(value)
     entries: list[Expr] = list(value) if hasattr(value, "shape") else [value]
-    return all(entry == Integer(0) for entry in entries)
+    return all(vanishes(entry) for entry in entries)

@@ -29,6 +29,7 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
+from derive.evidence import vanishes
 from derive.expressions import explicit
 
 
@@ -46,6 +47,8 @@ def _tidied_scalar(value: Expr) -> Expr:
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):
+        if value.atoms(Add) and vanishes(value):
+            return Integer(0)
         value = _roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value))))
         return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
     try:

@@ -95,6 +95,14 @@ def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     return body.density.value * explicit(body.integral(values, point.position))
 
 
+def _whether_zero(v: Any) -> str:
+    """`zero`, `generic` if it is zero for no values of its letters, `in_general` if that is not known."""
+    if is_zero(v):
+        return "zero"
+    _, rest = factored_matrix(v)
+    return "generic" if any(entry.is_nonzero for entry in rest) else "in_general"
+
+
 def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of rotation, T = (1/2) omega . I omega.
 
@@ -127,7 +135,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
     inertia   tensor (3, 3), kg m^2, about a fixed point or the centre of mass
     omega     vector (3), 1/s, same axes
     Second route: the integral of r x (omega x r) dm over the body.
-    Outcomes: parallel (omega is along a principal axis), generic.
+    Outcomes: parallel (omega is along a principal axis), generic (never), in_general (it depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
     by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
@@ -137,7 +145,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         applied,
         {"inertia": inertia, "omega": omega},
         routes={"moments": by_moments},
-        outcome=lambda L: "parallel" if is_zero(tidied(Cross(omega.value, L))) else "generic",
+        outcome=lambda L: "parallel" if (how := _whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
         key=key,
         kind="angular momentum",
     )
@@ -207,7 +215,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     omega      vector (3), 1/s, body axes, constant
     momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
     Second route: carry L round the axis by a rotation matrix and differentiate.
-    Outcomes: zero (omega is along a principal axis), generic.
+    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
     (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
@@ -221,7 +229,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
         between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
         put_in=Level.FULL,
         routes={"carried_round": compared_with(lambda: carried)},
-        outcome=lambda tau: "zero" if is_zero(tau) else "generic",
+        outcome=_whether_zero,
         key=key,
         kind="torque",
     )

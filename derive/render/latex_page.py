@@ -135,10 +135,9 @@ class _Page:
         return f"{left} = {right} {RELATIONS[answer.relation]} {latex(self.notation.layout(answer.rounded))}"
 
     def margin(self, display: Display) -> str:
-        grade, *routes = display.margin
-        lines = [escaped(grade)]
-        if routes:
-            lines.append(escaped(f"{self.words.labels['second_route']}: {routes[0]}"))
+        lines = [escaped(self.words.grades[display.grade])]
+        if display.routes:
+            lines.append(escaped(f"{self.words.labels['second_route']}: {display.routes[0]}"))
         return r"\\ ".join(lines)
 
     def closing(self) -> str:
