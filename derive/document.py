@@ -5,7 +5,7 @@ Equations are numbered here, so that every format and every reference has the sa
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
@@ -13,11 +13,12 @@ from typing import Any
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
-from derive.evidence import Grade
+from derive.evidence import Evidence, Grade
 from derive.expressions import Amount
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
+from derive.reference import Comparison
 from derive.source import did_you_mean
 from derive.step import Form, Level, Step
 from derive.wording import (
@@ -129,11 +130,16 @@ class Document:
 
 
 def document_of(
-    problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases, level: Level
+    problem: Problem,
+    derivation: Derivation,
+    values: Mapping[str, Step],
+    words: Phrases,
+    level: Level,
+    compared: Sequence[Comparison] = (),
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous."""
     writer = _Writer(problem, derivation, values, words, level)
-    return writer.document(), writer.faults
+    return writer.document([c for c in compared if c.here]), writer.faults
 
 
 class _Writer:
@@ -152,7 +158,7 @@ class _Writer:
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
 
-    def document(self) -> Document:
+    def document(self, compared: Sequence[Comparison]) -> Document:
         problem = self.problem
         title = self._told(problem.title.pieces)
         statement = self._told(problem.statement.pieces)
@@ -165,7 +171,7 @@ class _Writer:
             points=problem.points,
             statement=statement,
             parts=parts,
-            closing=self._closing(),
+            closing=self._closing(compared),
             numbers=self.numbers,
             dimensions=self.dimensions,
             warnings=tuple(
@@ -282,25 +288,25 @@ class _Writer:
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
 
-    def _closing(self) -> tuple[Node, ...]:
-        steps = [*self.derivation.steps, *self.values.values()]
-        evidence = [e for step in steps for e in step.evidence]
+    def _closing(self, compared: Sequence[Comparison]) -> tuple[Node, ...]:
+        evidence = [e for step in [*self.derivation.steps, *self.values.values()] for e in step.evidence]
         lines = [e for e in evidence if e.claim.startswith("line ")]
         routes = [e for e in evidence if not e.claim.startswith("line ") and e.grade is not Grade.DEFINITION]
-        counts = ", ".join(_count_by_grade(lines, self.words)) or "none"
-        others = ", ".join(_count_by_grade(routes, self.words)) or "none"
-        text = (
-            f"{len(lines)} equalities between neighbouring lines, shown or not: {counts}. "
-            f"{len(routes)} second routes to the results: {others}. "
-            f"{sum(e.grade is Grade.DEFINITION for e in evidence)} definitions. "
-            "Every line is homogeneous in mass, length and time."
-        )
-        return (Text(text),)
+        names = {
+            "lines": len(lines),
+            "lines_by_grade": self._by_grade(lines),
+            "routes": len(routes),
+            "routes_by_grade": self._by_grade(routes),
+            "definitions": sum(e.grade is Grade.DEFINITION for e in evidence),
+            "compared": len(compared),
+            "agree": sum(c.outcome.startswith("agrees") for c in compared),
+            "errata": sum(c.outcome == "erratum" for c in compared),
+        }
+        return filled(self.words.labels["closing"], names)
 
-
-def _count_by_grade(evidence: list[Any], words: Phrases) -> list[str]:
-    counts = {grade: sum(e.grade is grade for e in evidence) for grade in Grade}
-    return [f"{n} {words.grades[grade]}" for grade, n in counts.items() if n]
+    def _by_grade(self, evidence: list[Evidence]) -> str:
+        counts = {grade: sum(e.grade is grade for e in evidence) for grade in Grade}
+        return ", ".join(f"{n} {self.words.grades[grade]}" for grade, n in counts.items() if n)
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

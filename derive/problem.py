@@ -112,7 +112,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         raise Rejected(
             Complaint("wrong-type", f"a problem must be a mapping, but this is {shape_of(node)}", node.place)
         )
-    return _Loader(root, problem_id, path, node).problem()
+    return ProblemReader(root, problem_id, path, node).problem()
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
@@ -127,7 +127,7 @@ def run_solve(problem: Problem) -> object:
     return run(problem.script, {given.name: given.value for given in problem.givens})
 
 
-class _Loader:
+class ProblemReader:
     """Reads one mapping key by key; a fault in one key does not hide those of the others."""
 
     def __init__(self, root: Path, problem_id: str, path: str, node: Mapping):

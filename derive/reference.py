@@ -44,6 +44,7 @@ class Comparison:
     grade: Grade | None
     detail: str
     complaint: Complaint | None = None
+    here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""
@@ -71,7 +72,8 @@ def comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
         if steps is None:
             steps = _derived_again(pinned)
             derived.append((given, steps))
-        found += [_comparison(entry, steps, pinned) for entry in entries]
+        here = given == _given(problem)
+        found += [replace(_comparison(entry, steps, pinned), here=here) for entry in entries]
     return tuple(found)
 
 

@@ -52,10 +52,10 @@ def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered
     problem = load_problem(root, problem_id)
     words = phrases(template_folder(root))
     derivation, values, known = _derived(problem)
-    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"))
+    compared = comparisons(problem, known)
+    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), compared)
     if faults:
         raise Rejected(faults)
-    compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
     return Rendered(
         id=problem_id,

@@ -13,7 +13,7 @@ from sympy import Expr, Symbol
 
 from derive.dimensions import Dimension
 from derive.errors import Place
-from derive.problem import Problem, _Loader, problem_ids
+from derive.problem import Problem, ProblemReader, problem_ids
 from derive.reading import Declared, read_expression
 from derive.schema import MAX_FIGURES, Key, check_keys, read_text, wrong_type
 from derive.source import Faults, Mapping, Node, Scalar, Sequence, did_you_mean, read_yaml
@@ -116,7 +116,7 @@ def _group(node: Node, problem: Problem, ids: list[str], faults: Faults) -> tupl
 
 def _pinned(problem: Problem, node: Mapping, faults: Faults) -> Problem:
     """The problem with the symbols, the given and the values of a group; its parts and its words do not matter here."""
-    loader = _Loader(problem.root, problem.id, reference_path(problem), node)
+    loader = ProblemReader(problem.root, problem.id, reference_path(problem), node)
     loader.faults = faults
     symbols = loader.symbols()
     values = loader.values(symbols)
