@@ -10,6 +10,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
+from sympy import preorder_traversal
+
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
@@ -29,6 +31,7 @@ from derive.wording import (
     Phrases,
     Ref,
     Text,
+    conversion,
     filled,
     given_words,
     joined,
@@ -152,9 +155,8 @@ class _Writer:
         self.numbers: dict[str, int] = {}
         every = [*derivation.steps, *values.values()]
         self.dimensions, self.faults = dimension_table(problem.dimensions, every)
-        for measured in problem.measured:
-            amount = Amount(measured.number, measured.unit, measured.factor)
-            self.dimensions[amount] = problem.dimensions.get(measured.symbol)
+        self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
+        self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
 
@@ -248,25 +250,35 @@ class _Writer:
     def _phrase(self, step: Step) -> tuple[Node, ...]:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
+        own["amounts"] = self._amounts(step)
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
             nodes = self._told(prose.pieces, own)
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         return filled(self.words.phrase(step), {**self.page_names, **own})
 
+    def _amounts(self, step: Step) -> tuple[Node, ...]:
+        """The numbers that a step puts in for the first time, in the units in which it does."""
+        used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
+        new = [m for m in self.problem.measured if self.problem.amounts[m.symbol] in used - self.converted]
+        self.converted |= used
+        items = [conversion(m, self.problem.amounts[m.symbol], self.problem.figures) for m in new]
+        return joined(items, self.words.labels["and"])
+
     def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
         level = Level.FULL if mode == "full" else self.level
         forms = [form for form in step.chain if level.shows(form.level)]
         if mode == "result":
             forms = [step.chain[-1]]
-        lines = [self._line(step, form, i == 0) for i, form in enumerate(forms)]
+        before = [None, *(form.because for form in forms)]
+        lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         return tuple(lines)
 
-    def _line(self, step: Step, form: Form, first: bool) -> Line:
+    def _line(self, step: Step, form: Form, before: str | None) -> Line:
         relation = "approx" if form.because == "rounded" else "equals"
-        template = "" if first else self.words.reason(step, form.because)
+        template = "" if before is None else self.words.reason(step, form.because, before)
         return Line(
-            left=step.symbol if first else None,
+            left=step.symbol if before is None else None,
             relation=relation,
             right=form.expr,
             reason=self._reason(step, template),

@@ -20,8 +20,8 @@ _SYMPY = (
     "StrictGreaterThan", "StrictLessThan", "GreaterThan", "LessThan",
 )
 _NODES = (
-    "Dot", "Norm", "Cross", "CarriedRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket", "Amount",
-    "MatrixAmount", "MassIntegral", "Outer",
+    "Dot", "Norm", "Cross", "CarriedRate", "BodyRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket",
+    "Amount", "MatrixAmount", "MassIntegral", "Outer",
 )
 # fmt: on
 _CLASSES: dict[str, Any] = {

@@ -21,6 +21,7 @@ from enum import StrEnum
 from typing import Any
 
 from sympy import (
+    Abs,
     Derivative,
     Dummy,
     Expr,
@@ -248,6 +249,8 @@ class _Tower:
             return self._generator(expr, 2, Integer(-1))
         if isinstance(expr, sin | cos):
             return self._circular(expr)
+        if isinstance(expr, Abs) and expr.args[0].is_real:
+            return self._generator(expr, 2, self._walk(expr.args[0]) ** 2)
         return self._opaque(expr)
 
     def _generator(self, expr: Expr, power: int = 0, equals: Expr = S.Zero) -> Symbol:

@@ -159,6 +159,13 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
     return about_y * about_z
 
 
+class BodyRate(VectorNode):
+    """dA/dt as seen in the body, of a vector A that is constant there."""
+
+    def _evaluated(self, a: Matrix) -> ImmutableMatrix:
+        return column(*(diff(component, Symbol("t", real=True)) for component in a))
+
+
 class Group(ScalarNode):
     """A value kept together in its bracket: the `(6 a^3 rho)` that is about to become M."""
 

@@ -12,7 +12,21 @@ from functools import reduce
 from operator import mul
 from typing import Any
 
-from sympy import Add, Basic, Function, Identity, Integral, MatAdd, MatMul, MatrixBase, MatrixSymbol, Mul, Pow, Symbol
+from sympy import (
+    Abs,
+    Add,
+    Basic,
+    Function,
+    Identity,
+    Integral,
+    MatAdd,
+    MatMul,
+    MatrixBase,
+    MatrixSymbol,
+    Mul,
+    Pow,
+    Symbol,
+)
 
 from derive import expressions as ex
 from derive.dimensions import NUMBER, Dimension, dimension_of_kind, exponents, kind_with_article, named
@@ -47,6 +61,9 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
         return None if ex.explicit(expr) == 0 else NUMBER
     if isinstance(expr, Add | MatAdd | ex.Terms):
         return _common(expr.args, table)
+    if isinstance(expr, ex.BodyRate):
+        vector = dimension_of(expr.args[0], table)
+        return None if vector is None else vector / dimension_of_kind("time")
     if isinstance(expr, Mul | MatMul | ex.Factors | ex.Dot | ex.Cross | ex.Outer | ex.CarriedRate):
         return _product(dimension_of(arg, table) for arg in expr.args)
     if isinstance(expr, ex.Ratio):
@@ -58,7 +75,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, ex.Root):
         inside = dimension_of(expr.args[0], table)
         return None if inside is None else inside ** Fraction(1, 2)
-    if isinstance(expr, ex.Norm | ex.Group):
+    if isinstance(expr, ex.Norm | ex.Group | Abs):
         return dimension_of(expr.args[0], table)
     if isinstance(expr, ex.Bracket):
         antiderivative, x, *limits = expr.args

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify, preorder_traversal
 
 from derive.expressions import Amount, Factors, MatrixAmount, bound, explicit, scaled
 from derive.rounding import rounded_form
-from derive.step import Form, Quantity, establish
+from derive.step import Form, Level, Quantity, establish
 from derive.tidy import factored_matrix
+
+SHORT = 9  # numbers; a formula with more of them is not written out again
 
 
 def value_of(
@@ -50,6 +52,7 @@ def value_of(
         kind=answer.step.kind,
         put_in=None,
         show_result=False,
+        law_shown=Level.BRIEF if _amounts_in(substituted) <= SHORT else Level.FULL,
         after=[Form(shown, "value" if lossless else "rounded")],
         parents=[answer],
     )
@@ -74,6 +77,10 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
         after=[Form(Factors(rounded_form(number, figures), letters), "rounded")],
         parents=[answer],
     )
+
+
+def _amounts_in(expr: Any) -> int:
+    return sum(isinstance(node, Amount) for node in preorder_traversal(expr))
 
 
 def _entries(value: Any) -> list[Expr]:

@@ -13,10 +13,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from sympy import Symbol
+from sympy import Integer, Symbol
 
-from derive.dimensions import KINDS, Dimension
+from derive.dimensions import KINDS, Dimension, unit_of_kind
 from derive.errors import Complaint, Misused, Place, Rejected
+from derive.expressions import Amount
 from derive.given import Given, Measured, read_givens, read_measured, symbol_of_kind
 from derive.parts import Part, points_text, read_parts, read_points
 from derive.prose import Prose, read_prose
@@ -83,6 +84,12 @@ class Problem:
     def dimensions(self) -> dict[Symbol, Dimension]:
         """The dimension of every letter, also of those that were introduced for numbers."""
         return {declared.symbol: declared.dimension for declared in self.symbols.values()}
+
+    @property
+    def amounts(self) -> dict[Symbol, Amount]:
+        """The number behind each letter that has one, in the coherent SI unit."""
+        units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in self.measured}
+        return {m.symbol: Amount(m.si, units[m.symbol], Integer(1)) for m in self.measured}
 
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""

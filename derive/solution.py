@@ -15,7 +15,6 @@ from derive.derivation import Derivation, derivation_of, returned_quantities, wi
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
 from derive.errors import Complaint, Rejected
-from derive.expressions import Amount
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
@@ -133,7 +132,6 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
     kind = answer.step.kind or "number"
-    amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in problem.measured}
     unit, factor = unit_of_kind(kind), Integer(1)
     if form.unit is not None:
         asked = read_unit(form.unit, part.ask.place)
@@ -142,7 +140,7 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
             raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
         unit, factor = form.unit, asked.factor
     figures = form.figures or problem.figures
-    value = value_of(answer, amounts, unit, factor, figures)
+    value = value_of(answer, problem.amounts, unit, factor, figures)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
 
 

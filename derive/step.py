@@ -131,6 +131,7 @@ def establish(
     definition: bool = False,
     put_in: Level | None = Level.STANDARD,
     show_result: bool = True,
+    law_shown: Level = Level.BRIEF,
     parents: Sequence[Quantity] = (),
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
@@ -145,7 +146,7 @@ def establish(
     routes    claim -> function of the result, giving two values that must be equal
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
-    put_in    the level at which the substituted law is shown; None leaves it out
+    put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
     key = key or rule.rpartition(".")[2]
@@ -160,7 +161,7 @@ def establish(
     chain = _without_repeats(
         [
             *before,
-            Form(formula, "law"),
+            Form(formula, "law", law_shown),
             *([Form(substituted, "put_in", put_in)] if put_in else []),
             *between,
             *([Form(result, "result")] if show_result else []),

@@ -20,6 +20,7 @@ from sympy import (
     Rational,
     cancel,
     expand,
+    factor,
     factor_list,
     factor_terms,
     gcd,
@@ -96,8 +97,8 @@ def _roots_drawn_out(value: Expr) -> Expr:
 def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
     """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
     outside, inside = Integer(1), Integer(1)
-    for factor in Mul.make_args(factor_terms(part)):
-        out, kept = _square_free_factor(factor, q)
+    for piece in Mul.make_args(factor_terms(part)):
+        out, kept = _square_free_factor(piece, q)
         outside, inside = outside * out, inside * kept
     return outside, inside
 
@@ -110,10 +111,10 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
     except PolynomialError:
         return Integer(1), part
     outside, inside = Integer(1), content
-    for factor, power in factors:
-        whole = power // q if factor.is_nonnegative else 0
-        outside *= factor**whole
-        inside *= factor ** (power - q * whole)
+    for base, power in factors:
+        whole = power // q if base.is_nonnegative else 0
+        outside *= base**whole
+        inside *= base ** (power - q * whole)
     # A sum that lost no factor is left as it was written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
 
@@ -135,11 +136,10 @@ def common_factor(entries: list[Expr]) -> Expr:
         bottom = reduce(lcm, (d for _, d in parts))
     except PolynomialError:
         return Integer(1)
-    if isinstance(top, Add) or top == 0:
-        top = Integer(1)
+    top = factor(top)
     roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))
-    factor = top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
-    return -factor if all(_leads_negative(entry) for entry in present) else factor
+    common = top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
+    return -common if all(_leads_negative(entry) for entry in present) else common
 
 
 def _numeric_roots(expr: Expr) -> set[Expr]:
@@ -152,6 +152,13 @@ def _leads_negative(entry: Expr) -> bool:
 
 def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
     """A matrix as (common factor, what is left)."""
-    factor = common_factor(list(matrix))
-    rest = matrix.applyfunc(lambda e: tidied(e / factor))
-    return factor, ImmutableDenseMatrix(rest)
+    common = common_factor(list(matrix))
+    return common, ImmutableDenseMatrix(matrix.applyfunc(lambda e: tidied(e / common)))
+
+
+def size_and_rest(v: Any) -> tuple[Expr, Any]:
+    """A vector as (size of its common factor, what is left), so that its length is the size times that of the rest."""
+    common, rest = factored_matrix(v)
+    if common.is_nonnegative:
+        return common, rest
+    return (-common if common.is_nonpositive else abs(common)), rest

@@ -21,6 +21,7 @@ from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
 from derive.expressions import AXES, Amount, scalar
 from derive.given import Given, Measured
+from derive.rounding import rounded_form
 from derive.step import Step
 
 
@@ -83,9 +84,10 @@ class Phrases:
             message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
             raise Rejected(Complaint("no-phrase", message)) from None
 
-    def reason(self, step: Step, because: str) -> str:
-        own = self.reasons.get(step.rule, {})
-        return own[because] if because in own else self.reasons["general"].get(because, "")
+    def reason(self, step: Step, because: str, before: str) -> str:
+        """Why a line follows from the line shown before it; a reason may hold only after a certain line."""
+        own = {**self.reasons["general"], **self.reasons.get(step.rule, {})}
+        return own.get(f"{because} after {before}", own.get(because, ""))
 
     def route(self, step: Step, claim: str) -> str:
         return self.routes.get(step.rule, {}).get(claim, "")
@@ -224,6 +226,17 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     if not behind:
         return names
     return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
+
+
+def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Node, ...]:
+    """`omega = 900 rpm = 30 pi rad/s = 94.25 rad/s` (rounded), `M = 1.5 kg`."""
+    written = Amount(measured.number, measured.unit, measured.factor)
+    nodes: list[Node] = [Math(measured.symbol), Text(" = "), Math(written)]
+    if measured.unit != amount.args[1].name:
+        nodes += [Text(" = "), Math(amount)]
+    if not measured.si.is_Rational:
+        nodes += [Text(" \u2248 "), Math(Amount(rounded_form(measured.si, figures), amount.args[1], amount.args[2]))]
+    return tuple(nodes)
 
 
 def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Node, ...]:

@@ -117,7 +117,7 @@ def axis_vector(along: ImmutableMatrix, name: str) -> Quantity:
         vector("d"),
         lambda: along,
         {},
-        outcome="named" if name != "components" else "components",
+        outcome="edge" if name in {"x", "y", "z"} else name,
         definition=True,
         words={"axis": name},
     )
@@ -149,7 +149,7 @@ def _gathered(sides: tuple[Expr, ...]) -> Expr:
 
 
 def centre_of_mass(body: Cuboid) -> Quantity:
-    """Centre of mass, c = (1/M) integral of r dm, from the corner.
+    """Centre of mass, r_C = (1/M) integral of r dm, from the corner.
 
     body    mass, region
     Second route: the mean position of the block's equimomental particles.
@@ -166,7 +166,7 @@ def centre_of_mass(body: Cuboid) -> Quantity:
 
     return establish(
         "bodies.centre_of_mass",
-        vector("c"),
+        vector("r_C"),
         lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
         {"mass": body.mass},
         routes={"particles": compared_with(mean_of_particles)},

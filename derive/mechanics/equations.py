@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
-from sympy import Add, Expr, MatrixSymbol, Mul
+from sympy import Add, Expr, Integer, MatrixSymbol, Mul
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import Dot, Factors, Group, Norm, Root, Terms, bound, component_names, explicit, scalar
 from derive.mechanics.rotation import length_by_turning
 from derive.step import Form, Level, Quantity, compared_with, establish
-from derive.tidy import factored_matrix
+from derive.tidy import size_and_rest
 
 
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
@@ -41,12 +41,11 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
     return establish(
         "equations.at",
         general.symbol,
-        lambda vector: value(general.value, vector),
-        {"vector": particular},
+        lambda _, vector: value(general.value, vector),
+        {"general": general, "vector": particular},
         routes={"law": compared_with(anew)},
         key=key or f"{general.key}_at_{particular.key}",
         kind=general.step.kind,
-        parents=[general],
     )
 
 
@@ -54,8 +53,14 @@ def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
     """The value with each name replaced, the terms of its sum kept apart."""
     sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
     outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
-    kept = [Terms(*(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
+    kept = [Terms(*_nonzero(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
     return Factors(*([outside] if outside != 1 else []), *kept) if kept else outside
+
+
+def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
+    """A term whose factor is zero is left out, as one does on paper."""
+    kept = [term for term in terms if explicit(term) != 0]
+    return kept or [Integer(0)]
 
 
 def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
@@ -66,8 +71,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
-    factor, rest = factored_matrix(of.value)
-    size = -factor if factor.could_extract_minus_sign() else factor
+    size, rest = size_and_rest(of.value)
     squares = [entry**2 for entry in rest if entry != 0]
     worked = [] if len(squares) < 2 else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
     return establish(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol, eye
+from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import (
@@ -26,7 +26,7 @@ from derive.expressions import (
 )
 from derive.mechanics.bodies import Cuboid, Point
 from derive.mechanics.integration import worked_integral
-from derive.step import Form, Level, Quantity, compared_with, entry_name, establish
+from derive.step import Level, Quantity, compared_with, entry_name, establish
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
 
@@ -38,30 +38,49 @@ def inertia_tensor(body: Cuboid, about: str = "centre", symbol: str | None = Non
     about   "corner" or "centre"; axes along the edges
     Each of the six entries is a step of its own.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles.
-    Outcomes: isotropic (the same about every axis), diagonal, generic.
+    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic.
     Errors: no such point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     point = body.point(about)
     name = symbol or ("I" if about == "centre" else "J")
     key = key or "inertia_tensor"
-    entries = {pair: _entry_by_integration(body, point, name, key, pair) for pair in PAIRS}
-    r = vector("r")
-    integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
+    by_definition = _definition(body, point, name, key)
+    entries = {pair: _entry_by_integration(body, point, name, key, pair, by_definition) for pair in PAIRS}
     return establish(
         "inertia.inertia_tensor",
         tensor(name),
         lambda *six: _symmetric(six),
         _by_pair(entries),
-        before=[Form(body.mass_integral(integrand, point.position, body.density.symbol), "law")],
-        routes={"particles": lambda tensor: _moment_about_any_axis(tensor, body, point)},
+        routes={
+            "definition": compared_with(lambda: by_definition.value),
+            "particles": lambda tensor: _moment_about_any_axis(tensor, body, point),
+        },
         outcome=_shape,
         kind="moment of inertia",
-        parents=[body.density],
         put_in=None,
         context={"body": body, "about": point},
         words={"about": point.name},
         key=key,
+    )
+
+
+def _definition(body: Cuboid, point: Point, name: str, key: str) -> Quantity:
+    """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
+    r = vector("r")
+    integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
+    return establish(
+        "inertia.definition",
+        tensor(name),
+        lambda _: body.mass_integral(integrand, point.position, body.density.symbol),
+        {"r": r},
+        definition=True,
+        kind="moment of inertia",
+        parents=[body.density],
+        put_in=None,
+        show_result=False,
+        words={"about": point.name},
+        key=f"{key}_definition",
     )
 
 
@@ -75,9 +94,10 @@ def _symmetric(six: Any) -> Any:
 
 
 def _shape(tensor: Any) -> str:
-    if tensor == tensor[0, 0] * eye(3):
-        return "isotropic"
-    return "diagonal" if tensor.is_diagonal() else "generic"
+    if not tensor.is_diagonal():
+        return "generic"
+    different = len({tensor[i, i] for i in range(3)})
+    return {1: "isotropic", 2: "two_equal"}.get(different, "diagonal")
 
 
 def _entry_outcome(pair: tuple[int, int]) -> str:
@@ -86,7 +106,9 @@ def _entry_outcome(pair: tuple[int, int]) -> str:
     return f"first_{kind}" if pair in ((0, 0), (0, 1)) else kind
 
 
-def _entry_by_integration(body: Cuboid, point: Point, name: str, key: str, pair: tuple[int, int]) -> Quantity:
+def _entry_by_integration(
+    body: Cuboid, point: Point, name: str, key: str, pair: tuple[int, int], definition: Quantity
+) -> Quantity:
     """One entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
     i, j = pair
     at = [limit[0] for limit in body.limits(point.position)]
@@ -106,6 +128,7 @@ def _entry_by_integration(body: Cuboid, point: Point, name: str, key: str, pair:
         put_in=None,
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
         words={"about": point.name},
+        parents=[definition],
     )
 
 
@@ -140,10 +163,10 @@ def _moment_about_any_axis(tensor: Any, body: Cuboid, point: Point) -> tuple[Exp
 
 
 def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
-    """Inertia tensor about the centre of mass from that about another point: I = J - M (c.c 1 - c c).
+    """Inertia tensor about the centre of mass, I = J - M (c.c 1 - c c), from J about another point of the body.
 
     tensor_there    tensor (3, 3), kg m^2, about a point of the body
-    centre          vector (3), m, from that point's body axes origin: the body's centre of mass
+    centre          vector (3), m: the body's centre of mass in its axes
     Second route: each entry by direct integration about the centre; the trace as twice the integral of r.r dm.
     Outcomes: as `inertia_tensor`.
     Errors: the tensor is already about the centre of mass.
@@ -182,7 +205,7 @@ def _components(v: Any) -> tuple[Any, ...]:
 
 
 def _entry_moved(there: Quantity, centre: Quantity, name: str, key: str, pair: tuple[int, int]) -> Quantity:
-    """One entry by parallel axes, I_xx = J_xx - M (c_y^2 + c_z^2) or I_xy = J_xy + M c_x c_y."""
+    """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z)."""
     i, j = pair
     body: Cuboid = there.context["body"]
     entry = next(parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}"))

@@ -81,6 +81,6 @@ def _mass_collected(integral: Integral, sign: int, rho: Symbol, volume: Expr) ->
         number, rest = -number, -rest
     number_part = [number] if number != 1 else []
     return [
-        Form(rho * value, "added", Level.FULL),
+        *([Form(rho * value, "added", Level.FULL)] if isinstance(integral.function, Add) else []),
         Form(Factors(*number_part, Group(volume * rho), rest), "mass_collected", Level.STANDARD),
     ]

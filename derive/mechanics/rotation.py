@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, Integer, Rational, acos, cos, pi, sin
+from sympy import Expr, Integer, MatAdd, Pow, Rational, acos, cos, pi, sin
 
 from derive.expressions import (
+    BodyRate,
     CarriedRate,
     Cross,
     Dot,
     Factors,
     Norm,
     Ratio,
+    Root,
+    Terms,
     applied,
     column,
     component_names,
@@ -23,7 +26,7 @@ from derive.expressions import (
 )
 from derive.mechanics.bodies import Cuboid, Point
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero
-from derive.tidy import factored_matrix, tidied
+from derive.tidy import factored_matrix, size_and_rest, tidied
 
 
 def any_angular_velocity(symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
@@ -48,21 +51,24 @@ def spin(rate: Expr, along: Quantity, symbol: str = "omega", key: str = "spin") 
 
     rate    angular speed, 1/s, positive
     along   vector (3) along the axis, right-handed about it
-    Second route: put back: its length is the rate and its scalar product with d is that of parallel vectors.
+    Second route: put back: its length is the size of the rate, and its scalar product with d that of parallel vectors.
+    Outcomes: right_handed, left_handed (the rate is written with a minus sign).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     size = -rate if rate.could_extract_minus_sign() else rate
+    length = tidied(Norm(along.value))
     return establish(
         "rotation.spin",
         vector(symbol),
         lambda w, d: scaled(w / Norm(d), d),
         {"rate": rate, "axis": along},
-        between=[Form(scaled(Ratio(rate, tidied(Norm(along.value))), along.value), "length", Level.STANDARD)],
+        between=[] if length == 1 else [Form(scaled(Ratio(rate, length), along.value), "length", Level.STANDARD)],
         put_in=None,
         routes={
             "length": lambda omega: (length_by_turning(omega), size),
-            "parallel": lambda omega: (explicit(Dot(omega, along.value)), rate * tidied(Norm(along.value))),
+            "parallel": lambda omega: (explicit(Dot(omega, along.value)), rate * length),
         },
+        outcome="right_handed" if size == rate else "left_handed",
         key=key,
         kind="angular speed",
         context={"rate": rate},
@@ -71,9 +77,7 @@ def spin(rate: Expr, along: Quantity, symbol: str = "omega", key: str = "spin") 
 
 def length_by_turning(v: Any) -> Expr:
     """A vector's length: turn it about z into the xz plane, then about y onto z, and read off the component."""
-    factor, rest = factored_matrix(v)
-    size = -factor if factor.could_extract_minus_sign() else factor
-    x, y, z = rest
+    size, (x, y, z) = size_and_rest(v)
     level = _turned_onto_first(x, y)
     return tidied(size * _turned_onto_first(level, z))
 
@@ -172,13 +176,37 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine") -> Quantity:
         cos(scalar("theta")),
         lambda u, v: Ratio(Dot(u, v), Factors(Norm(u), Norm(v))),
         {"a": a, "b": b},
-        between=[Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)],
+        between=_lengths_worked(a, b, lengths),
         put_in=Level.FULL,
         routes={"triangle": compared_with(by_law_of_cosines)},
         outcome=_relation_of_directions,
         key=key,
         kind="number",
     )
+
+
+def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
+    """The scalar product and the two lengths: with the sums of products in sight, then carried out."""
+    parts = [size_and_rest(v.value) for v in (a, b)]
+    (f, u), (g, v) = parts
+    forms = [Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)]
+    if u.free_symbols or v.free_symbols:
+        return forms
+    products = [x * y for x, y in zip(u, v, strict=True) if x * y != 0]
+    roots = [_as_root_of_squares(size, rest, length) for (size, rest), length in zip(parts, lengths, strict=True)]
+    if len(products) > 1:
+        worked = Ratio(Factors(tidied(f * g), Terms(*products)), Factors(*roots))
+        forms.insert(0, Form(worked, "products", Level.STANDARD))
+        forms[1] = Form(forms[1].expr, "lengths", Level.FULL)
+    return forms
+
+
+def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
+    """M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225); a length that is plain stays plain."""
+    if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
+        return length
+    squares = [entry**2 for entry in rest if entry != 0]
+    return Factors(size, Root(Terms(*squares))) if len(squares) > 1 else length
 
 
 def _relation_of_directions(cosine: Expr) -> str:
@@ -225,7 +253,10 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
         vector(symbol),
         Cross,
         {"omega": omega, "momentum": momentum},
-        before=[Form(CarriedRate(momentum.symbol, omega.symbol), "law")],
+        before=[
+            Form(CarriedRate(momentum.symbol, omega.symbol), "law"),
+            Form(MatAdd(BodyRate(momentum.symbol), Cross(omega.symbol, momentum.symbol)), "moving_axes"),
+        ],
         between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
         put_in=Level.FULL,
         routes={"carried_round": compared_with(lambda: carried)},

@@ -84,6 +84,9 @@ class _PlainSymPy(StrPrinter):
     def _print_CarriedRate(self, expr: Any) -> str:
         return self._print_Cross(ex.Cross(expr.args[1], expr.args[0]))
 
+    def _print_BodyRate(self, expr: Any) -> str:
+        return "zeros(3, 1)"
+
     def _print_Bracket(self, expr: Any) -> str:
         return f"({self._print(expr.doit())})"
 

@@ -16,6 +16,7 @@ from derive.render.layout import (
     IntegralSign,
     Layout,
     Limits,
+    Lowered,
     Mark,
     Name,
     Number,
@@ -65,6 +66,8 @@ class _Printer:
                 return self._fraction(above, below)
             case Raised(base, power):
                 return f"{self.show(base)}^{{{self.show(power)}}}"
+            case Lowered(base, word):
+                return rf"{self.show(base)}_{{\mathrm{{{word}}}}}"
             case RootSign(inside):
                 return rf"\sqrt{{{self.show(inside)}}}"
             case Fenced(inside, kind):
@@ -72,7 +75,8 @@ class _Printer:
                 tall = _is_tall(inside, self.inline)
                 return self._fenced(left, self.show(inside), right, tall)
             case Limits(inside, lower, upper):
-                return rf"\Bigl[{self.show(inside)}\Bigr]_{{{self.show(lower)}}}^{{{self.show(upper)}}}"
+                bounds = f"_{{{self.show(lower)}}}^{{{self.show(upper)}}}"
+                return rf"\mathopen{{}}\left[{self.show(inside)}\right]{bounds}"
             case IntegralSign(lower, upper):
                 if lower is None or upper is None:
                     return r"\int "
@@ -84,7 +88,7 @@ class _Printer:
                 return f"{command}{raised}{gap}{self.show(argument)}"
             case Array(rows):
                 body = r" \\ ".join(" & ".join(_Printer(True).show(entry) for entry in line) for line in rows)
-                return rf"\begin{{pmatrix}} {body} \end{{pmatrix}}"
+                return rf"{{\begin{{pmatrix}} {body} \end{{pmatrix}}}}"
         raise TypeError(f"no LaTeX for {type(layout).__name__}")
 
     def _row(self, items: tuple[Layout, ...]) -> str:
@@ -103,7 +107,7 @@ class _Printer:
     def _fenced(self, left: str, inside: str, right: str, tall: bool) -> str:
         if left == "|":
             return rf"\left|{inside}\right|" if tall else rf"\lvert {inside}\rvert "
-        return rf"\left({inside}\right)" if tall else f"({inside})"
+        return rf"\mathopen{{}}\left({inside}\right)\mathclose{{}}" if tall else f"({inside})"
 
 
 def _separated(pieces: list[str]) -> list[str]:
@@ -119,10 +123,10 @@ def _separated(pieces: list[str]) -> list[str]:
 
 
 def _runs_into(before: Layout, item: Layout) -> bool:
-    """A thin space where two factors touch: after a fraction, before a differential."""
-    return (
-        isinstance(before, Fraction | Array | RootSign) and not isinstance(item, Mark) and not begins_with_number(item)
-    )
+    """A thin space where two factors touch: after a fraction, before a bracket or a vector."""
+    if isinstance(item, Mark) or isinstance(before, Mark | IntegralSign) or begins_with_number(item):
+        return False
+    return isinstance(before, Fraction | Array | RootSign) or isinstance(item, Array | Fenced) and before != Word("d")
 
 
 def _is_tall(layout: Layout, inline: bool) -> bool:
@@ -135,7 +139,7 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
             return not inline
         case Row(items):
             return any(_is_tall(item, inline) for item in items)
-        case Raised(base, _) | RootSign(base) | Fenced(base, _):
+        case Raised(base, _) | RootSign(base) | Fenced(base, _) | Lowered(base, _):
             return _is_tall(base, inline)
         case Applied(_, argument, _):
             return _is_tall(argument, inline)
@@ -158,7 +162,7 @@ def _name(name: Name) -> str:
 def _subscript(text: str) -> str:
     if text in GREEK:
         return rf"\{text}"
-    return text if len(text) <= 2 else rf"\mathrm{{{text.replace('_', ',')}}}"
+    return "".join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in text.split("_"))
 
 
 def unit_latex(text: str) -> str:

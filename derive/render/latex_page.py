@@ -109,18 +109,18 @@ class _Page:
 
     def display(self, display: Display) -> str:
         """The rows of an align environment; the last row of each step is numbered."""
-        rows: list[Printed] = []
-        stops: list[str] = []
+        steps = []
         for group, stop in zip(display.groups, display.stops, strict=True):
-            lines = printed_lines(group, self.notation, WIDTH)
-            rows += lines
-            stops += [""] * (len(lines) - 1) + [stop]
-        return " \\\\\n".join(self._row(printed, stop) for printed, stop in zip(rows, stops, strict=True))
+            *lines, last = printed_lines(group, self.notation, WIDTH)
+            rows = [self._row(line, "") for line in lines] + [self._row(last, stop)]
+            steps.append(" \\\\*\n".join(rows))  # a page ends between steps, not within one
+        return " \\\\\n".join(steps)
 
     def _row(self, printed: Printed, stop: str) -> str:
         left = latex(printed.left) if printed.left else ""
-        sides = " ".join(f"{RELATIONS[relation]} {latex(side)}" for relation, side in printed.sides)
-        body = f"{left} &" + (rf"\fit{{{sides}}}" if printed.width > WIDTH else sides) + stop
+        fitted = r"\fit{%s}" if printed.width > WIDTH else "%s"
+        sides = " ".join(f"{RELATIONS[relation]} {fitted % latex(side)}" for relation, side in printed.sides)
+        body = f"{left} &{sides}{stop}"
         reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
         if printed.number is None:
             return body + (rf" \tag*{{{reason}\blanknumber}}" if reason else r" \notag")

@@ -59,6 +59,14 @@ class Raised:
 
 
 @dataclass(frozen=True)
+class Lowered:
+    """A layout with a word as its subscript: (dL/dt)_body."""
+
+    base: Layout
+    word: str
+
+
+@dataclass(frozen=True)
 class RootSign:
     inside: Layout
 
@@ -105,7 +113,20 @@ class Array:
 
 
 Layout = (
-    Number | Name | Word | Mark | Row | Fraction | Raised | RootSign | Fenced | Limits | IntegralSign | Applied | Array
+    Number
+    | Name
+    | Word
+    | Mark
+    | Row
+    | Fraction
+    | Raised
+    | Lowered
+    | RootSign
+    | Fenced
+    | Limits
+    | IntegralSign
+    | Applied
+    | Array
 )
 
 GREEK = {

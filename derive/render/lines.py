@@ -13,6 +13,7 @@ from derive.render.layout import (
     IntegralSign,
     Layout,
     Limits,
+    Lowered,
     Mark,
     Name,
     Number,
@@ -84,6 +85,8 @@ def width(layout: Layout) -> float:
             return max(width(above), width(below)) + 0.6
         case Raised(base, power):
             return width(base) + 0.7 * width(power)
+        case Lowered(base, word):
+            return width(base) + 0.6 * len(word)
         case RootSign(inside):
             return width(inside) + 1.5
         case Fenced(inside, _):

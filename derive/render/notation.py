@@ -12,6 +12,7 @@ from decimal import Decimal
 from typing import Any
 
 from sympy import (
+    Abs,
     Add,
     Derivative,
     Expr,
@@ -48,6 +49,7 @@ from derive.render.layout import (
     IntegralSign,
     Layout,
     Limits,
+    Lowered,
     Mark,
     Name,
     Number,
@@ -56,6 +58,7 @@ from derive.render.layout import (
     Row,
     Word,
     begins_with_number,
+    first_of,
     is_enclosed,
     is_number,
     last_of,
@@ -64,6 +67,7 @@ from derive.render.layout import (
 from derive.rounding import Rounded, decimal_text
 from derive.tidy import factored_matrix
 
+SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
 FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
 
 
@@ -142,6 +146,8 @@ class Notation:
             top = self._factors([*number_above, *self._ordered(letters_above)])
             return Fraction(top, self._factors([*number_below, *self._ordered(letters_below)]))
         letters = self._ordered(letters_above)
+        if number_below and len(letters) == 1 and isinstance(letters[0], ex.Amount):
+            letters = [ex.Group(letters[0])]
         if not number_below:
             return self._factors([*number_above, *letters])
         if any(isinstance(f, Pow) for f in number_below):
@@ -155,6 +161,8 @@ class Notation:
     def _rank(self, factor: Expr) -> tuple[int, int, str]:
         """Density and mass, accelerations, lengths, numbers, rates; then brackets and functions."""
         base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
+        if isinstance(base, Add | ex.Terms):
+            return (0, SUMS, str(factor))
         if not isinstance(base, Symbol | ex.Amount):
             return (2 if isinstance(base, Add | ex.Terms | ex.Group) else 1, 0, str(factor))
         dimension = self._dimensions.get(base)
@@ -183,8 +191,8 @@ class Notation:
         for i, factor in enumerate(factors):
             leads = i == 0
             inner = self.layout(factor) if leads and not isinstance(factor, Add | ex.Terms) else self._as_factor(factor)
-            if items:
-                items.append(_between(items[-1], inner))
+            mark = _between(items[-1], inner) if items else None
+            items += [mark] if mark else []
             items.append(inner)
         return row(*items)
 
@@ -242,9 +250,9 @@ class Notation:
     def _matrix_product(self, expr: MatMul) -> Layout:
         scalars = [arg for arg in expr.args if not ex.is_matrix(arg)]
         others = [arg if scalars else present(arg) for arg in expr.args if ex.is_matrix(arg)]
-        items = [] if not scalars or Mul(*scalars) == 1 else [self._scalar_in_front(Mul(*scalars))]
-        if scalars and Mul(*scalars) == -1:
-            items = [MINUS]
+        negative, size = _sign_and_size(Mul(*scalars)) if len(scalars) != 1 else _sign_and_size(scalars[0])
+        items: list[Layout] = [MINUS] if negative else []
+        items += [self._scalar_in_front(size)] if size != 1 else []
         for other in others:
             inner = self.layout(other)
             items.append(Fenced(inner) if isinstance(other, MatAdd | ex.Cross) and len(expr.args) > 2 else inner)
@@ -277,9 +285,12 @@ class Notation:
     def _norm(self, expr: ex.Norm) -> Layout:
         return Fenced(self.layout(present(expr.args[0])), "|")
 
-    def _rate(self, expr: ex.CarriedRate) -> Layout:
+    def _rate(self, expr: ex.CarriedRate | ex.BodyRate) -> Layout:
         inner = self.layout(expr.args[0])
         return Fraction(row(Word("d"), inner), row(Word("d"), Name("t")))
+
+    def _body_rate(self, expr: ex.BodyRate) -> Layout:
+        return Lowered(Fenced(self._rate(expr)), "body")
 
     def _identity(self, expr: Identity) -> Layout:
         return Name("1", style="tensor")
@@ -362,7 +373,9 @@ class Notation:
         (ex.Cross, _cross),
         (ex.Outer, _outer),
         (ex.Norm, _norm),
+        (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
         (ex.CarriedRate, _rate),
+        (ex.BodyRate, _body_rate),
         (ex.MassIntegral, _mass_integral),
         (Integral, _integral),
         (Identity, _identity),
@@ -445,14 +458,14 @@ def _with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 def _rank_of_dimension(dimension: Dimension | None) -> int:
     if dimension is None or dimension.is_number:
-        return 3
+        return 4
     if dimension.mass and not dimension.length:
         return 0
     if dimension.mass:
-        return 3
+        return 4
     if dimension.length and dimension.time:
         return 1
-    return 2 if dimension.length else 4
+    return 2 if dimension.length else 5
 
 
 def _side_by_side(items: list[Layout]) -> Layout:
@@ -464,17 +477,17 @@ def _side_by_side(items: list[Layout]) -> Layout:
     return row(*placed)
 
 
-def _between(before: Layout, after: Layout) -> Layout:
-    """What stands between two factors as written: nothing beside a bracket or behind a number, else a dot."""
+def _between(before: Layout, after: Layout) -> Layout | None:
+    """What stands between two factors as written: nothing between different letters, a dot where they run together."""
     if begins_with_number(after):
         return DOT
     last = last_of(before)
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
         return SPACE
     if _is_letter(before) and _is_letter(after):
-        return SPACE
+        return None if before != after else DOT
     starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
-    return SPACE if starts_integral or isinstance(after, IntegralSign) or _is_vector_row(after) else DOT
+    return SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
 
 
 def _is_letter(layout: Layout) -> bool:
@@ -485,5 +498,7 @@ def _ends_in_differential(layout: Layout) -> bool:
     return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
 
 
-def _is_vector_row(layout: Layout) -> bool:
-    return isinstance(layout, Row) and any(item in (DOT, CROSS) for item in layout.items[1:2])
+def _begins_with_vector(layout: Layout) -> bool:
+    """A scalar product, before which no dot may stand."""
+    first = first_of(layout)
+    return isinstance(first, Array) or (isinstance(first, Name) and first.style != "scalar")

@@ -13,6 +13,7 @@ from derive.render.layout import (
     IntegralSign,
     Layout,
     Limits,
+    Lowered,
     Mark,
     Name,
     Number,
@@ -87,7 +88,7 @@ def _line(layout: Layout) -> str:
         case Name(base, subscript, dots, style):
             letter = GREEK.get(base, base) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
             mark = "\u20d7" if style == "vector" and base != "0" else ""
-            return letter + mark + (f"_{GREEK.get(subscript, subscript)}" if subscript else "")
+            return letter + mark + (f"_{GREEK.get(subscript, subscript).replace('_', '')}" if subscript else "")
         case Word(text):
             return UNITS.get(text, text)
         case Mark(kind):
@@ -98,6 +99,8 @@ def _line(layout: Layout) -> str:
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
             return _line(base) + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+        case Lowered(base, word):
+            return f"{plain(base)}_{word}"
         case RootSign(inside):
             inner = plain(inside)
             return f"√{inner}" if isinstance(inside, Number | Name) else f"√({inner})"
@@ -124,7 +127,7 @@ def _row(items: tuple[Layout, ...]) -> Box:
     result: Box | None = None
     before: Layout | None = None
     for i, item in enumerate(items):
-        leads = i == 0 or before in (Mark("equals"), Mark("approx"))
+        leads = i == 0 or (isinstance(before, Mark) and before.kind not in ("plus", "minus", "space"))
         piece = Box(("-",)) if leads and item == Mark("minus") else box(item)
         if result is not None and before is not None and _needs_space(before, item):
             result = result.beside(Box((" ",)))

@@ -86,7 +86,7 @@ LAWS = [
     ("inertia_tensor", INERTIA, "Integer(-1), Outer(r, r)", "Integer(1), Outer(r, r)", "corner_tensor"),
     ("inertia_tensor", INERTIA, "Dot(r, r), Identity(3)", "2 * Dot(r, r), Identity(3)", "corner_tensor"),
     ("inertia_tensor", INERTIA, "at[(min(i, j), max(i, j))]", "at[(2 - max(i, j), 2 - min(i, j))]", "corner_tensor"),
-    ("inertia_tensor", INERTIA, "at[(min(i, j), ", "(1 - 2 * (i > j)) * at[(min(i, j), ", "corner_tensor"),
+    ("inertia_tensor", INERTIA, "at[(min(i, j), ", "(-1) ** int(i > j) * at[(min(i, j), ", "corner_tensor"),
     ("inertia_tensor at once", BODIES, "-start, side - start)", "-start, side)", "inertia_tensor_xx"),
     ("inertia_tensor at once", BODIES, "*(side / 2 for side", "*(side / 3 for side", "inertia_tensor"),
     # an integral's lines, one by one

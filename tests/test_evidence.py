@@ -1,0 +1,292 @@
+"""What is proved is so, what differs is refuted, and a sample is never called a proof."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from sympy import (
+    Abs,
+    Expr,
+    Function,
+    I,
+    Integer,
+    Matrix,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    cancel,
+    cbrt,
+    cos,
+    cosh,
+    diff,
+    exp,
+    expand,
+    eye,
+    factor,
+    log,
+    nan,
+    pi,
+    sin,
+    sinh,
+    sqrt,
+    symbols,
+    tan,
+    together,
+    zoo,
+)
+
+from derive.evidence import Grade, Verdict, equal, vanishes
+from derive.expressions import Cross, Dot, column
+
+x, y, t = symbols("x y t", real=True)
+a, b, c = symbols("a b c", positive=True)
+n = Symbol("n", integer=True)
+q, A = Function("q")(t), Function("A")(t)
+
+IDENTITIES = [
+    # polynomials and fractions
+    ((x + y) ** 3, x**3 + 3 * x**2 * y + 3 * x * y**2 + y**3),
+    ((x**2 - 1) / (x - 1), x + 1),
+    (1 / (a * (a + b)) + 1 / (b * (a + b)), 1 / (a * b)),
+    # multiple and half angles
+    (sin(x) ** 2 + cos(x) ** 2, Integer(1)),
+    (sin(3 * x), 3 * sin(x) - 4 * sin(x) ** 3),
+    (cos(4 * x), 8 * cos(x) ** 4 - 8 * cos(x) ** 2 + 1),
+    (sin(x / 2) ** 2, (1 - cos(x)) / 2),
+    (sin(x / 2) * cos(x / 2), sin(x) / 2),
+    (cos(x / 3) ** 3, (3 * cos(x / 3) + cos(x)) / 4),
+    (sin(x + y) * sin(x - y), sin(x) ** 2 - sin(y) ** 2),
+    (sin(x + pi / 3), sin(x) / 2 + sqrt(3) * cos(x) / 2),
+    (tan(x) * cos(x), sin(x)),
+    (1 + tan(x) ** 2, 1 / cos(x) ** 2),
+    (sin(x) ** 2 / (1 - cos(x)), 1 + cos(x)),
+    # roots
+    (sqrt(6) * x, sqrt(2) * sqrt(3) * x),
+    (sqrt(2) / (sqrt(2) + sqrt(3)), sqrt(6) - 2),
+    (1 / (sqrt(3) - sqrt(2)), sqrt(3) + sqrt(2)),
+    (sqrt(a**2 + 2 * a * b + b**2), a + b),
+    (sqrt(a**2 * b + a**3), a * sqrt(a + b)),
+    (sqrt(a * b) / sqrt(a), sqrt(b)),
+    (sqrt(a / (a + b)), sqrt(a * (a + b)) / (a + b)),
+    (cbrt(a) * cbrt(a**2), a),
+    ((sqrt(a + b) + sqrt(a)) * (sqrt(a + b) - sqrt(a)), b),
+    (sqrt(1 + sqrt(a)) ** 2 - 1, sqrt(a)),
+    (sqrt(1 + sqrt(2)) * sqrt(1 + sqrt(2)), 1 + sqrt(2)),
+    (sqrt(x**2 + 1) ** 3, (x**2 + 1) * sqrt(x**2 + 1)),
+    # inverse and unknown functions
+    (acos((x**2 - 1) / (3 * (x - 1))), acos((x + 1) / 3)),
+    (acos(sqrt(6) / 3), acos(sqrt(2) / sqrt(3))),
+    (diff(q**2, t), 2 * q * diff(q, t)),
+    ((diff(A, t) + A) ** 2, diff(A, t) ** 2 + 2 * A * diff(A, t) + A**2),
+    (diff(A, t, 2) * A + diff(A, t) ** 2, diff(A * diff(A, t), t)),
+]
+
+# true, but beyond the exact methods
+BEYOND = [
+    (sqrt(5 + 2 * sqrt(6)), sqrt(2) + sqrt(3)),
+    (sinh(x) ** 2 + 1, cosh(x) ** 2),
+    (exp(x + y), exp(x) * exp(y)),
+    (log(a * b), log(a) + log(b)),
+    (2 * acos(sqrt((1 + x) / 2)), acos(x)),
+    (acos(a), pi / 2 - asin(a)),
+    (sqrt(1 - sin(x) ** 2), Abs(cos(x))),
+    (exp(I * x), cos(x) + I * sin(x)),
+]
+
+FALSE = [
+    (sqrt(x**2), x),
+    (sqrt(1 - sin(x) ** 2), cos(x)),
+    (sqrt(x**2 - 1), sqrt(x - 1) * sqrt(x + 1)),
+    (sin(2 * x), 2 * sin(x)),
+    (cos(x / 2) ** 2, (1 - cos(x)) / 2),
+    (sin(x) ** 2, 1 + cos(x) ** 2),
+    (sqrt(a + b), sqrt(a) + sqrt(b)),
+    (sqrt(2) + sqrt(3), sqrt(5)),
+    (acos(cos(x)), x),
+    (acos(x), acos(x) + Rational(1, 10**9)),
+    (asin(a), acos(a)),
+    (q, diff(q, t)),
+    (2 * diff(A, t), diff(A, t)),
+    (diff(q, t, 2), diff(q, t)),
+    (q, Function("p")(t)),
+    (x * (1 + Rational(1, 10**25)), x),
+    (1 + Rational(1, 10**25), Integer(1)),
+    (a * sqrt(2) * (1 + Rational(1, 10**30)), a * sqrt(2)),
+    (Rational(22, 7), pi),
+    (sin(x) - x + x**3 / 6, Integer(0)),
+    (Integer(0), x / 10**20),
+]
+
+
+@pytest.mark.parametrize(("left", "right"), IDENTITIES)
+def test_an_identity_of_mechanics_is_proved(left: Expr, right: Expr) -> None:
+    assert equal(left, right).grade is Grade.PROVED
+    assert equal(right, left).grade is Grade.PROVED
+
+
+@pytest.mark.parametrize(("left", "right"), [*IDENTITIES, *BEYOND])
+def test_a_zero_in_disguise_is_no_different_from_zero(left: Expr, right: Expr) -> None:
+    assert equal(left - right, Integer(0))
+    assert equal(Integer(0), right - left)
+
+
+@pytest.mark.parametrize(("left", "right"), BEYOND)
+def test_what_no_exact_method_decides_is_sampled_and_says_so(left: Expr, right: Expr) -> None:
+    verdict = equal(left, right)
+    assert verdict.grade is Grade.SAMPLED
+    assert "to 50 digits" in verdict.detail
+
+
+@pytest.mark.parametrize(("left", "right"), FALSE)
+def test_what_is_not_equal_is_refuted(left: Expr, right: Expr) -> None:
+    for verdict in (equal(left, right), equal(right, left)):
+        assert verdict.grade is Grade.REFUTED
+        assert not verdict
+
+
+@pytest.mark.parametrize(("left", "right"), FALSE)
+def test_what_is_not_equal_is_never_said_to_vanish(left: Expr, right: Expr) -> None:
+    assert not vanishes(left - right)
+
+
+def test_a_refutation_names_a_point_at_which_the_two_sides_differ() -> None:
+    verdict = equal(sin(2 * x) * a, 2 * sin(x) * a)
+    point = {symbol: Rational(dict(verdict.point)[str(symbol)]) for symbol in (a, x)}
+    left, right = ((expr * a).subs(point).evalf(6) for expr in (sin(2 * x), 2 * sin(x)))
+    assert verdict.detail == f"{left} against {right}"
+    assert left != right
+
+
+def test_points_are_the_same_in_every_run() -> None:
+    assert equal(sqrt(x**2), x) == equal(sqrt(x**2), x)
+
+
+def test_a_positive_letter_is_sampled_where_it_is_positive() -> None:
+    assert equal(sqrt(a**2 * (1 + x**2)), a * sqrt(1 + x**2)).grade is Grade.PROVED
+
+
+def test_an_integer_letter_is_sampled_at_integers() -> None:
+    assert equal(cos(2 * pi * n), Integer(1))
+    assert equal(sin(pi * n) ** 2 + cos(pi * n) ** 2, Integer(1))
+
+
+def test_points_at_which_a_side_is_undefined_are_passed_over() -> None:
+    """sqrt(x - 1)/sqrt(x - 1) and tan(x)/tan(x) have gaps, not differences."""
+    assert equal((x**2 - 4) / (x - 2), x + 2).grade is Grade.PROVED
+
+
+@pytest.mark.parametrize("undefined", [zoo, nan, zoo * x])
+def test_what_is_undefined_equals_nothing(undefined: Expr) -> None:
+    assert equal(undefined, Integer(1)).grade is Grade.REFUTED
+    assert equal(undefined, undefined).grade is Grade.REFUTED
+
+
+def test_a_side_that_is_undefined_wherever_it_is_tried_is_refused() -> None:
+    hole = 1 / (sin(x) ** 2 + cos(x) ** 2 - 1)
+    assert not equal(hole, log(x))
+
+
+def test_matrices_are_compared_entry_by_entry() -> None:
+    rotation = Matrix([[cos(x), -sin(x)], [sin(x), cos(x)]])
+    assert equal(rotation * rotation.T, eye(2)).grade is Grade.PROVED
+    assert equal(rotation * rotation, rotation).grade is Grade.REFUTED
+
+
+def test_a_matrix_is_as_sure_as_its_least_sure_entry() -> None:
+    sure, unsure = IDENTITIES[3], BEYOND[1]
+    for pairs in ([sure, unsure], [unsure, sure], [unsure, (x, x)]):
+        left, right = (Matrix([pair[side] for pair in pairs]) for side in (0, 1))
+        assert equal(left, right).grade is Grade.SAMPLED
+    assert equal(Matrix([sure[0], x]), Matrix([sure[1], x])).grade is Grade.PROVED
+
+
+def test_matrices_of_other_shapes_differ() -> None:
+    assert equal(eye(2), eye(3)).grade is Grade.REFUTED
+    assert equal(Matrix([1, 2, 3]), Matrix([[1, 2, 3]])).grade is Grade.REFUTED
+    assert equal(Matrix([x]), x).grade is Grade.REFUTED
+
+
+def test_nodes_are_carried_out_before_they_are_compared() -> None:
+    u, v = column(x, y, 1), column(y, -x, 2)
+    assert equal(Dot(u, v), Integer(2)).grade is Grade.PROVED
+    assert equal(Dot(u, Cross(u, v)), Integer(0)).grade is Grade.PROVED
+
+
+def test_a_refuted_verdict_is_false_and_all_others_are_true() -> None:
+    assert [bool(Verdict(grade)) for grade in Grade] == [grade is not Grade.REFUTED for grade in Grade]
+
+
+@pytest.mark.parametrize("n_links", [2, 3])
+def test_product_to_sum_of_many_angles_is_proved(n_links: int) -> None:
+    angles = symbols(f"q_0:{n_links}", real=True)
+    product, summed = Integer(1), Integer(0)
+    for angle in angles:
+        product *= cos(angle)
+    signs: list[tuple[int, ...]] = [(1,)]
+    for _ in angles[1:]:
+        signs = [(*s, k) for s in signs for k in (1, -1)]
+    for s in signs:
+        summed += cos(sum(k * angle for k, angle in zip(s, angles, strict=True)))
+    assert equal(product, summed / 2 ** (n_links - 1)).grade is Grade.PROVED
+    assert not equal(product, summed / 2 ** (n_links - 1) + Rational(1, 10**6) * sin(angles[0]))
+
+
+# --- properties ---
+
+coefficients = st.integers(-5, 5)
+bounded = settings(max_examples=30, deadline=None, derandomize=True)
+
+
+@st.composite
+def rational_functions(draw: Any) -> Expr:
+    """A quotient of polynomials in x, y, a, and sin x, cos x, sqrt(a + b)."""
+    letters = [x, y, a, sin(x), cos(x), sqrt(a + b)]
+    terms = st.tuples(coefficients, st.sampled_from(letters), st.sampled_from(letters))
+    above = sum((k * u * v for k, u, v in draw(st.lists(terms, min_size=1, max_size=4))), Integer(draw(coefficients)))
+    below = sum((k * u for k, u, _ in draw(st.lists(terms, max_size=2))), Integer(draw(st.integers(1, 9))))
+    assume(above != 0 and not vanishes(above) and below != 0 and not vanishes(below))
+    return above / below
+
+
+@bounded
+@given(rational_functions(), st.sampled_from([expand, factor, together, cancel]))
+def test_every_form_of_a_rational_function_is_proved_equal(f: Expr, form: Any) -> None:
+    assert equal(form(f), f).grade is Grade.PROVED
+
+
+@bounded
+@given(rational_functions(), st.sampled_from([expand, factor, together]), st.sampled_from([1, -1, Rational(1, 10**6)]))
+def test_a_changed_coefficient_is_refuted(f: Expr, form: Any, change: Any) -> None:
+    assert equal(form(f * (1 + change)), f).grade is Grade.REFUTED
+    assert equal(form(f) + change * x * a, f).grade is Grade.REFUTED
+
+
+@bounded
+@given(rational_functions(), rational_functions())
+def test_what_is_proved_agrees_in_floating_point(f: Expr, g: Expr) -> None:
+    """Soundness, judged by other means: what differs at a point is never proved."""
+    point = {x: 0.8125, y: -1.375, a: 0.4375, b: 1.28125}
+    values = [expr.subs(point).evalf(30) for expr in (f, g)]
+    assume(all(value.is_finite for value in values))
+    if abs(values[0] - values[1]) > 1e-9 * (1 + abs(values[0])):
+        assert not vanishes(f - g)
+        assert not equal(f, g)
+
+
+@bounded
+@given(st.integers(-4, 4), st.integers(-4, 4), st.integers(1, 4))
+def test_sums_of_multiple_angles_are_expanded(k: int, m: int, d: int) -> None:
+    left = sin(Rational(k, d) * x + m * y)
+    right = sin(Rational(k, d) * x) * cos(m * y) + cos(Rational(k, d) * x) * sin(m * y)
+    assert equal(left, right).grade is Grade.PROVED
+
+
+@bounded
+@given(st.integers(2, 60), st.integers(2, 60))
+def test_roots_of_numbers_multiply(m: int, k: int) -> None:
+    assert equal(x * sqrt(m) * sqrt(k), x * sqrt(m * k)).grade is Grade.PROVED
+    assert equal(x * sqrt(Rational(m, k)), x * sqrt(m * k) / k).grade is Grade.PROVED
