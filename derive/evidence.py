@@ -250,7 +250,7 @@ class _Tower:
         if isinstance(expr, sin | cos):
             return self._circular(expr)
         if isinstance(expr, Abs) and expr.args[0].is_real:
-            return self._generator(expr, 2, self._walk(expr.args[0]) ** 2)
+            return self._absolute(expr.args[0])
         return self._opaque(expr)
 
     def _generator(self, expr: Expr, power: int = 0, equals: Expr = S.Zero) -> Symbol:
@@ -266,6 +266,24 @@ class _Tower:
         if sin(angle) not in self._known:
             self._generator(sin(angle), 2, 1 - cosine**2)
         return self._known[expr]
+
+    def _absolute(self, inside: Expr) -> Expr:
+        """|p| as a product of the absolute values of irreducible factors, g^2 = f^2 where the sign of f is not known."""
+        result: Expr = Integer(1)
+        numerator, denominator = together(inside).as_numer_denom()
+        for part, sign in ((numerator, 1), (denominator, -1)):
+            for factor, power in _irreducible(part):
+                factor = -factor if factor.could_extract_minus_sign() else factor
+                if factor.is_nonnegative:
+                    result *= self._walk(factor) ** (sign * power)
+                    continue
+                key = Abs(factor, evaluate=False)
+                generator = self._known.get(key)
+                if generator is None:
+                    square = self._walk(factor) ** 2
+                    generator = self._generator(key, 2, square)
+                result *= generator ** (sign * power)
+        return result
 
     def _opaque(self, expr: Expr) -> Expr:
         """A function we know nothing of: equal arguments give equal values, and that is all."""
@@ -330,8 +348,9 @@ def _factors_under_a_root(base: Expr, q: int) -> list[tuple[Expr, int]]:
         for factor, power in _irreducible(part):
             if factor.is_nonnegative:
                 found.append((factor, sign * power))
-            elif (-factor).is_nonnegative and power % 2 == 0:
-                found.append((-factor, sign * power))
+            elif q == 2 and factor.is_real and power > 1:
+                found.append((Abs(factor), sign * (power - power % 2)))
+                unsure *= factor ** (sign * (power % 2))
             else:
                 unsure *= factor ** (sign * power)
     if unsure != 1:

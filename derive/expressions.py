@@ -226,7 +226,7 @@ class Amount(ScalarNode):
         return super().__new__(cls, number, Str(unit) if isinstance(unit, str) else unit, factor)  # type: ignore[no-any-return]
 
     def doit(self, **hints: Any) -> Expr:
-        return self.args[0] * self.args[2]
+        return explicit(self.args[0]) * self.args[2]
 
 
 class MatrixAmount(Node, MatrixExpr):

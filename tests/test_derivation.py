@@ -84,10 +84,10 @@ def test_answers_may_be_returned_in_tuples_lists_and_mappings(returned: Any) -> 
     ("returned", "got"),
     [
         (None, "nothing"),
-        ((), "a tuple"),
-        (3, "a int"),
-        ("I", "a str"),
-        ((TOP, a), "a Symbol"),
+        ((), "nothing"),
+        (3, "an `int`"),
+        ("I", "a `str`"),
+        ((TOP, a), "a `Symbol`"),
         ([TOP, None], "nothing"),
     ],
 )

@@ -63,7 +63,7 @@ EXPRESSIONS = [
     ex.Norm(ex.Cross(omega, u)),
     ex.CarriedRate(ex.vector("L"), omega),
     ex.Group(6 * a**3),
-    ex.Factors(a, 3 * a, ex.Bracket(y**3 / 3, y, 0, 2 * a)),
+    ex.Factors(a, 3 * a, ex.Bracket(y**3 / 3, y, Integer(0), 2 * a)),
     ex.Terms(8 * a, 18 * a),
     ex.Ratio(a, ex.Factors(a, a)),
     ex.Root(ex.Terms(a**2, b**2)),

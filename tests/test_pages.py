@@ -62,7 +62,7 @@ def test_the_set_has_a_cover_block_and_its_problem(tmp_path: Path) -> None:
     typeset(set_document(root, "hw9", [rendered(root, "hw9/block")]), target, chosen_engine(None))
     text = squeezed(target)
     assert "Homework9" in text
-    assert "Ablockturningaboutthelongdiagonal" in text
+    assert "Ablockturningaboutalongdiagonal" in text
 
 
 def test_a_wide_formula_is_made_to_fit(tmp_path: Path) -> None:

@@ -67,13 +67,11 @@ def inertia_tensor(body: Cuboid, about: str = "centre", symbol: str | None = Non
 
 def _definition(body: Cuboid, point: Point, name: str, key: str) -> Quantity:
     """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
-    r = vector("r")
-    integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
     return establish(
         "inertia.definition",
         tensor(name),
-        lambda _: body.mass_integral(integrand, point.position, body.density.symbol),
-        {"r": r},
+        lambda _: _law(body, point, body.density.symbol),
+        {"r": vector("r")},
         definition=True,
         kind="moment of inertia",
         parents=[body.density],
@@ -82,6 +80,17 @@ def _definition(body: Cuboid, point: Point, name: str, key: str) -> Quantity:
         words={"about": point.name},
         key=f"{key}_definition",
     )
+
+
+def _law(body: Cuboid, point: Point, density: Expr) -> Any:
+    """The integral of (r.r 1 - r r) dm, not carried out."""
+    r = vector("r")
+    integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
+    return body.mass_integral(integrand, point.position, density)
+
+
+def _as_defined(body: Cuboid, point: Point) -> Any:
+    return explicit(_law(body, point, body.density.value))
 
 
 def _by_pair(entries: dict[tuple[int, int], Quantity]) -> dict[str, Quantity]:
@@ -167,7 +176,8 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
 
     tensor_there    tensor (3, 3), kg m^2, about a point of the body
     centre          vector (3), m: the body's centre of mass in its axes
-    Second route: each entry by direct integration about the centre; the trace as twice the integral of r.r dm.
+    Second route: each entry, and the tensor as a whole, by direct integration about the centre; the trace as twice the
+    integral of r.r dm.
     Outcomes: as `inertia_tensor`.
     Errors: the tensor is already about the centre of mass.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -183,7 +193,10 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
         tensor(symbol),
         lambda *six: _symmetric(six),
         _by_pair(entries),
-        routes={"trace": lambda result: (result.trace(), 2 * _square_of_distance(body, body.middle))},
+        routes={
+            "integration": compared_with(lambda: _as_defined(body, body.middle)),
+            "trace": lambda result: (result.trace(), 2 * _square_of_distance(body, body.middle)),
+        },
         outcome=_shape,
         kind="moment of inertia",
         parents=[body.density],

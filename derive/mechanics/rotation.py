@@ -217,20 +217,25 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
     a, b    vectors (3), not zero, same axes
-    Second route: |a x b| is |a||b| sin theta, so tan theta = |a x b|/(a.b), cross-multiplied.
+    Second route: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they leave one
+    angle from 0 to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
     cosine = cosine_between(a, b)
     across = tidied(Norm(Cross(a.value, b.value)))
     along = tidied(Dot(a.value, b.value))
+    lengths = length_by_turning(a.value) * length_by_turning(b.value)
     return establish(
         "rotation.angle_between",
         scalar(symbol),
         lambda: acos(cosine.value),
         {},
         parents=[cosine],
-        routes={"tangent": lambda theta: (sin(theta) * along, cos(theta) * across)},
+        routes={
+            "tangent": lambda theta: (sin(theta) * along, cos(theta) * across),
+            "sine": lambda theta: (sin(theta) * lengths, across),
+        },
         outcome=lambda theta: {Integer(0): "parallel", pi: "opposite", pi / 2: "perpendicular"}.get(theta, "generic"),
         key=key,
         kind="angle",

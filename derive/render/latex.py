@@ -107,7 +107,7 @@ class _Printer:
     def _fenced(self, left: str, inside: str, right: str, tall: bool) -> str:
         if left == "|":
             return rf"\left|{inside}\right|" if tall else rf"\lvert {inside}\rvert "
-        return rf"\mathopen{{}}\left({inside}\right)\mathclose{{}}" if tall else f"({inside})"
+        return rf"{{\left({inside}\right)}}" if tall else f"({inside})"
 
 
 def _separated(pieces: list[str]) -> list[str]:

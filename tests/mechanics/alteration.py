@@ -1,7 +1,7 @@
 """The verbs of mechanics with one piece of their source replaced: how a wrong law is seeded.
 
-The verbs are imported afresh from the altered source, so that each of them sees the wrong law, and the real ones are put
-back afterwards.
+The verbs are imported afresh from the altered source, so that each of them sees the wrong law, and the real ones are
+put back afterwards.
 """
 
 from __future__ import annotations

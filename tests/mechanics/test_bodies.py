@@ -52,7 +52,7 @@ def test_particles_have_the_second_moments_of_the_block(i: int, j: int) -> None:
 def test_a_named_axis_is_an_edge_or_the_long_diagonal(axis: str, along: tuple[object, ...]) -> None:
     direction = BLOCK.direction(Direction(axis))
     assert direction.value == Matrix(along)
-    assert direction.step.outcome == "named"
+    assert direction.step.outcome == ("diagonal" if axis == "diagonal" else "edge")
 
 
 def test_components_are_a_direction_as_they_are() -> None:

@@ -1,8 +1,8 @@
 """A wrong law is refused at its own step, and so is a wrong second route: the check can fail both ways.
 
-Each row replaces one piece of the source of a verb and names the step that must refuse. The verb is then called on the
-block of sides a, 2a, 3a about its diagonal, all that it rests on being right. A definition asserts nothing, so it has no
-wrong law; every other verb must be here.
+Each row replaces one piece of the source of a verb and names the step that must refuse. The verb is then called
+on the block of sides a, 2a, 3a about its diagonal, all that it rests on being right. A definition asserts nothing, so
+it has no wrong law; every other verb must be here.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ LAWS = [
     ("inertia_tensor", INERTIA, "Integer(-1), Outer(r, r)", "Integer(1), Outer(r, r)", "corner_tensor"),
     ("inertia_tensor", INERTIA, "Dot(r, r), Identity(3)", "2 * Dot(r, r), Identity(3)", "corner_tensor"),
     ("inertia_tensor", INERTIA, "at[(min(i, j), max(i, j))]", "at[(2 - max(i, j), 2 - min(i, j))]", "corner_tensor"),
-    ("inertia_tensor", INERTIA, "at[(min(i, j), ", "(-1) ** int(i > j) * at[(min(i, j), ", "corner_tensor"),
+    ("inertia_tensor", INERTIA, "at[(min(i, j), ", "(-1) ** int(bool(i > j)) * at[(min(i, j), ", "corner_tensor"),
     ("inertia_tensor at once", BODIES, "-start, side - start)", "-start, side)", "inertia_tensor_xx"),
     ("inertia_tensor at once", BODIES, "*(side / 2 for side", "*(side / 3 for side", "inertia_tensor"),
     # an integral's lines, one by one
@@ -130,7 +130,7 @@ LAWS = [
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(-w / Norm(d), d)", "spin"),
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(2 * w / Norm(d), d)", "spin"),
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(w, column(0, 0, 1))", "spin"),
-    ("spin", ROTATION, "Ratio(rate, tidied(Norm(along.value)))", "Ratio(rate, 2)", "spin"),
+    ("spin", ROTATION, "Ratio(rate, length), along", "Ratio(rate, 2), along", "spin"),
     ("kinetic_energy", ROTATION, "Rational(1, 2), Dot(w, ", "Rational(1, 3), Dot(w, ", "kinetic_energy"),
     ("kinetic_energy", ROTATION, "Dot(w, applied(tensor, w))", "Dot(w, w)", "kinetic_energy"),
     ("kinetic_energy", ROTATION, "Dot(omega.value, product)", "Dot(omega.value, omega.value)", "kinetic_energy"),
@@ -153,6 +153,8 @@ LAWS = [
     ("cosine_between", ROTATION, "Ratio(Dot(u, v), Factors", "Ratio(-Dot(u, v), Factors", "cosine"),
     ("cosine_between", ROTATION, "Ratio(Dot(u, v), Factors", "Ratio(Norm(Cross(u, v)), Factors", "cosine"),
     ("cosine_between", ROTATION, "Factors(*lengths))", "Factors(*lengths[:1]))", "cosine"),
+    ("cosine_between", ROTATION, "Factors(tidied(f * g), Terms(*products))", "Terms(*products)", "cosine"),
+    ("cosine_between", ROTATION, "Factors(size, Root(Terms(*squares)))", "Root(Terms(*squares))", "cosine"),
     ("angle_between", ROTATION, "acos(cosine.value)", "acos(-cosine.value)", "angle_between"),
     ("angle_between", ROTATION, "acos(cosine.value)", "2 * acos(cosine.value)", "angle_between"),
     ("angle_between", ROTATION, "acos(cosine.value)", "pi / 2 - acos(cosine.value)", "angle_between"),
@@ -161,6 +163,7 @@ LAWS = [
     ("torque", ROTATION, "\n        Cross,\n        {", "\n        lambda w, L: Cross(w, w),\n        {", "torque"),
     ("torque", ROTATION, "tidied(f * g), Cross(u, v)", "tidied(f * f), Cross(u, v)", "torque"),
     ("torque", ROTATION, "momentum.symbol, omega.symbol)", "omega.symbol, momentum.symbol)", "torque"),
+    ("torque", ROTATION, "Cross(omega.symbol, momentum.symbol))", "Cross(momentum.symbol, omega.symbol))", "torque"),
     # plain algebra
     ("at", EQUATIONS, "name: Group(v) for name", "name: Group(2 * v) for name", "kinetic_energy_at_spin"),
     ("at", EQUATIONS, "zip(names, vector, strict", "zip(names[::-1], vector, strict", "kinetic_energy_at_spin"),
@@ -200,7 +203,7 @@ ROUTES = [
     ("inertia_tensor", INERTIA, "explicit(Dot(n, tensor * n))", "explicit(Dot(n, n))", "corner_tensor"),
     ("moved_to", INERTIA, "integral(weight, body.middle", "integral(weight, body.corner", "inertia_tensor_xx"),
     ("spin", ROTATION, "(length_by_turning(omega), size)", "(length_by_turning(omega), size + 1)", "spin"),
-    ("spin", ROTATION, "rate * tidied(Norm(along.value)))", "2 * rate * tidied(Norm(along.value)))", "spin"),
+    ("spin", ROTATION, "along.value)), rate * length)", "along.value)), 2 * rate * length)", "spin"),
     ("kinetic_energy", ROTATION, "Cross(omega.value, r))) / 2", "Cross(omega.value, r)))", "kinetic_energy"),
     (
         "angular_momentum",
@@ -280,10 +283,11 @@ def _is_verb(value: Any) -> bool:
 def test_definitions_alone_have_no_second_route() -> None:
     found = [*known_block().values(), derive.mechanics.let("half", lambda T: T / 2, known_block()["kinetic_energy"])]
     without = {q.step.rule for q in found if {e.grade for e in q.step.evidence} == {Grade.DEFINITION}}
-    assert without == {"rotation.any_angular_velocity", "bodies.axis_vector"}
-    assert {q.key for q in found if any(e.claim == "definition" for e in q.step.evidence)} == {
+    assert without == {"rotation.any_angular_velocity", "bodies.axis_vector", "inertia.definition"}
+    assert {q.key for q in found if any(e.grade is Grade.DEFINITION for e in q.step.evidence)} == {
         "angular_velocity",
         "axis_vector",
+        "corner_tensor_definition",
         "half",
     }
 
