@@ -268,7 +268,7 @@ class _Tower:
         return self._known[expr]
 
     def _absolute(self, inside: Expr) -> Expr:
-        """|p| as a product of the absolute values of irreducible factors, g^2 = f^2 where the sign of f is not known."""
+        """|p| as a product over irreducible factors f: f itself where its sign is known, else g with g^2 = f^2."""
         result: Expr = Integer(1)
         numerator, denominator = together(inside).as_numer_denom()
         for part, sign in ((numerator, 1), (denominator, -1)):

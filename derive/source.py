@@ -106,7 +106,7 @@ class Source:
     def place(self, index: int, width: int = 1) -> Place:
         """The place of `width` characters from `index`, cut at the end of its line."""
         number = bisect_right(self._starts, index)
-        column = index - self._starts[number - 1]
+        column = min(index - self._starts[number - 1], len(self.line(number)))  # \r\n ends a line before its \n
         text = _ODD.sub("\ufffd", self.line(number))
         if len(text) > LONG_LINE:
             width = min(width, 40)

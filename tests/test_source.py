@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from derive.errors import Complaint, Rejected
@@ -196,6 +196,7 @@ def test_any_text_is_read_or_rejected(text: str) -> None:
         yaml_tree(Source("p.yaml", text))
 
 
+@example(["a", "\r\n", "\r\n", "\r\n", "a"])
 @given(st.lists(st.sampled_from([*"abA:-?[]{},#&*!|>'\"%@` \n\t<", "\\x", "- ", ": ", "<<", "\r\n"]), max_size=60))
 def test_any_shuffle_of_yaml_marks_is_read_or_rejected(marks: list[str]) -> None:
     with suppress(Rejected):

@@ -103,8 +103,8 @@ def _whether_zero(v: Any) -> str:
     """`zero`, `generic` if it is zero for no values of its letters, `in_general` if that is not known."""
     if is_zero(v):
         return "zero"
-    _, rest = factored_matrix(v)
-    return "generic" if any(entry.is_nonzero for entry in rest) else "in_general"
+    common, rest = factored_matrix(v)
+    return "generic" if common.is_nonzero and any(entry.is_nonzero for entry in rest) else "in_general"
 
 
 def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
