@@ -138,12 +138,13 @@ class _Build:
                     self.then.pop(outcome.job)(outcome)
                 if self.whole_failed and not self.result.failed:  # else a problem's own document said the same
                     self._took(self.whole_failed)
-            finally:
                 if not self.result.failed:
                     self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
                     self.manifest.problems = self.names
                     self.manifest.tex_engine = self.engine.identity
                     self.manifest.complete = len(self.derived) == len(self.names)
+            finally:
+                # An interrupted build saves what it has finished, and is not complete.
                 self.manifest.save()
 
     def _tick(self, running: list[str]) -> None:

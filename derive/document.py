@@ -39,6 +39,8 @@ from derive.wording import (
     told,
 )
 
+HOMOGENEITY = "look in the script for one quantity given in another's place"
+
 
 @dataclass(frozen=True)
 class Line:
@@ -154,7 +156,9 @@ class _Writer:
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.numbers: dict[str, int] = {}
         every = [*derivation.steps, *values.values()]
-        self.dimensions, self.faults = dimension_table(problem.dimensions, every)
+        self.dimensions, unlike = dimension_table(problem.dimensions, every)
+        # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
+        self.faults = [replace(fault, place=problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
         self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}

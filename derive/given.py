@@ -211,7 +211,9 @@ def _three(node: Node, wanted: _Wanted, what: str, help: str) -> tuple[Node, ...
         wanted.refuse("wrong-kind", f"`{wanted.name}` must be {what}, but it is {shape_of(node)}", node.place, help)
     if (n := len(node.items)) != 3:
         message = f"`{wanted.name}` must be {what}, but {n} {'is' if n == 1 else 'are'} given"
-        wanted.refuse("wrong-length", message, node.place)
+        bare = n > 3 and any(isinstance(item, Scalar) and item.text.isdigit() for item in node.items)
+        help_line = "a decimal has a point: `2.5 cm`" if bare else None
+        wanted.refuse("wrong-length", message, node.place, help_line)
     return node.items
 
 
@@ -225,6 +227,9 @@ def _scalar(node: Node, wanted: _Wanted, where: Place | None = None) -> Scalar:
 
 def _value(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Expr | _Number:
     """A scalar as an expression, or as a number with its unit; its kind and its sign are checked."""
+    if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
+        point = f"{comma[1]}.{comma[2]}{comma[3]}"
+        wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
     number = _number_with_unit(scalar, wanted, symbols)
     if number is not None:
         _check_sign(number.si, scalar, wanted)

@@ -20,6 +20,7 @@ from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
 from derive.reference import comparisons
 from derive.render.contract import contract
+from derive.render.latex import unprintable
 from derive.render.latex_page import problem_latex, whole_latex
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text, page_text
@@ -49,6 +50,7 @@ class Rendered:
 def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered:
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong."""
     problem = load_problem(root, problem_id)
+    _check_characters(problem)
     words = phrases(template_folder(root))
     derivation, values, known = _derived(problem)
     compared = comparisons(problem, known)
@@ -68,6 +70,21 @@ def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered
         grades=_grades(derivation, values),
         agreed=not failures,
     )
+
+
+def _check_characters(problem: Problem) -> None:
+    """Prose may only have characters that can be printed."""
+    texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
+    texts += [prose for by_outcome in problem.wording.values() for prose in by_outcome.values()]
+    faults = []
+    for prose in texts:
+        at = unprintable(prose.scalar.text)
+        if at is not None:
+            message = f"`{prose.scalar.text[at]}` cannot be printed"
+            help_line = "the fonts of the page have Latin and Greek letters and the usual signs"
+            faults.append(Complaint("character", message, prose.scalar.place_within(at), help=help_line))
+    if faults:
+        raise Rejected(faults)
 
 
 def headline(root: Path, problem_id: str) -> tuple[str, str]:

@@ -20,6 +20,7 @@ from typing import Any, NoReturn
 
 from sympy import Expr, MatrixSymbol, Symbol
 
+from derive.dimensions import kind_with_article
 from derive.errors import Complaint, Rejected, Unverified
 from derive.evidence import Evidence, Grade, Verdict, equal, vanishes
 from derive.expressions import AXES, bound, component_names, explicit
@@ -282,6 +283,19 @@ def _refused(key: str, what: str, left: Any, right: Any, verdict: Verdict) -> Un
 def _short(value: Any) -> str:
     text = str(value)
     return text if len(text) <= 300 else text[:300] + " ..."
+
+
+def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
+    """Refuse a quantity of another kind: arguments in the wrong order, a tensor for a vector."""
+    if isinstance(quantity, Quantity) and quantity.step.kind == kind:
+        return
+    got = (
+        f"`{quantity.key}` is {kind_with_article(quantity.step.kind or 'number')}"
+        if isinstance(quantity, Quantity)
+        else f"it is {type(quantity).__name__}"
+    )
+    wanted = kind_with_article(kind)
+    raise Rejected(Complaint("wrong-argument", f"`{verb}` needs {wanted} as its `{role}`, but {got}"))
 
 
 def scalar_component(quantity: Quantity, i: int) -> Symbol:

@@ -201,7 +201,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         "result": Math(step.result),
     }
     names.update({role: Math(symbol) for role, symbol in step.roles})
-    names.update({name: words.term(word) for name, word in step.words})
+    names.update({name: word if name == "point" else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)

@@ -13,7 +13,7 @@ import pytest
 from sympy import Matrix, Rational, acos, cos, diag, simplify, sqrt, symbols
 from sympy import sympify as sympy_reads  # tests read the JSON as any stranger would
 
-from derive.errors import Rejected
+from derive.errors import DeriveError, Rejected
 from derive.solution import Rendered, rendered
 from tests.course import course_in
 
@@ -295,3 +295,45 @@ def test_a_letter_that_a_step_uses_for_its_result_is_refused(tmp_path: Path, let
     edits = {"[a, 2*a, 3*a]": f"[{letter}, 2*{letter}, 3*{letter}]", "{a: length,": f"{{{letter}: length,"}
     with pytest.raises(Rejected, match="letter-clash"):
         solved(tmp_path, edits)
+
+
+@pytest.mark.parametrize(
+    ("written", "instead", "code"),
+    [
+        ("torque(omega, L)", "torque(L, omega)", "wrong-argument"),
+        ("angular_momentum(I, omega)", "angular_momentum(omega, I)", "wrong-argument"),
+        ("angular_momentum(I, omega)", "angular_momentum(J, omega)", "wrong-point"),
+        ("kinetic_energy(I, any", "kinetic_energy(J, any", "wrong-point"),
+        ("spin(rate,", "spin(mass,", "dimension"),
+        ("magnitude(tau)\n", "3\n", "script"),
+        ("return I,", "return I * 2,", "plain-arithmetic"),
+    ],
+)
+def test_a_slip_in_a_script_is_refused_and_not_printed_as_proved(
+    tmp_path: Path, written: str, instead: str, code: str
+) -> None:
+    course = course_in(tmp_path, script={written: instead})
+    with pytest.raises(DeriveError) as refused:
+        rendered(course, "hw9/block")
+    assert [complaint.code for complaint in refused.value.complaints] == [code]
+    assert refused.value.complaints[0].place is not None
+
+
+def test_about_a_corner_that_stays_at_rest_the_words_and_the_numbers_follow(tmp_path: Path) -> None:
+    script = {
+        "any_angular_velocity()": 'any_angular_velocity(through="corner")',
+        "along=block.direction(axis))": 'along=block.direction(axis), through="corner")',
+        "kinetic_energy(I, any": "kinetic_energy(J, any",
+        "angular_momentum(I, omega)": "angular_momentum(J, omega)",
+    }
+    solution = rendered(course_in(tmp_path, {"axis: diagonal": "axis: z"}, script), "hw9/block")
+    assert "Since the corner is at rest" in flat(solution)
+    assert "the weight included" in flat(solution)
+    # J_zz = 5/3 M a^2
+    assert same(answers(solution)["kinetic_energy_about_axis"], Rational(5, 6) * M * a**2 * omega**2)
+
+
+@pytest.mark.parametrize("title", ["A \U0001f9ca block", "\u041a\u0443\u0431"])
+def test_what_the_page_cannot_print_is_named_where_it_stands(tmp_path: Path, title: str) -> None:
+    with pytest.raises(Rejected, match="block.yaml:1:[0-9]+: error.character"):
+        solved(tmp_path, {"title: A block": f"title: {title}"})

@@ -6,6 +6,7 @@ from typing import Any
 
 from sympy import Expr, Integer, MatAdd, Pow, Rational, acos, cos, pi, sin
 
+from derive.errors import Complaint, Rejected
 from derive.expressions import (
     BodyRate,
     CarriedRate,
@@ -25,12 +26,14 @@ from derive.expressions import (
     vector,
 )
 from derive.mechanics.bodies import Cuboid, Point
-from derive.step import Form, Level, Quantity, compared_with, establish, is_zero
+from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
 from derive.tidy import factored_matrix, size_and_rest, tidied
 
 
-def any_angular_velocity(symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
+def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
     """An angular velocity of which nothing is known: omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
+
+    through   the point of the body that stays at rest
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
@@ -43,14 +46,16 @@ def any_angular_velocity(symbol: str = "omega", key: str = "angular_velocity") -
         key=key,
         definition=True,
         kind="angular speed",
+        context={"through": through},
     )
 
 
-def spin(rate: Expr, along: Quantity, symbol: str = "omega", key: str = "spin") -> Quantity:
+def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "omega", key: str = "spin") -> Quantity:
     """Angular velocity of a steady rotation, omega d/|d|.
 
-    rate    angular speed, 1/s, positive
-    along   vector (3) along the axis, right-handed about it
+    rate      angular speed, 1/s; with a minus sign left-handed
+    along     vector (3) along the axis
+    through   the point of the body that the axis goes through, which stays at rest
     Second route: put back: its length is the size of the rate, and its scalar product with d that of parallel vectors.
     Outcomes: right_handed, left_handed (the rate is written with a minus sign).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
@@ -71,7 +76,7 @@ def spin(rate: Expr, along: Quantity, symbol: str = "omega", key: str = "spin") 
         outcome="right_handed" if size == rate else "left_handed",
         key=key,
         kind="angular speed",
-        context={"rate": rate},
+        context={"rate": rate, "through": through},
     )
 
 
@@ -99,6 +104,18 @@ def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     return body.density.value * explicit(body.integral(values, point.position))
 
 
+def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
+    """The tensor must be about the point that stays at rest; that point is the word of the step."""
+    require_kind(verb, "inertia", inertia, "moment of inertia")
+    require_kind(verb, "omega", omega, "angular speed")
+    point, at_rest = inertia.context["about"].name, omega.context["through"]
+    if point != at_rest:
+        message = f"`{inertia.key}` is about the {point}, but the axis of `{omega.key}` goes through the {at_rest}"
+        help_line = f'move the tensor with `moved_to`, or write `through="{point}"` where the axis is given'
+        raise Rejected(Complaint("wrong-point", message, help=help_line))
+    return {"about": point, "point": point}
+
+
 def _whether_zero(v: Any) -> str:
     """`zero`, `generic` if it is zero for no values of its letters, `in_general` if that is not known."""
     if is_zero(v):
@@ -110,11 +127,14 @@ def _whether_zero(v: Any) -> str:
 def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of rotation, T = (1/2) omega . I omega.
 
-    inertia   tensor (3, 3), kg m^2, about a fixed point or the centre of mass
+    inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
+    Errors: the tensor is about another point than the axis goes through; arguments of other kinds.
     Second route: half the integral of |omega x r|^2 dm over the body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
+
+    words = _check_point("kinetic_energy", inertia, omega)
 
     def by_speeds() -> Expr:
         return _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), Cross(omega.value, r))) / 2
@@ -130,18 +150,21 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
         routes={"speeds": compared_with(by_speeds)},
         key=key,
         kind="energy",
+        words=words,
     )
 
 
 def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key: str = "angular_momentum") -> Quantity:
     """Angular momentum, L = I omega: in general not along omega.
 
-    inertia   tensor (3, 3), kg m^2, about a fixed point or the centre of mass
+    inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
+    Errors: the tensor is about another point than the axis goes through; arguments of other kinds.
     Second route: the integral of r x (omega x r) dm over the body.
     Outcomes: parallel (omega is along a principal axis), generic (never), in_general (it depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
+    words = _check_point("angular_momentum", inertia, omega)
     by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
     return establish(
         "rotation.angular_momentum",
@@ -152,6 +175,8 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         outcome=lambda L: "parallel" if (how := _whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
         key=key,
         kind="angular momentum",
+        words=words,
+        context={"about": words["about"]},
     )
 
 
@@ -251,6 +276,9 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
+    require_kind("torque", "omega", omega, "angular speed")
+    require_kind("torque", "momentum", momentum, "angular momentum")
+    about = momentum.context["about"]
     (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
     carried = CarriedRate(momentum.value, omega.value)
     return establish(
@@ -268,4 +296,5 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
         outcome=_whether_zero,
         key=key,
         kind="torque",
+        words={"about": about, "point": about},
     )

@@ -7,6 +7,7 @@ from functools import cache
 
 from pylatexenc.latexencode import UnicodeToLatexEncoder
 
+from derive.errors import Complaint, Rejected
 from derive.render.layout import (
     GREEK,
     Applied,
@@ -181,14 +182,31 @@ def _unit(text: str) -> str:
 @cache
 def _encoder() -> UnicodeToLatexEncoder:
     return UnicodeToLatexEncoder(
-        non_ascii_only=False, replacement_latex_protection="braces-all", unknown_char_policy="replace"
+        non_ascii_only=False,
+        replacement_latex_protection="braces-all",
+        unknown_char_policy="fail",
+        unknown_char_warning=False,
     )
 
 
 def escaped(text: str) -> str:
     """Plain text that TeX prints as it is: every special character is made harmless."""
-    return (
-        _encoder().unicode_to_latex(text)
-        if not text.isascii() or any(c in text for c in "\\{}$&#^_%~<>|\"'`")
-        else text
-    )
+    if text.isascii() and not any(c in text for c in "\\{}$&#^_%~<>|\"'`"):
+        return text
+    try:
+        return str(_encoder().unicode_to_latex(text))
+    except ValueError as error:
+        raise Rejected(Complaint("character", f"`{text}` has a character that cannot be printed")) from error
+
+
+def unprintable(text: str) -> int | None:
+    """Where the first character stands that the fonts of the page do not have."""
+    return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
+
+
+@cache
+def _is_printable(character: str) -> bool:
+    try:
+        return "\\cyr" not in escaped(character).lower()
+    except Rejected:
+        return False
