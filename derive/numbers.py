@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify, preorder_traversal
+from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, lambdify, preorder_traversal
 
 from derive.expressions import Amount, Factors, MatrixAmount, bound, explicit, scaled
 from derive.rounding import rounded_form
@@ -59,7 +59,14 @@ def value_of(
 
 
 def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
-    """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded."""
+    """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded.
+
+    answer    a scalar with letters, but no sum; nothing is yielded for any other, nor where the number is rational
+    figures   significant figures
+    Second route: what is left of the result without its letters, in the machine's floating-point arithmetic.
+    Outcomes: exact.
+    Source: as `value_of`.
+    """
     if isinstance(answer.value, MatrixBase) or not answer.value.free_symbols or isinstance(answer.value, Add):
         return None
     number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
@@ -70,7 +77,7 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
         answer.symbol,
         lambda: answer.value,
         {},
-        routes={"floats": lambda result: _by_floats(Mul(number), set(), {}, number)},
+        routes={"floats": lambda result: _by_floats(number, set(), {}, result / letters)},
         outcome="exact",
         key=f"{answer.key}_value",
         kind=answer.step.kind,

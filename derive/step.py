@@ -151,6 +151,7 @@ def establish(
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
     key = key or rule.rpartition(".")[2]
+    _check_names(key, [q for q in inputs.values() if isinstance(q, Quantity)])
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
     given = [q.value if isinstance(q, Quantity) else q for q in inputs.values()]
     names = [q.symbol if isinstance(q, Quantity) else q for q in inputs.values()]
@@ -204,6 +205,16 @@ def recorded() -> Iterator[list[Quantity]]:
         yield record
     finally:
         _established.reset(token)
+
+
+def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
+    """Two different things of one name cannot stand in one formula."""
+    named: dict[Any, Quantity] = {}
+    for quantity in quantities:
+        other = named.setdefault(quantity.symbol, quantity)
+        if other.step != quantity.step:
+            message = f"`{key}` needs `{other.key}` and `{quantity.key}`, but both are called {quantity.symbol}"
+            raise Rejected(Complaint("letter-clash", message, help='give one of their verbs `symbol="..."`'))
 
 
 def _check_letter(key: str, symbol: Any, result: Any) -> None:

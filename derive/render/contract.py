@@ -50,14 +50,14 @@ class _PlainSymPy(StrPrinter):
         return "(" + " + ".join(f"({self._print(arg)})" for arg in expr.args) + ")"
 
     def _times(self, expr: Any) -> str:
-        return "*".join(f"({self._print(arg)})" for arg in expr.args)
+        return "(" + "*".join(f"({self._print(arg)})" for arg in expr.args) + ")"
 
     _print_Terms = _print_MatAdd = _sum
     _print_Factors = _print_MatMul = _times
 
     def _print_Ratio(self, expr: Any) -> str:
         above, below = (self._print(arg) for arg in expr.args)
-        return f"({above})/({below})"
+        return f"(({above})/({below}))"
 
     def _print_Group(self, expr: Any) -> str:
         return f"({self._print(expr.args[0])})"
@@ -74,8 +74,8 @@ class _PlainSymPy(StrPrinter):
         return f"sqrt((({a}).T*({a}))[0, 0])"
 
     def _print_Cross(self, expr: Any) -> str:
-        a, b = (self._print(arg) for arg in expr.args)
-        return f"Matrix(({a}).as_explicit()).cross(Matrix(({b}).as_explicit()))"
+        a, b = (self._print_MatrixBase(_entries(arg)) for arg in expr.args)
+        return f"{a}.cross({b})"
 
     def _print_Outer(self, expr: Any) -> str:
         a, b = (self._print(arg) for arg in expr.args)
@@ -106,6 +106,11 @@ class _PlainSymPy(StrPrinter):
         integrand, r, density, position, jacobian, *limits = expr.args
         at = ex.explicit(integrand.xreplace({r: position}))
         return self._print_MatrixBase(at.applyfunc(lambda f: sympy.Integral(density * f * jacobian, *limits)))
+
+
+def _entries(vector: Any) -> Any:
+    """A vector as an explicit column, a name as the column of its entries."""
+    return vector.as_explicit() if isinstance(vector, MatrixSymbol) else ex.explicit(vector)
 
 
 def sympy_text(expr: Any) -> str:

@@ -232,6 +232,8 @@ class Notation:
         return Applied(FUNCTIONS.get(expr.func.__name__, expr.func.__name__), self._argument(expr))
 
     def _argument(self, expr: Function) -> Layout:
+        if len(expr.args) > 1:
+            return self.list_of(expr.args)
         inner = self.layout(expr.args[0])
         return inner if isinstance(inner, Name | Number) else Fenced(inner)
 

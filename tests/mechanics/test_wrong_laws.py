@@ -231,7 +231,13 @@ ROUTES = [
     ),
     ("magnitude", EQUATIONS, "length_by_turning(of.value)", "length_by_turning(2 * of.value)", "magnitude"),
     ("value_of", NUMBERS, "_by_floats(answer.value, letters", "_by_floats(answer.value**2, letters", "magnitude_value"),
-    ("coefficient_of", NUMBERS, "_by_floats(Mul(number)", "_by_floats(Mul(number, 2)", "magnitude_value"),
+    (
+        "coefficient_of",
+        NUMBERS,
+        "_by_floats(number, set(), {}, result",
+        "_by_floats(number, set(), {}, 2 * result",
+        "magnitude_value",
+    ),
 ]
 
 
