@@ -23,7 +23,6 @@ from sympy import (
     MatrixBase,
     MatrixExpr,
     MatrixSymbol,
-    Poly,
     Symbol,
     Tuple,
     diff,
@@ -260,7 +259,8 @@ class MassIntegral(Node, MatrixExpr):
     def doit(self, **hints: Any) -> Value:
         integrand, r, density, position, jacobian, *limits = self.args
         at = explicit(integrand.xreplace({r: position}))
-        return at.applyfunc(lambda f: explicit(Integral(density * f * jacobian, *limits)))
+        outside, inside = density.as_independent(*(x for x, *_ in limits), as_Add=False)
+        return at.applyfunc(lambda f: outside * explicit(Integral(inside * f * jacobian, *limits)))
 
     def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
         return explicit(self)[i, j]
@@ -307,10 +307,10 @@ def _definite(integral: Integral) -> Expr:
     """A definite integral; powers are integrated as powers, for which SymPy's integrator is slow."""
     value = explicit(integral.function)
     for x, lower, upper in integral.limits:
-        if not value.is_polynomial(x):
+        terms = [term.as_coeff_exponent(x) for term in Add.make_args(value.expand())]
+        if not all(n.is_Integer and n >= 0 and not c.has(x) for c, n in terms):
             return integral.doit()
-        terms = Poly(value, x).terms()
-        value = Add(*(c * (upper ** (n + 1) - lower ** (n + 1)) / (n + 1) for (n,), c in terms))
+        value = Add(*(c * (upper ** (n + 1) - lower ** (n + 1)) / (n + 1) for c, n in terms))
     return value.expand()
 
 

@@ -26,7 +26,7 @@ from derive.wording import (
     told,
 )
 from tests.course import ROOT
-from tests.mechanics.block import a, known_block, omega
+from tests.mechanics.block import a, b, c, known_block, omega
 
 WORDS = phrases(ROOT / "templates")
 ONE, NIL = Integer(1), Integer(0)
@@ -37,6 +37,7 @@ VARIANTS: list[dict[str, Any]] = [
     {"axis": "z"},
     {"axis": (ONE, ONE, NIL)},
     {"rate": -omega},
+    {"sides": (a, b, c)},
 ]
 
 

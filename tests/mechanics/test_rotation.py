@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Integer, Matrix, Rational, acos, cos, pi, simplify, sin, sqrt, symbols, zeros
 
-from derive.errors import Unverified
+from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Cuboid,
     Direction,
@@ -18,6 +18,7 @@ from derive.mechanics import (
     any_angular_velocity,
     cosine_between,
     inertia_tensor,
+    kinetic_energy,
     spin,
     torque,
 )
@@ -40,8 +41,9 @@ ANY_AXIS = [
 ]
 
 
-def along(x: int, y: int, z: int, rate: Any = omega, symbol: str = "u") -> Quantity:
-    return spin(rate, BLOCK.direction(Direction(None, (Integer(x), Integer(y), Integer(z)))), symbol)
+def along(x: int, y: int, z: int, rate: Any = omega, **named: str) -> Quantity:
+    direction = BLOCK.direction(Direction(None, (Integer(x), Integer(y), Integer(z))))
+    return spin(rate, direction, **{"symbol": "u", **named})
 
 
 LEVEL = along(1, 1, 0, symbol="v")
@@ -183,7 +185,7 @@ def test_cosine_says_when_two_vectors_are_parallel_opposite_or_perpendicular() -
 
 
 def test_two_vectors_of_one_name_and_two_values_are_refused() -> None:
-    with pytest.raises(Unverified):
+    with pytest.raises(Rejected, match="both are called u"):
         cosine_between(along(1, 0, 0), along(0, 1, 0))
 
 
@@ -225,6 +227,13 @@ def test_torque_obeys_the_equations_of_euler() -> None:
     assert (found["torque"] - euler).applyfunc(simplify) == zeros(3, 1)
 
 
+def test_where_the_letters_decide_the_outcome_says_so() -> None:
+    """With sides a, b, c all may be equal, and then there is no torque."""
+    assert outcomes(**GENERAL)["torque"] == "in_general"
+    assert outcomes(**GENERAL)["angular_momentum"] == "in_general"
+    assert outcomes()["torque"] == "generic"
+
+
 def test_torque_does_not_know_the_sense_of_the_rotation() -> None:
     assert values(rate=-omega)["torque"] == values()["torque"]
 
@@ -237,15 +246,24 @@ def test_size_of_the_torque_is_omega_times_L_times_the_sine() -> None:
     assert cos(found["angle_between"]) == found["cosine"]
 
 
-def test_torque_from_an_exchanged_pair_is_the_reverse() -> None:
+def test_arguments_in_the_wrong_order_are_refused() -> None:
     found = known_block()
-    assert torque(found["angular_momentum"], found["spin"]).value == -found["torque"].value
+    w, L, I = found["spin"], found["angular_momentum"], found["inertia_tensor"]
+    for wrong in (lambda: torque(L, w), lambda: kinetic_energy(w, I), lambda: angular_momentum(w, I)):
+        with pytest.raises(Rejected, match=r"needs an? "):
+            wrong()
 
 
-def test_the_tensor_about_the_corner_serves_a_block_that_turns_about_its_corner() -> None:
-    """About a fixed point T is omega . J omega / 2, which is larger by half M v^2 of the centre."""
-    turning = along(0, 0, 1)
+def test_a_tensor_about_another_point_than_the_axis_goes_through_is_refused() -> None:
+    for verb in (kinetic_energy, angular_momentum):
+        with pytest.raises(Rejected, match="`corner_tensor` is about the corner"):
+            verb(known_block()["corner_tensor"], known_block()["spin"])
+
+
+def test_about_its_corner_a_block_has_the_momentum_of_its_centre_besides() -> None:
+    """J omega is larger than I omega by M r^2 omega, r the distance of the centre from the axis through the corner."""
     about_corner, about_centre = (
-        angular_momentum(inertia_tensor(BLOCK, about=point), turning).value[2] for point in ("corner", "centre")
+        angular_momentum(inertia_tensor(BLOCK, about=point), along(0, 0, 1, through=point)).value[2]
+        for point in ("corner", "centre")
     )
     assert (about_corner - about_centre - M * omega * (a**2 + 4 * a**2) / 4).expand() == 0

@@ -153,7 +153,7 @@ LAWS = [
     ("cosine_between", ROTATION, "Ratio(Dot(u, v), Factors", "Ratio(-Dot(u, v), Factors", "cosine"),
     ("cosine_between", ROTATION, "Ratio(Dot(u, v), Factors", "Ratio(Norm(Cross(u, v)), Factors", "cosine"),
     ("cosine_between", ROTATION, "Factors(*lengths))", "Factors(*lengths[:1]))", "cosine"),
-    ("cosine_between", ROTATION, "Factors(tidied(f * g), Terms(*products))", "Terms(*products)", "cosine"),
+    ("cosine_between", ROTATION, "Terms(*products))", "Terms(*products[1:]))", "cosine"),
     ("cosine_between", ROTATION, "Factors(size, Root(Terms(*squares)))", "Root(Terms(*squares))", "cosine"),
     ("angle_between", ROTATION, "acos(cosine.value)", "acos(-cosine.value)", "angle_between"),
     ("angle_between", ROTATION, "acos(cosine.value)", "2 * acos(cosine.value)", "angle_between"),
