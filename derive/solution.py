@@ -57,14 +57,15 @@ def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered
     document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), compared)
     if faults:
         raise Rejected(faults)
+    notation = Notation(document.dimensions)
     failures = tuple(c.complaint for c in compared if c.complaint)
     return Rendered(
         id=problem_id,
-        title=inline_text(document.title, Notation(document.dimensions)),
+        title=inline_text(document.title, notation),
         points="" if problem.points is None else points_text(problem.points),
-        latex=problem_latex(document, words, template_folder(root)),
-        text=page_text(document, words),
-        json=contract(problem, derivation, values, document, reference=[c.facts() for c in compared]),
+        latex=problem_latex(document, words, notation, template_folder(root)),
+        text=page_text(document, words, notation),
+        json=contract(problem, derivation, values, document, notation, reference=[c.facts() for c in compared]),
         warnings=(*document.warnings, *failures),
         inputs=(*problem.inputs, reference_path(problem)),
         grades=_grades(derivation, values),

@@ -123,10 +123,10 @@ def contract(
     derivation: Derivation,
     values: Mapping[str, Step],
     document: Document,
+    notation: Notation,
     reference: Sequence[Mapping[str, Any]] = (),
 ) -> str:
     """The JSON text."""
-    notation = Notation(document.dimensions)
     answers = {key: derivation.step(key) for part in problem.parts for key in part.answers}
     data = {
         "problem": problem.id,

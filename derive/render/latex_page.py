@@ -22,9 +22,9 @@ WIDTH = 60.0
 RELATIONS = {"equals": "=", "approx": r"\approx"}
 
 
-def problem_latex(document: Document, words: Phrases, folder: Path) -> str:
+def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> str:
     """The fragment of one problem, without preamble; `@NUMBER@` stands for its number in the set."""
-    return _environment(folder).get_template("problem.tex.j2").render(page=_Page(document, words))
+    return _environment(folder).get_template("problem.tex.j2").render(page=_Page(document, words, notation))
 
 
 def whole_latex(folder: Path, head: Mapping[str, Any], fragments: Sequence[str]) -> str:
@@ -55,9 +55,8 @@ def _environment(folder: Path) -> Environment:
 class _Page:
     """What the template may ask of a document, in TeX."""
 
-    def __init__(self, document: Document, words: Phrases):
-        self.document, self.words = document, words
-        self.notation = Notation(document.dimensions)
+    def __init__(self, document: Document, words: Phrases, notation: Notation):
+        self.document, self.words, self.notation = document, words, notation
 
     @property
     def id(self) -> str:

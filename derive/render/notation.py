@@ -89,8 +89,15 @@ class Notation:
 
     def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None):
         self._dimensions = dimensions or {}
+        self._known: dict[Any, Layout] = {}
 
     def layout(self, expr: Any) -> Layout:
+        """The layout, worked out once: every format of a page asks for the same ones."""
+        if expr not in self._known:
+            self._known[expr] = self._worked_out(expr)
+        return self._known[expr]
+
+    def _worked_out(self, expr: Any) -> Layout:
         if isinstance(expr, MatrixBase):
             return self._matrix(expr)
         for kinds, method in self._methods:

@@ -19,9 +19,9 @@ COLUMNS = 88
 WIDTH = 60.0
 
 
-def page_text(document: Document, words: Phrases) -> str:
+def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     """The whole page."""
-    return _Page(document, words).text()
+    return _Page(document, words, notation).text()
 
 
 def inline_text(nodes: Sequence[Node], notation: Notation, numbers: Mapping[str, int] | None = None) -> str:
@@ -45,9 +45,8 @@ def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
 
 
 class _Page:
-    def __init__(self, document: Document, words: Phrases):
-        self.document, self.words = document, words
-        self.notation = Notation(document.dimensions)
+    def __init__(self, document: Document, words: Phrases, notation: Notation):
+        self.document, self.words, self.notation = document, words, notation
 
     def text(self) -> str:
         title = self._with_points(self._inline(self.document.title), self.document.points)
