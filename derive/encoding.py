@@ -35,7 +35,9 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 def encoded(expr: Any) -> list[Any]:
     """A tree of lists, strings and integers."""
     if isinstance(expr, Symbol):
-        assumptions = {name: value for name, value in expr.assumptions0.items() if name in expr._assumptions_orig}
+        assumptions = {
+            name: value for name, value in sorted(expr.assumptions0.items()) if name in expr._assumptions_orig
+        }
         return ["Symbol", expr.name, assumptions]
     if isinstance(expr, Integer):
         return ["Integer", int(expr)]

@@ -37,7 +37,8 @@ def inertia_tensor(body: Cuboid, about: str = "centre", symbol: str | None = Non
     body    mass M, uniform density
     about   "corner" or "centre"; axes along the edges
     Each of the six entries is a step of its own.
-    Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
+    centre of mass is the body's.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic.
     Errors: no such point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -55,6 +56,7 @@ def inertia_tensor(body: Cuboid, about: str = "centre", symbol: str | None = Non
         routes={
             "definition": compared_with(lambda: by_definition.value),
             "particles": lambda tensor: _moment_about_any_axis(tensor, body, point),
+            "balanced": lambda _: (_first_moment(body, point), body.mass * (body.middle.position - point.position)),
         },
         outcome=_shape,
         kind="moment of inertia",
@@ -154,6 +156,14 @@ def _moment_from_particles(body: Cuboid, point: Point, n: Any) -> Expr:
     for mass, place in body.particles():
         arm = explicit(Cross(n, place - point.position))
         total += mass * explicit(Dot(arm, arm))
+    return total
+
+
+def _first_moment(body: Cuboid, point: Point) -> Any:
+    """The sum of m r over the particles, r from the point: M times where the centre of mass is seen from there."""
+    total = column(0, 0, 0)
+    for mass, place in body.particles():
+        total = total + mass * (place - point.position)
     return total
 
 

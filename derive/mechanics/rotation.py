@@ -213,14 +213,15 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine") -> Quantity:
 def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
     """The scalar product and the two lengths: with the sums of products in sight, then carried out."""
     parts = [size_and_rest(v.value) for v in (a, b)]
-    (f, u), (g, v) = parts
+    (_, u), (_, v) = parts
+    signed = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0])
     forms = [Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)]
     if u.free_symbols or v.free_symbols:
         return forms
     products = [x * y for x, y in zip(u, v, strict=True) if x * y != 0]
     roots = [_as_root_of_squares(size, rest, length) for (size, rest), length in zip(parts, lengths, strict=True)]
     if len(products) > 1:
-        worked = Ratio(Factors(tidied(f * g), Terms(*products)), Factors(*roots))
+        worked = Ratio(Factors(signed, Terms(*products)), Factors(*roots))
         forms.insert(0, Form(worked, "products", Level.STANDARD))
         forms[1] = Form(forms[1].expr, "lengths", Level.FULL)
     return forms

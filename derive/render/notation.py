@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from decimal import Decimal
 from typing import Any
 
 from sympy import (
@@ -27,7 +26,6 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
-    factorint,
     fraction,
 )
 from sympy.core.function import AppliedUndef
@@ -63,6 +61,14 @@ from derive.render.layout import (
     is_number,
     last_of,
     row,
+)
+from derive.render.products import (
+    decimal,
+    number_and_letters,
+    positive_first,
+    rank_of_dimension,
+    root_cancelled,
+    sign_and_size,
 )
 from derive.rounding import Rounded, decimal_text
 from derive.tidy import factored_matrix
@@ -125,13 +131,13 @@ class Notation:
             content, rest = expr.primitive()
             if content != 1 and content.q == 1:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-        terms = list(expr.args) if isinstance(expr, ex.Terms) else _positive_first(expr.as_ordered_terms())
+        terms = list(expr.args) if isinstance(expr, ex.Terms) else positive_first(expr.as_ordered_terms())
         return self._terms(terms)
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
         for term in terms:
-            negative, size = _sign_and_size(term)
+            negative, size = sign_and_size(term)
             if items or negative:
                 items.append(MINUS if negative else PLUS)
             items.append(self._within_sum(size))
@@ -142,13 +148,13 @@ class Notation:
         return Fenced(inner) if isinstance(expr, Add | ex.Terms | MatAdd) else inner
 
     def _product(self, expr: Expr) -> Layout:
-        negative, size = _sign_and_size(expr)
+        negative, size = sign_and_size(expr)
         if negative:
             return row(MINUS, self._within_sum(size))
         above, below = fraction(size)
-        number_above, letters_above = _number_and_letters(above)
-        number_below, letters_below = _number_and_letters(below)
-        number_above, number_below = _root_cancelled(number_above, number_below)
+        number_above, letters_above = number_and_letters(above)
+        number_below, letters_below = number_and_letters(below)
+        number_above, number_below = root_cancelled(number_above, number_below)
         if letters_below:
             top = self._factors([*number_above, *self._ordered(letters_above)])
             return Fraction(top, self._factors([*number_below, *self._ordered(letters_below)]))
@@ -173,7 +179,7 @@ class Notation:
         if not isinstance(base, Symbol | ex.Amount):
             return (2 if isinstance(base, Add | ex.Terms | ex.Group) else 1, 0, str(factor))
         dimension = self._dimensions.get(base)
-        return (0, _rank_of_dimension(dimension), str(base))
+        return (0, rank_of_dimension(dimension), str(base))
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:
@@ -259,7 +265,7 @@ class Notation:
     def _matrix_product(self, expr: MatMul) -> Layout:
         scalars = [arg for arg in expr.args if not ex.is_matrix(arg)]
         others = [arg if scalars else present(arg) for arg in expr.args if ex.is_matrix(arg)]
-        negative, size = _sign_and_size(Mul(*scalars)) if len(scalars) != 1 else _sign_and_size(scalars[0])
+        negative, size = sign_and_size(Mul(*scalars)) if len(scalars) != 1 else sign_and_size(scalars[0])
         items: list[Layout] = [MINUS] if negative else []
         items += [self._scalar_in_front(size)] if size != 1 else []
         for other in others:
@@ -343,7 +349,7 @@ class Notation:
 
     def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
         number, unit, _ = expr.args
-        inner = _decimal(number) if isinstance(number, Rational) else self.layout(number)
+        inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
         if unit.name in {"degree", "deg"}:
             return row(inner, Word(unit.name))
         return row(inner, SPACE, Word(unit.name)) if unit.name else inner
@@ -400,81 +406,6 @@ def named(name: str) -> Name:
     if not dots and re.fullmatch(r"d*dot", sub):
         sub, dots = "", sub
     return Name(match["base"], sub, dots.count("d") if dots else 0)
-
-
-def _decimal(number: Rational) -> Layout:
-    """1.5, as it was written, not 3/2; a third stays a fraction."""
-    sign = (MINUS,) if number < 0 else ()
-    if set(factorint(number.q)) - {2, 5}:
-        return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
-    places = max(factorint(number.q).values(), default=0)
-    return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
-
-
-def _sign_and_size(term: Any) -> tuple[bool, Any]:
-    """Whether a term is printed with a minus sign, and the term without it."""
-    if isinstance(term, MatMul):
-        coefficient = Mul(*(arg for arg in term.args if not ex.is_matrix(arg)))
-        if coefficient.could_extract_minus_sign():
-            rest = [arg for arg in term.args if ex.is_matrix(arg)]
-            return True, rest[0] if coefficient == -1 and len(rest) == 1 else MatMul(
-                -coefficient, *rest, evaluate=False
-            )
-        return False, term
-    if isinstance(term, Expr) and (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative:
-        return True, -term
-    return False, term
-
-
-def _positive_first(terms: list[Any]) -> list[Any]:
-    """c^2 - a^2, not -a^2 + c^2."""
-    if terms and _sign_and_size(terms[0])[0]:
-        first = next((term for term in terms if not _sign_and_size(term)[0]), None)
-        if first is not None:
-            return [first, *(term for term in terms if term is not first)]
-    return terms
-
-
-def _number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
-    """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
-    factors = [f for factor in Mul.make_args(expr) for f in _with_content_apart(factor) if f != 1]
-    numbers = [f for f in factors if f.is_number and not f.has(ex.Amount)]
-    rational = Mul(*(f for f in numbers if f.is_Rational))
-    numbers = [*([rational] if rational != 1 else []), *(f for f in numbers if not f.is_Rational)]
-    numbers.sort(key=lambda f: (0 if f.is_Rational else 1, str(f)))
-    return numbers, [f for f in factors if not f.is_number or f.has(ex.Amount)]
-
-
-def _root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], list[Expr]]:
-    """sqrt(14)/14 as 1/sqrt(14), sqrt(14)/7 as 2/sqrt(14), sqrt(14)/168 as 1/(12 sqrt(14)); sqrt(42)/28 stays."""
-    if len(below) != 1 or not below[0].is_Integer:
-        return above, below
-    root = next((f for f in above if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer), None)
-    if root is None:
-        return above, below
-    times = next((f for f in above if f.is_Integer), Rational(1))
-    left = times * root.base / below[0]
-    if left.p != times and not (left.q == 1 and times == 1):
-        return above, below
-    others = [f for f in above if f is not root and not f.is_Integer]
-    return [*([Rational(left.p)] if left.p != 1 else []), *others], [*([Rational(left.q)] if left.q != 1 else []), root]
-
-
-def _with_content_apart(factor: Expr) -> tuple[Expr, ...]:
-    """12 a^2 + 12 b^2 as 12 and a^2 + b^2."""
-    return factor.primitive() if isinstance(factor, Add) else (factor,)
-
-
-def _rank_of_dimension(dimension: Dimension | None) -> int:
-    if dimension is None or dimension.is_number:
-        return 4
-    if dimension.mass and not dimension.length:
-        return 0
-    if dimension.mass:
-        return 4
-    if dimension.length and dimension.time:
-        return 1
-    return 2 if dimension.length else 5
 
 
 def _side_by_side(items: list[Layout]) -> Layout:

@@ -117,7 +117,7 @@ LAWS = [
     ("moved_to", INERTIA, "-Factors(mass, Terms(", "Factors(mass, Terms(", "inertia_tensor_xx"),
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "-Factors(mass, c[i], c[j])", "inertia_tensor_xy"),
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "Factors(mass, c[i], c[i])", "inertia_tensor_xy"),
-    ("moved_to", BODIES, "*(side / 2 for side", "*(side / 3 for side", "inertia_tensor_xx"),
+    ("moved_to", BODIES, "*(side / 2 for side", "*(side / 3 for side", "corner_tensor"),
     (
         "moved_to",
         INERTIA,

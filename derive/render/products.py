@@ -1,0 +1,88 @@
+"""How a product or a sum is written: its sign, its number, its letters, and their order."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Any
+
+from sympy import Add, Expr, MatMul, Mul, Pow, Rational, factorint
+
+from derive import expressions as ex
+from derive.dimensions import Dimension
+from derive.render.layout import MINUS, Fraction, Layout, Number, row
+
+
+def decimal(number: Rational) -> Layout:
+    """1.5, as it was written, not 3/2; a third stays a fraction."""
+    sign = (MINUS,) if number < 0 else ()
+    if set(factorint(number.q)) - {2, 5}:
+        return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
+    places = max(factorint(number.q).values(), default=0)
+    return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+
+
+def sign_and_size(term: Any) -> tuple[bool, Any]:
+    """Whether a term is printed with a minus sign, and the term without it."""
+    if isinstance(term, MatMul):
+        coefficient = Mul(*(arg for arg in term.args if not ex.is_matrix(arg)))
+        if coefficient.could_extract_minus_sign():
+            rest = [arg for arg in term.args if ex.is_matrix(arg)]
+            return True, rest[0] if coefficient == -1 and len(rest) == 1 else MatMul(
+                -coefficient, *rest, evaluate=False
+            )
+        return False, term
+    if isinstance(term, Expr) and (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative:
+        return True, -term
+    return False, term
+
+
+def positive_first(terms: list[Any]) -> list[Any]:
+    """c^2 - a^2, not -a^2 + c^2."""
+    if terms and sign_and_size(terms[0])[0]:
+        first = next((term for term in terms if not sign_and_size(term)[0]), None)
+        if first is not None:
+            return [first, *(term for term in terms if term is not first)]
+    return terms
+
+
+def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
+    """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
+    factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
+    numbers = [f for f in factors if f.is_number and not f.has(ex.Amount)]
+    rational = Mul(*(f for f in numbers if f.is_Rational))
+    numbers = [*([rational] if rational != 1 else []), *(f for f in numbers if not f.is_Rational)]
+    numbers.sort(key=lambda f: (0 if f.is_Rational else 1, str(f)))
+    return numbers, [f for f in factors if not f.is_number or f.has(ex.Amount)]
+
+
+def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], list[Expr]]:
+    """sqrt(14)/14 as 1/sqrt(14), sqrt(14)/7 as 2/sqrt(14), sqrt(14)/168 as 1/(12 sqrt(14)); sqrt(42)/28 stays."""
+    if len(below) != 1 or not below[0].is_Integer:
+        return above, below
+    root = next((f for f in above if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer), None)
+    if root is None:
+        return above, below
+    times = next((f for f in above if f.is_Integer), Rational(1))
+    left = times * root.base / below[0]
+    if left.p != times and not (left.q == 1 and times == 1):
+        return above, below
+    others = [f for f in above if f is not root and not f.is_Integer]
+    return [*([Rational(left.p)] if left.p != 1 else []), *others], [*([Rational(left.q)] if left.q != 1 else []), root]
+
+
+def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
+    """12 a^2 + 12 b^2 as 12 and a^2 + b^2."""
+    return factor.primitive() if isinstance(factor, Add) else (factor,)
+
+
+def rank_of_dimension(dimension: Dimension | None) -> int:
+    """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
+    if dimension is None or dimension.is_number:
+        return 4
+    if dimension.mass and not dimension.length:
+        return 0
+    if dimension.mass:
+        return 4
+    if dimension.length and dimension.time:
+        return 1
+    return 2 if dimension.length else 5
