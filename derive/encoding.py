@@ -35,10 +35,7 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 def encoded(expr: Any) -> list[Any]:
     """A tree of lists, strings and integers."""
     if isinstance(expr, Symbol):
-        assumptions = {
-            name: value for name, value in sorted(expr.assumptions0.items()) if name in expr._assumptions_orig
-        }
-        return ["Symbol", expr.name, assumptions]
+        return ["Symbol", expr.name, _assumptions(expr)]
     if isinstance(expr, Integer):
         return ["Integer", int(expr)]
     if isinstance(expr, Rational):
@@ -55,6 +52,15 @@ def encoded(expr: Any) -> list[Any]:
     if name not in _CLASSES or not isinstance(expr, Basic):
         raise TypeError(f"{name} has no encoding")
     return [name, *(encoded(arg) for arg in expr.args)]
+
+
+def _assumptions(symbol: Symbol) -> dict[str, bool]:
+    """The fewest assumptions that make an equal symbol: SymPy does not tell apart how they were first written."""
+    usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
+    for assumptions in usual:
+        if Symbol(symbol.name, **assumptions) == symbol:
+            return assumptions
+    return dict(sorted(symbol.assumptions0.items()))
 
 
 def decoded(data: list[Any]) -> Any:
