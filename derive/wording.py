@@ -115,6 +115,8 @@ class _Nodes:
         self.found: list[Node | tuple[Node, ...]] = []
 
     def token(self, value: Any) -> Any:
+        if value == ():
+            return ""  # so that a phrase can ask whether there is anything
         if not isinstance(value, Node | tuple):
             return value
         self.found.append(value)
