@@ -147,6 +147,10 @@ class _Build:
                 # An interrupted build saves what it has finished, and is not complete.
                 self.manifest.save()
 
+    def _kept(self, name: str) -> Path | None:
+        """Where the steps of a problem are kept between builds; nowhere if everything is to be done again."""
+        return None if self.options.force else self.outputs / ".derived" / f"{name}.steps.json"
+
     def _tick(self, running: list[str]) -> None:
         done = f"{len(self.derived)} of {len(self.names)} derived"
         self.tell(f"{self.set_id}: {done}; {', '.join(running)} ({(time.time_ns() - self.started) // 10**9} s)")
@@ -173,7 +177,7 @@ class _Build:
         from derive.solution import rendered
 
         problem = f"{self.set_id}/{name}"
-        work = partial(rendered, self.root, problem, self.options.detail)
+        work = partial(rendered, self.root, problem, self.options.detail, self._kept(name))
         self._put(Job(f"`{problem}`", work, self.options.limit), partial(self._was_derived, name))
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:

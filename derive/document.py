@@ -20,7 +20,7 @@ from derive.expressions import Amount
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
-from derive.reference import Comparison
+from derive.reference import Told
 from derive.source import did_you_mean
 from derive.step import Form, Level, Step
 from derive.wording import (
@@ -140,7 +140,7 @@ def document_of(
     values: Mapping[str, Step],
     words: Phrases,
     level: Level,
-    compared: Sequence[Comparison] = (),
+    compared: Sequence[Told] = (),
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous."""
     writer = _Writer(problem, derivation, values, words, level)
@@ -164,7 +164,7 @@ class _Writer:
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
 
-    def document(self, compared: Sequence[Comparison]) -> Document:
+    def document(self, compared: Sequence[Told]) -> Document:
         problem = self.problem
         title = self._told(problem.title.pieces)
         statement = self._told(problem.statement.pieces)
@@ -304,7 +304,7 @@ class _Writer:
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
 
-    def _closing(self, compared: Sequence[Comparison]) -> tuple[Node, ...]:
+    def _closing(self, compared: Sequence[Told]) -> tuple[Node, ...]:
         evidence = [e for step in [*self.derivation.steps, *self.values.values()] for e in step.evidence]
         lines = [e for e in evidence if e.claim.startswith("line ")]
         routes = [e for e in evidence if not e.claim.startswith("line ") and e.grade is not Grade.DEFINITION]

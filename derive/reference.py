@@ -35,6 +35,18 @@ from derive.units import read_unit
 
 
 @dataclass(frozen=True)
+class Told:
+    """What a page and its JSON say of a comparison."""
+
+    facts: dict[str, Any]
+    here: bool
+
+    @property
+    def outcome(self) -> str:
+        return str(self.facts["outcome"])
+
+
+@dataclass(frozen=True)
 class Comparison:
     """What became of one entry; `complaint` says what is wrong if it counts as a failure."""
 
@@ -45,6 +57,9 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
+
+    def told(self) -> Told:
+        return Told(self.facts(), self.here)
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""

@@ -5,6 +5,7 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from derive.render.text_page import inline_text, page_text
 from derive.source import did_you_mean
 from derive.stated import reference_path
 from derive.step import Level, Quantity, Step, recorded
+from derive.stored import Solved, keep, key_of, recalled
 from derive.units import read_unit
 from derive.wording import AXIS_NAMES, Phrases, Text, given_words, phrases, told
 
@@ -47,30 +49,49 @@ class Rendered:
     agreed: bool
 
 
-def rendered(root: Path, problem_id: str, detail: str | None = None) -> Rendered:
-    """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong."""
+def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None) -> Rendered:
+    """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
+
+    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold.
+    """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
     words = phrases(template_folder(root))
-    derivation, values, known = _derived(problem)
-    compared = comparisons(problem, known)
-    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), compared)
+    solved, failures = _solved(problem, kept)
+    derivation, values = solved.derivation, solved.values
+    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), solved.compared)
     if faults:
         raise Rejected(faults)
     notation = Notation(document.dimensions)
-    failures = tuple(c.complaint for c in compared if c.complaint)
     return Rendered(
         id=problem_id,
         title=inline_text(document.title, notation),
         points="" if problem.points is None else points_text(problem.points),
         latex=problem_latex(document, words, notation, template_folder(root)),
         text=page_text(document, words, notation),
-        json=contract(problem, derivation, values, document, notation, reference=[c.facts() for c in compared]),
+        json=contract(
+            problem, derivation, values, document, notation, reference=[told.facts for told in solved.compared]
+        ),
         warnings=(*document.warnings, *failures),
         inputs=(*problem.inputs, reference_path(problem)),
         grades=_grades(derivation, values),
         agreed=not failures,
     )
+
+
+def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complaint, ...]]:
+    """The steps, as they were kept or derived now, and what disagrees with the reference."""
+    key = key_of(problem) if kept else ""
+    solved = recalled(kept, key) if kept else None
+    if solved is not None:
+        return solved, ()
+    derivation, values, known = _derived(problem)
+    compared = comparisons(problem, known)
+    failures = tuple(c.complaint for c in compared if c.complaint)
+    solved = Solved(derivation, values, tuple(c.told() for c in compared))
+    if kept and not failures:
+        keep(kept, key, solved)
+    return solved, failures
 
 
 def _check_characters(problem: Problem) -> None:
@@ -162,7 +183,7 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
 
 
-def _grades(derivation: Derivation, values: dict[str, Step]) -> dict[str, int]:
+def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int]:
     counts = derivation.grades()
     for step in values.values():
         for evidence in step.evidence:

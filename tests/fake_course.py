@@ -43,7 +43,7 @@ class Rendered:
     agreed: bool
 
 
-def rendered(root: Path, problem_id: str, detail: str | None) -> Rendered:
+def rendered(root: Path, problem_id: str, detail: str | None, kept: Path | None = None) -> Rendered:
     path = f"problems/{problem_id}.yaml"
     said = (root / path).read_text().strip()
     if said == "loop":

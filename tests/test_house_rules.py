@@ -35,7 +35,19 @@ LAYERS = (
     ("source", "units", "reading", "prose", "schema", "parts", "script", "given", "problem", "stated", "reference"),
     ("wording", "document"),
     ("output", "render"),
-    ("solution", "manifest", "workers", "build", "doctor", "terminal", "commands", "cli", "bootstrap", "__main__"),
+    (
+        "solution",
+        "stored",
+        "manifest",
+        "workers",
+        "build",
+        "doctor",
+        "terminal",
+        "commands",
+        "cli",
+        "bootstrap",
+        "__main__",
+    ),
 )
 LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 ENGINE = {name for name in MODULES if LAYER[name.partition(".")[0]] <= 3}

@@ -1,0 +1,66 @@
+"""A derivation kept from one build to the next, so that a reworded page is not derived again.
+
+The key is everything that a derivation depends on: derive's own modules and SymPy, the script, what is given, which
+steps answer the parts and in what form, and the reference. Words, points and templates are not among it. Only builds
+use it; `derive solve` and `derive check` derive.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from derive.derivation import Derivation, from_json, to_json
+from derive.manifest import digest, package_version
+from derive.output import write
+from derive.problem import Problem
+from derive.reference import Told
+from derive.stated import reference_path
+from derive.step import Step
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A problem's steps, the steps that give its answers their numbers, and what its reference says of them."""
+
+    derivation: Derivation
+    values: Mapping[str, Step]
+    compared: tuple[Told, ...]
+
+
+def key_of(problem: Problem) -> str:
+    """A digest of everything that the steps depend on."""
+    package = Path(__file__).parent
+    modules = [part for p in sorted(package.rglob("*.py")) for part in (p.name, p.read_bytes())]
+    files = [problem.root / problem.script_path, problem.root / reference_path(problem)]
+    texts = [file.read_bytes() if file.is_file() else b"" for file in files]
+    asked = [(part.answers, sorted((str(key), form) for key, form in part.forms.items())) for part in problem.parts]
+    facts = repr((problem.id, problem.givens, problem.symbols, problem.measured, problem.figures, asked))
+    return digest(*modules, f"{package_version('sympy')}", *texts, facts)
+
+
+def recalled(file: Path, key: str) -> Solved | None:
+    """What was kept under this key; nothing if it was kept under another, or cannot be read."""
+    try:
+        kept = json.loads(file.read_text(encoding="utf-8"))
+        if kept["key"] != key:
+            return None
+        values = from_json(kept["values"])
+        told = tuple(Told(facts, here) for facts, here in kept["compared"])
+        return Solved(from_json(kept["derivation"]), dict(zip(kept["answers"], values.steps, strict=True)), told)
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def keep(file: Path, key: str, solved: Solved) -> None:
+    kept: dict[str, Any] = {
+        "key": key,
+        "derivation": to_json(solved.derivation),
+        "answers": list(solved.values),
+        "values": to_json(Derivation(tuple(solved.values.values()), ())),
+        "compared": [[told.facts, told.here] for told in solved.compared],
+    }
+    write(file, json.dumps(kept))
