@@ -174,6 +174,8 @@ def establish(
     evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
+    chosen = outcome(result) if callable(outcome) else outcome
+    _check_outcome(key, chosen, result, may_be_zero=callable(outcome))
     step = Step(
         key=key,
         rule=rule,
@@ -181,7 +183,7 @@ def establish(
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
         roles=tuple(zip(inputs, names, strict=True)),
-        outcome=outcome(result) if callable(outcome) else outcome,
+        outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
         words=tuple((words or {}).items()),
@@ -205,6 +207,14 @@ def recorded() -> Iterator[list[Quantity]]:
         yield record
     finally:
         _established.reset(token)
+
+
+def _check_outcome(key: str, outcome: str, result: Any, may_be_zero: bool) -> None:
+    """A sentence that says "zero" needs a result that vanishes, and one that vanishes is not `generic`."""
+    vanishing = is_zero(result)
+    if (outcome == "zero" and not vanishing) or (outcome == "generic" and may_be_zero and vanishing):
+        message = f"`{key}`: the outcome `{outcome}` does not fit the result {_short(result)}"
+        raise Unverified(Complaint("unverified", message))
 
 
 def _check_names(key: str, quantities: Sequence[Quantity]) -> None:

@@ -43,11 +43,12 @@ def key_of(problem: Problem) -> str:
 
 
 def recalled(file: Path, key: str) -> Solved | None:
-    """What was kept under this key; nothing if it was kept under another, or cannot be read."""
+    """What was kept under this key; nothing if it was kept under another, was altered, or cannot be read."""
     try:
-        kept = json.loads(file.read_text(encoding="utf-8"))
-        if kept["key"] != key:
+        sealed = json.loads(file.read_text(encoding="utf-8"))
+        if sealed["key"] != key or sealed["seal"] != digest(key, sealed["steps"]):
             return None
+        kept = json.loads(sealed["steps"])
         values = from_json(kept["values"])
         told = tuple(Told(facts, here) for facts, here in kept["compared"])
         return Solved(from_json(kept["derivation"]), dict(zip(kept["answers"], values.steps, strict=True)), told)
@@ -57,10 +58,10 @@ def recalled(file: Path, key: str) -> Solved | None:
 
 def keep(file: Path, key: str, solved: Solved) -> None:
     kept: dict[str, Any] = {
-        "key": key,
         "derivation": to_json(solved.derivation),
         "answers": list(solved.values),
         "values": to_json(Derivation(tuple(solved.values.values()), ())),
         "compared": [[told.facts, told.here] for told in solved.compared],
     }
-    write(file, json.dumps(kept))
+    steps = json.dumps(kept)
+    write(file, json.dumps({"key": key, "seal": digest(key, steps), "steps": steps}))

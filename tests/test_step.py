@@ -214,3 +214,19 @@ def test_a_name_that_stands_for_itself_is_let_be() -> None:
     )
     assert size.value == sum(c**2 for c in open_components)
     assert isinstance(size.step.roles[0][1], MatrixSymbol)
+
+
+@pytest.mark.parametrize(("outcome", "zero"), [("zero", False), ("generic", True)])
+def test_an_outcome_that_belies_the_result_is_refused(outcome: str, zero: bool) -> None:
+    complaint = refusal_of(
+        lambda: establish(
+            "test.difference",
+            scalar("d"),
+            lambda p, q: p - q,
+            {"p": a, "q": a if zero else b},
+            routes={"again": compared_with(lambda: -(a if zero else b) + a)},
+            outcome=lambda _: outcome,
+        )
+    )
+    assert complaint.code == "unverified"
+    assert outcome in complaint.message

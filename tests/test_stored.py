@@ -88,3 +88,12 @@ def test_a_damaged_file_is_as_good_as_none(course: Path, damage: str) -> None:
     key = json.loads(kept.read_text())["key"]
     kept.write_text(damage.replace("1", f'"{key}"'))
     assert rendered(course, "hw9/block", None, kept) == first
+
+
+def test_an_altered_line_is_not_believed(course: Path) -> None:
+    kept = course / "kept.json"
+    first = rendered(course, "hw9/block", None, kept)
+    altered = kept.read_text().replace(", 13, 12]", ", 13, 22]")
+    assert altered != kept.read_text()
+    kept.write_text(altered)
+    assert rendered(course, "hw9/block", None, kept) == first
