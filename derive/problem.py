@@ -91,6 +91,12 @@ class Problem:
         units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in self.measured}
         return {m.symbol: Amount(m.si, units[m.symbol], Integer(1)) for m in self.measured}
 
+    @property
+    def texts(self) -> tuple[Prose, ...]:
+        """All prose that is printed."""
+        wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
+        return (self.title, self.statement, *(part.ask for part in self.parts), *wording)
+
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
         return self.places[".".join(keys)]
@@ -319,6 +325,11 @@ class ProblemSet:
     instructor: str | None
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
+
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The number of each problem in the set, by its name."""
+        return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
 
 
 def set_ids(root: Path) -> list[str]:

@@ -21,6 +21,7 @@ from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
 from derive.expressions import AXES, Amount, scalar
 from derive.given import Given, Measured
+from derive.prose import Mention
 from derive.rounding import rounded_form
 from derive.step import Step
 
@@ -57,13 +58,21 @@ class Ref:
 
 
 @dataclass(frozen=True)
+class ProblemRef:
+    """Another problem of the set, in words: Problem 3."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Chain:
     """Where the lines of the step go."""
 
 
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
-Node = Text | Math | DimensionMark | Unit | Ref | Chain
+Node = Text | Math | DimensionMark | Unit | Ref | ProblemRef | Chain
 
 
 @dataclass(frozen=True)
@@ -168,12 +177,23 @@ def _environment() -> ImmutableSandboxedEnvironment:
     )
 
 
-def told(pieces: Sequence[Any], names: Mapping[str, Any], missing: Callable[[str, Place], None]) -> tuple[Node, ...]:
-    """An instructor's prose with its mentions filled; an unknown name is reported and left out."""
+def told(
+    pieces: Sequence[Any],
+    names: Mapping[str, Any],
+    missing: Callable[[str, Place], None],
+    referred: Callable[[Mention], Node | None] = lambda mention: None,
+) -> tuple[Node, ...]:
+    """An instructor's prose with its mentions filled; an unknown name is reported and left out.
+
+    `referred` is what a mention of an equation or a problem stands for, if it stands for anything.
+    """
     nodes: list[Node] = []
     for piece in pieces:
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif piece.of:
+            node = referred(piece)
+            nodes += [node] if node else []
         elif piece.name in names:
             value = names[piece.name]
             nodes.extend(

@@ -9,7 +9,8 @@ import pytest
 from pypdf import PdfReader
 
 from derive.render.pdf import chosen_engine, typeset
-from derive.solution import problem_document, rendered, set_document
+from derive.set_document import problem_document, set_document
+from derive.solution import rendered
 from tests.course import course_in
 
 

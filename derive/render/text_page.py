@@ -13,7 +13,7 @@ from derive.render.layout import Layout, Mark, row
 from derive.render.lines import Printed, printed_lines
 from derive.render.notation import Notation
 from derive.render.text import plain
-from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
+from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
 
 COLUMNS = 88
 WIDTH = 60.0
@@ -41,6 +41,8 @@ def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
             return text
         case Ref(key):
             return f"({numbers[key]})"
+        case ProblemRef(_, text):
+            return text
     return ""
 
 
