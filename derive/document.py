@@ -17,18 +17,17 @@ from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Grade
-from derive.expressions import Amount
+from derive.expressions import Amount, Relation
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
 from derive.reference import Told
-from derive.references import References
+from derive.references import References, found_before
 from derive.source import did_you_mean
 from derive.step import Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
-    Math,
     Node,
     Phrases,
     Ref,
@@ -37,6 +36,7 @@ from derive.wording import (
     filled,
     given_words,
     joined,
+    name_of,
     names_of_step,
     told,
 )
@@ -46,7 +46,7 @@ HOMOGENEITY = "look in the script for one quantity given in another's place"
 
 @dataclass(frozen=True)
 class Line:
-    """`left relation right`, with the reason beside it; a continued line has no left side."""
+    """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
 
     left: Any | None
     relation: str
@@ -183,7 +183,8 @@ class _Writer:
 
     def document(self, compared: Sequence[Told]) -> Document:
         problem = self.problem
-        title = told(problem.title.pieces, self.page_names, self._unknown, self.references.refused)
+        title = told(problem.title.pieces, self.page_names, self._unknown)
+        self.references.check_title(problem.title.mentions, self.page_names)
         statement = self._told(problem.statement.pieces)
         parts = tuple(self._part(i, part) for i, part in enumerate(problem.parts))
         self.references.check(self.numbers, self.symbols)
@@ -211,13 +212,15 @@ class _Writer:
     # --- names ---
 
     def _page_names(self) -> dict[str, Any]:
-        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: Math(step.symbol) for step in self.derivation.steps}}
+        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
-        return told(pieces, {**self.page_names, **(names or {})}, self._unknown, self.references.node)
+        names = {**self.page_names, **(names or {})}
+        self.references.note(pieces, names)
+        return told(pieces, names, self._unknown, self.references.node)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
@@ -250,15 +253,8 @@ class _Writer:
 
     def _found_before(self, part: Part) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""
-        found: dict[str, list[tuple[Node, ...]]] = {}
-        for key in part.answers:
-            if key in self.shown_in:
-                number = filled(self.words.labels["equation"], {"ref": Ref(key)}) if key in self.numbers else ()
-                found.setdefault(self.shown_in[key], []).append((Math(self.symbols[key]), *number))
-        return [
-            Paragraph(filled(self.words.labels["found_before"], {"part": label, "found": joined(items, self._and)}))
-            for label, items in found.items()
-        ]
+        before = [self.derivation.step(key) for key in part.answers if key in self.shown_in]
+        return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.numbers, self.words)]
 
     @property
     def _and(self) -> str:
@@ -270,8 +266,10 @@ class _Writer:
         rounded = None
         if value is not None:
             rounded = value.chain[-1].expr
+        if isinstance(step.result, Relation):
+            return Answer(key, step.result.left, step.result.right, None, step.result.word)
         relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        return Answer(key, step.symbol, step.result, rounded, relation)
+        return Answer(key, step.symbol, step.result, rounded, relation if rounded is not None else "equals")
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
@@ -319,13 +317,15 @@ class _Writer:
         return tuple(lines)
 
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
-        relation = "approx" if form.because == "rounded" else "equals"
         template = "" if before is None else self.words.reason(step, form.because, before)
+        reason = self._reason(step, template)
+        if isinstance(form.expr, Relation):
+            return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation=relation,
+            relation="approx" if form.because == "rounded" else "equals",
             right=form.expr,
-            reason=self._reason(step, template),
+            reason=reason,
             presented=form.because == "result",
         )
 
@@ -333,7 +333,11 @@ class _Writer:
         if not template:
             return ()
         direct = [symbol for _, symbol in step.roles]
-        refs = [Ref(key) for key in step.inputs if key in self.numbers and self.symbols[key] in direct]
+        refs = [
+            Ref(key)
+            for key in step.inputs
+            if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
+        ]
         if "refs" in template and not refs:
             return ()
         refs.sort(key=lambda ref: self.numbers[ref.key])

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from derive.errors import Complaint
 from derive.prose import PROBLEM, Mention
 from derive.source import did_you_mean
-from derive.wording import Node, Phrases, ProblemRef, Ref
+from derive.step import Step
+from derive.wording import Node, Phrases, ProblemRef, Ref, filled, joined, name_of
 
 
 class References:
@@ -28,10 +29,17 @@ class References:
         self.equations.append(mention)
         return Ref(mention.name)
 
-    def refused(self, mention: Mention) -> None:
-        """For a title, which is read where there are no numbers."""
-        message = "a title cannot refer to an equation or to a problem"
-        self.faults.append(Complaint("mention", message, mention.place, help="mention it in the statement"))
+    def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
+        """The names that stand for an equation: relations have a number and no symbol."""
+        mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
+        self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
+
+    def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
+        """A title is read where there are no numbers: in lists, bookmarks and at the head of pages."""
+        for mention in mentions:
+            if mention.of or isinstance(names.get(mention.name), Ref):
+                message = "a title cannot refer to an equation or to a problem"
+                self.faults.append(Complaint("mention", message, mention.place, help="mention it in the statement"))
 
     def _problem(self, mention: Mention) -> Node | None:
         if mention.name in self.others:
@@ -53,3 +61,18 @@ class References:
                 code, message = "not-shown", f"the equation of `{mention.name}` is hidden, so it has no number"
                 help_line = f"change `{mention.name}: hidden` under `show`, or write `<<{mention.name}>>`"
             self.faults.append(Complaint(code, message, mention.place, help=help_line))
+
+
+def found_before(
+    steps: Iterable[Step], shown_in: Mapping[str, str], numbers: Mapping[str, int], words: Phrases
+) -> list[tuple[Node, ...]]:
+    """A sentence for each part that has given some of these steps: which, and by which equations."""
+    found: dict[str, list[tuple[Node, ...]]] = {}
+    for step in steps:
+        label = "found" if step.key in numbers else "found_unshown"
+        names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
+        found.setdefault(shown_in[step.key], []).append(filled(words.labels[label], names))
+    return [
+        filled(words.labels["found_before"], {"part": part, "results": joined(items, words.labels["and"])})
+        for part, items in found.items()
+    ]
