@@ -20,13 +20,21 @@ LEAST_SURE = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED
 
 
 @dataclass(frozen=True)
+class Ways:
+    """Second routes in words, and the steps, all of one rule, to whose results they were taken."""
+
+    steps: tuple[str, ...]
+    routes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Checks:
-    """The counts; `ways` are the second routes in words, each with the number of results that it was taken to."""
+    """The counts, the second routes, and what is wrong in the source document."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]
     routes: Mapping[Grade, int]
-    ways: tuple[tuple[str, int], ...]
+    ways: tuple[Ways, ...]
     agree: int
     agree_to_figures: int
     errata: tuple[Erratum, ...]
@@ -68,17 +76,26 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
     evidence = [(step, e) for step in steps for e in step.evidence]
     lines = [e for _, e in evidence if _is_of_line(e)]
     routes = [(step, e) for step, e in evidence if not _is_of_line(e) and e.grade is not Grade.DEFINITION]
-    ways = Counter(way for step, e in routes if (way := words.route(step, e.claim)))
     outcomes = [told.outcome for told in compared]
     return Checks(
         steps=Counter(_grade(step) for step in steps),
         lines=Counter(e.grade for e in lines),
         routes=Counter(e.grade for _, e in routes),
-        ways=tuple(ways.items()),
+        ways=_ways(routes, words),
         agree=outcomes.count("agrees"),
         agree_to_figures=sum(outcome.startswith("agrees to") for outcome in outcomes),
         errata=tuple(told.erratum for told in compared if told.erratum),
     )
+
+
+def _ways(routes: Sequence[tuple[Step, Evidence]], words: Phrases) -> tuple[Ways, ...]:
+    told: dict[Step, list[str]] = {}
+    for step, evidence in routes:
+        told.setdefault(step, []).append(words.route(step, evidence.claim))
+    alike: dict[tuple[str, tuple[str, ...]], list[str]] = {}
+    for step, said in told.items():
+        alike.setdefault((step.rule, tuple(said)), []).append(step.key)
+    return tuple(Ways(tuple(keys), said) for (_, said), keys in alike.items())
 
 
 def _is_of_line(evidence: Evidence) -> bool:

@@ -200,7 +200,7 @@ class _Writer:
             checks=checks,
             closing=checks.closing(self.words),
             numbers=self.numbers,
-            symbols=self.symbols,
+            symbols={**self.symbols, **{value.key: value.symbol for value in self.values.values()}},
             shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=tuple(

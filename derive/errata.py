@@ -8,7 +8,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational
 
 from derive.encoding import decoded, encoded
-from derive.expressions import Amount
+from derive.expressions import Amount, Factors
 from derive.rounding import Rounded
 from derive.stated import Entry, Stated
 
@@ -50,6 +50,9 @@ def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:
     if not entry.figures:
         return expr
     figures = Integer(entry.figures[i % len(entry.figures)])
+    number, letters = expr.as_independent(*expr.free_symbols, as_Add=False)
+    if number.is_Rational and number.q != 1 and letters != 1:
+        return Factors(Rounded(number, figures), letters)
     return expr.xreplace({n: Rounded(n, figures) for n in expr.atoms(Rational) if n.q != 1})
 
 

@@ -10,7 +10,6 @@ from typing import Any
 
 from derive.parts import points_text
 from derive.problem import ProblemSet, problem_set
-from derive.render.latex import escaped
 from derive.render.latex_page import dotted, whole_latex
 from derive.solution import Rendered, template_folder
 from derive.wording import Phrases, phrases
@@ -68,12 +67,14 @@ def _listed(problems: Sequence[Rendered]) -> list[Listed]:
 
 def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
     words: Phrases = phrases(template_folder(root))
+    total = _total(problems)
     facts: dict[str, Any] = {
         "heading": heading,
         "problems": problems,
-        "total": _total(problems, words),
+        "total": total,
+        "total_points": f"{total} {words.labels['points'][total != '1']}" if total else "",
         "rows": _rows(problems, words),
-        "columns": COLUMNS,
+        "columns_of_counts": COLUMNS,
         "labels": words.labels,
         "grades": words.grades,
     }
@@ -82,15 +83,14 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
 
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
     """The table of how the set was checked: a line for each problem, and their sums."""
-    rows = [(f"{listed.number}\\enspace {listed.title}", listed.problem.counts) for listed in problems]
+    rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
     sums = {name: sum(counts[name] for _, counts in rows) for name in COLUMNS}
-    return [*rows, (escaped(words.labels["checked_page"]["all"]), sums)] if len(rows) > 1 else rows
+    return [*rows, (words.labels["checked_page"]["all"], sums)] if len(rows) > 1 else rows
 
 
-def _total(problems: Sequence[Listed], words: Phrases) -> str:
+def _total(problems: Sequence[Listed]) -> str:
     """The points of all problems; nothing if any has none."""
     if not all(listed.problem.points for listed in problems):
         return ""
     total = sum((Fraction(listed.problem.points) for listed in problems), Fraction(0))
-    one, many = words.labels["points"]
-    return f"{points_text(total)} {one if total == 1 else many}"
+    return points_text(total)

@@ -12,6 +12,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from sympy import MatrixBase
 
+from derive.checks import Ways
 from derive.dimensions import Dimension
 from derive.document import Answer, Display, Document, PartPage
 from derive.errata import Erratum
@@ -21,7 +22,7 @@ from derive.render.layout import Layout
 from derive.render.lines import Printed, printed_lines
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text
-from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
+from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
 
 WIDTH = 60.0
 
@@ -39,14 +40,14 @@ class Fragments:
 def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> Fragments:
     page, questions = _Page(document, words, notation), _Questions(document, words, notation)
 
-    def filled(template: str, what: _Page) -> str:
+    def fragment(template: str, what: _Page) -> str:
         return _environment(folder).get_template(template).render(page=what)
 
     return Fragments(
         page.title(),
-        filled("problem.tex.j2", page),
-        filled("questions.tex.j2", questions),
-        filled("checked.tex.j2", page),
+        fragment("problem.tex.j2", page),
+        fragment("questions.tex.j2", questions),
+        fragment("checked.tex.j2", page),
     )
 
 
@@ -173,20 +174,29 @@ class _Page:
             lines.append(escaped(f"{self.words.labels['second_route']}: {display.routes[0]}"))
         return r"\\ ".join(lines)
 
-    def ways(self) -> Sequence[tuple[str, int]]:
-        """The second routes in words, each with the number of results that it was taken to."""
+    def ways(self) -> Sequence[Ways]:
         return self.document.checks.ways
+
+    def named(self, key: str) -> str:
+        """A step by its symbol, or by the number of its equation."""
+        symbol = self.document.symbols.get(key)
+        if symbol is not None:
+            return self._node(Math(symbol))
+        return self._reference(key) if key in self.document.numbers else escaped(key)
+
+    def more(self, count: int) -> str:
+        return self.inline(filled(self.words.labels["checked_page"]["more"], {"count": count}))
 
     def errata(self) -> Sequence[Erratum]:
         return self.document.checks.errata
 
     def equation_of(self, erratum: Erratum, value: Any) -> str:
         """`L = (...)` as the document has it, or as it should be."""
-        symbol = self.document.symbols.get(erratum.answer)
-        left = rf"\text{{{escaped(erratum.answer)}}}" if symbol is None else latex(self.notation.layout(symbol))
         if isinstance(value, MatrixBase) and value.shape[1] == 1:
             value = tuple(value)
-        return f"{left} = {latex(self._inline_layout(value), inline=True)}"
+        right = latex(self._inline_layout(value), inline=True)
+        symbol = self.document.symbols.get(erratum.answer)
+        return right if symbol is None else f"{latex(self.notation.layout(symbol), inline=True)} = {right}"
 
     def closing(self) -> str:
         return rf"\textbf{{{escaped(self.words.labels['checked'])}}} {self.inline(self.document.closing)}"
