@@ -38,6 +38,7 @@ from derive.wording import (
     joined,
     name_of,
     names_of_step,
+    notes_apart,
     told,
 )
 
@@ -96,13 +97,14 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Answer:
-    """A boxed result: symbol = exact value, and its rounded value if it has one."""
+    """A boxed result: symbol = exact value, and its rounded value if it has one; a note where symbols are alike."""
 
     key: str
     symbol: Any
     value: Any
     rounded: Any | None
     relation: str = "approx"
+    note: tuple[Node, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -180,6 +182,8 @@ class _Writer:
         self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
+        answered = [derivation.step(key) for part in problem.parts for key in part.answers]
+        self.notes = notes_apart(answered, words)
 
     def document(self, compared: Sequence[Told]) -> Document:
         problem = self.problem
@@ -269,7 +273,8 @@ class _Writer:
         if isinstance(step.result, Relation):
             return Answer(key, step.result.left, step.result.right, None, step.result.word)
         relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        return Answer(key, step.symbol, step.result, rounded, relation if rounded is not None else "equals")
+        relation = relation if rounded is not None else "equals"
+        return Answer(key, step.symbol, step.result, rounded, relation, self.notes.get(key, ()))
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""

@@ -237,6 +237,18 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     return names
 
 
+def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Node, ...]]:
+    """What is said beside answers of one symbol: a general result, and what it becomes in a case."""
+    notes: dict[str, tuple[Node, ...]] = {}
+    for step in steps:
+        phrase = words.labels["in_case"].get(step.rule)
+        general = [g for g in steps if g.key in step.inputs and step.symbol is not None and g.symbol == step.symbol]
+        if phrase and general:
+            notes[general[0].key] = (Text(words.labels["in_general"]),)
+            notes[step.key] = filled(phrase, names_of_step(step, words, None))
+    return notes
+
+
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Node, ...]:
     """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:

@@ -19,12 +19,13 @@ from derive.errata import Erratum
 from derive.parts import points_text
 from derive.render.latex import MARKS, escaped, latex, unit_latex
 from derive.render.layout import Layout
-from derive.render.lines import Printed, printed_lines
+from derive.render.lines import Printed, answer_lines, printed_lines
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text
 from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
 
 WIDTH = 60.0
+BOX = 70.0
 
 
 @dataclass(frozen=True)
@@ -151,22 +152,26 @@ class _Page:
         return " \\\\\n".join(steps)
 
     def _row(self, printed: Printed, stop: str) -> str:
-        left = latex(printed.left) if printed.left else ""
-        fitted = r"\fit{%s}" if printed.width > WIDTH else "%s"
-        sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
-        body = f"{left} &{sides}{stop}"
+        body = self._formula(printed, r"\fit{%s}" if printed.width > WIDTH else "%s") + stop
         reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
         if printed.number is None:
             return body + (rf" \tag*{{{reason}\blanknumber}}" if reason else r" \notag")
         anchor = rf"\anchor{{{_anchor(self.document.id, printed.number)}}}"
         return body + rf" \tag*{{{reason}\eqnumber{{{printed.number}}}}}{anchor}"
 
+    def _formula(self, printed: Printed, fitted: str = "%s", mark: str = "&") -> str:
+        """The line; `mark` is where lines below each other are aligned."""
+        left = latex(printed.left) if printed.left else ""
+        sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
+        return f"{left} {mark}{sides}"
+
     def answer(self, answer: Answer) -> str:
-        left = latex(self.notation.layout(answer.symbol))
-        right = latex(self.notation.result(answer.value))
-        if answer.rounded is None:
-            return f"{left} {MARKS[answer.relation].strip()} {right}"
-        return f"{left} = {right} {MARKS[answer.relation].strip()} {latex(self.notation.layout(answer.rounded))}"
+        lines = answer_lines(answer, self.notation, BOX)
+        note = rf" \quad\text{{{self.inline(answer.note)}}}" if answer.note else ""
+        if len(lines) == 1:
+            return self._formula(lines[0], mark="") + note
+        rows = " \\\\\n".join(self._formula(line) for line in lines)
+        return rf"\begin{{aligned}}{rows}\end{{aligned}}{note}"
 
     def margin(self, display: Display) -> str:
         lines = [escaped(self.words.grades[display.grade])]
