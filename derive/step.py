@@ -152,6 +152,7 @@ def establish(
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
     coordinates: Mapping[Symbol, str] | None = None,
+    arranged: Callable[[Any], Any] = tidied,
 ) -> Quantity:
     """Make a step, or refuse.
 
@@ -163,6 +164,7 @@ def establish(
     routes    claim -> function of the result, giving two values that must be equal
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
+    arranged  how the result is written; it changes no value
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
@@ -174,7 +176,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = tidied(bound(explicit(substituted), bindings))
+    result = arranged(bound(explicit(substituted), bindings))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [

@@ -59,6 +59,7 @@ from derive.render.layout import (
     row,
 )
 from derive.render.products import (
+    accelerations_first,
     between,
     decimal,
     either_sign,
@@ -130,7 +131,11 @@ class Notation:
             content, rest = expr.primitive()
             if content != 1 and content.q == 1:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-        terms = list(expr.args) if isinstance(expr, ex.Terms) else positive_first(expr.as_ordered_terms())
+        terms = (
+            list(expr.args)
+            if isinstance(expr, ex.Terms)
+            else accelerations_first(positive_first(expr.as_ordered_terms()))
+        )
         return self._terms(terms)
 
     def _terms(self, terms: list[Any]) -> Layout:

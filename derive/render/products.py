@@ -75,6 +75,11 @@ def positive_first(terms: list[Any]) -> list[Any]:
     return terms
 
 
+def accelerations_first(terms: list[Any]) -> list[Any]:
+    """In an equation of motion the terms with accelerations lead; all others keep their order."""
+    return sorted(terms, key=lambda term: not any(s.name.endswith("_ddot") for s in term.free_symbols))
+
+
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
     """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
     factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
@@ -101,8 +106,11 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
-    """12 a^2 + 12 b^2 as 12 and a^2 + b^2."""
-    return factor.primitive() if isinstance(factor, Add) else (factor,)
+    """12 a^2 + 12 b^2 as 12 and a^2 + b^2; a sum with fractions in it was meant so."""
+    if not isinstance(factor, Add):
+        return (factor,)
+    content, rest = factor.primitive()
+    return (content, rest) if content.is_Integer else (factor,)
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
