@@ -46,6 +46,10 @@ MARKS = {
     "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",
+    "open": r"\Bigl(",
+    "close": r"\Bigr)",
+    "start": "",
+    "on": r"\qquad ",
 }
 
 

@@ -232,7 +232,7 @@ class Notation:
             name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
             return Applied(name, self._argument(base), Number(str(exponent)))
         inner = self.layout(base)
-        atomic = isinstance(inner, Name | Number) and not (isinstance(inner, Name) and inner.dots) or is_enclosed(inner)
+        atomic = isinstance(inner, Name | Number) or is_enclosed(inner)
         return Raised(inner if atomic else Fenced(inner), self.layout(exponent))
 
     def _rational(self, expr: Rational) -> Layout:

@@ -41,6 +41,10 @@ MARKS = {
     "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",
+    "open": "(",
+    "close": ")",
+    "start": "",
+    "on": "    ",
 }
 UNITS = {"degree": "°", "deg": "°", "partial": "∂"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
@@ -105,7 +109,8 @@ def _line(layout: Layout) -> str:
         case Raised(base, power):
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
-            return _line(base) + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+            letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
+            return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
         case Lowered(base, word):
             return f"{plain(base)}_{word}"
         case RootSign(inside):
