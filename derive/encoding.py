@@ -22,7 +22,7 @@ _SYMPY = (
 _NODES = (
     "Dot", "Norm", "Cross", "CarriedRate", "BodyRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket",
     "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate",
-    "Relation",
+    "Relation", "Component",
 )
 # fmt: on
 _CLASSES: dict[str, Any] = {

@@ -315,6 +315,9 @@ class Notation:
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
         return Lowered(Fenced(self._rate(expr)), "body")
 
+    def _component(self, expr: ex.Component) -> Layout:
+        return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
+
     def _partial(self, expr: ex.Partial) -> Layout:
         return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
 
@@ -322,10 +325,10 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
-        """dL/dt for a name, d/dt of anything longer."""
+        """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer."""
         inner = self.layout(what)
         below = row(Word(sign), by)
-        if isinstance(inner, Name):
+        if isinstance(inner, Name) or isinstance(what.base if isinstance(what, Pow) else what, ex.Norm):
             return Fraction(row(Word(sign), inner), below)
         behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
         return row(Fraction(Word(sign), below), SPACE, behind)
@@ -417,6 +420,7 @@ class Notation:
         (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
         (ex.CarriedRate, _rate),
         (ex.BodyRate, _body_rate),
+        (ex.Component, _component),
         (ex.MassIntegral, _mass_integral),
         (Integral, _integral),
         (Identity, _identity),

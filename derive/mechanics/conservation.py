@@ -1,0 +1,182 @@
+"""What the equations of motion make of a quantity: its rate of change, and whether it is conserved.
+
+As on paper: each equation is multiplied by a factor, the products are added, and what is left is recognised as the rate
+of change of the quantity. The factors are not guessed. The rate of Q holds the highest rates linearly, so those factors
+are wanted for which the equations, added up, hold them alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import Add, Expr, Integer, Matrix, Symbol, diff, gcd_list
+
+from derive.errors import Complaint, Rejected
+from derive.expressions import Factors, Relation, Terms, TimeRate, bound, explicit, rate
+from derive.mechanics.arrangement import by_rates
+from derive.mechanics.coordinates import by_functions_of_time
+from derive.step import Form, Level, Quantity, Route, compared_with, establish
+from derive.tidy import tidied
+
+HIGHEST = 2
+
+
+def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
+    """Rate of change of a quantity along every motion that obeys the equations, dQ/dt.
+
+    quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
+    equations   equations of motion, as many as they have highest rates, and linear in these
+    Each equation times its factor is a step, and so is the sum of these, where there are several.
+    Second route: Q as a function of time, its highest rates put in as the equations give them; where Q belongs to a
+    body, also the sum over its particles.
+    Outcomes: conserved (the rate is zero), changes.
+    Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
+    """
+    moving = _moving([quantity, *equations])
+    motion = highest_rates(equations, moving)
+    own_rate = explicit(TimeRate(quantity.value, *moving))
+    products = _products(quantity, equations, _multipliers(own_rate, equations, list(motion)), motion)
+    known = [_sum(quantity, products, motion)] if len(products) > 1 else products
+
+    def by_time() -> Expr:
+        return bound(by_functions_of_time(quantity.value, moving), motion)
+
+    return establish(
+        "conservation.rate_under",
+        TimeRate(quantity.symbol, *moving),
+        lambda q: TimeRate(q, *moving),
+        {"quantity": quantity},
+        between=[Form(_by_highest(own_rate, list(motion)), "chain_rule", Level.BRIEF)],
+        routes={"functions_of_time": compared_with(by_time), **_by_matter(quantity, motion)},
+        outcome=lambda value: "conserved" if value == 0 else "changes",
+        motion=motion,
+        parents=known,
+        key=key or f"{quantity.key}_rate",
+    )
+
+
+def _by_matter(quantity: Quantity, motion: Mapping[Symbol, Expr]) -> dict[str, Route]:
+    """The sum over the particles of the body that the quantity belongs to, if it belongs to one."""
+    if "rate" not in quantity.context:
+        return {}
+    return {"matter": compared_with(lambda: bound(explicit(quantity.context["rate"]()), motion))}
+
+
+def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
+    return list(dict.fromkeys(q for quantity in quantities for q in quantity.coordinates))
+
+
+def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """What the equations of motion make of their highest rates: solved for them, as linear equations."""
+    residuals = [_equation(equation).residual.expand() for equation in equations]
+    unknown = [highest for q in moving if (highest := _highest(q, residuals)) is not None]
+    matrix = Matrix([[diff(residual, a) for a in unknown] for residual in residuals])
+    rest = Matrix([bound(residual, dict.fromkeys(unknown, Integer(0))) for residual in residuals])
+    if not unknown or matrix.rows != matrix.cols or matrix.has(*unknown) or tidied(matrix.det()) == 0:
+        count = f"{len(equations)} equation{'s' * (len(equations) != 1)}"
+        message = f"{count} of motion do not give {', '.join(a.name for a in unknown) or 'any rate'}"
+        raise Rejected(Complaint("wrong-argument", message, help="give one equation for each coordinate that moves"))
+    return dict(zip(unknown, (tidied(value) for value in matrix.LUsolve(-rest)), strict=True))
+
+
+def _equation(quantity: Quantity) -> Relation:
+    value = quantity.value
+    if not (isinstance(value, Relation) and value.mark == "="):
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` is not an equation"))
+    return explicit(value)  # type: ignore[no-any-return]
+
+
+def _highest(q: Symbol, residuals: Sequence[Expr]) -> Symbol | None:
+    present = {s for residual in residuals for s in residual.free_symbols}
+    return next((rate(q, n) for n in range(HIGHEST, 0, -1) if rate(q, n) in present), None)
+
+
+def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> list[Expr]:
+    """The factors for which the equations, added up, have each highest rate as often as the rate of Q has it.
+
+    A number that is common to all factors is left out: it changes nothing.
+    """
+    matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
+    wanted = Matrix([diff(own_rate, a) for a in unknown])
+    if wanted.has(*unknown) or own_rate.has(*(rate(a) for a in unknown)):
+        raise Rejected(Complaint("wrong-argument", "the quantity has higher rates than the equations of motion give"))
+    factors = [tidied(factor) for factor in matrix.T.LUsolve(wanted)]
+    common = gcd_list([factor.as_coeff_Mul()[0] for factor in factors if factor != 0] or [Integer(1)])
+    return [factor / common for factor in factors]
+
+
+def _products(
+    quantity: Quantity, equations: Sequence[Quantity], factors: Sequence[Expr], motion: Mapping[Symbol, Expr]
+) -> list[Quantity]:
+    """Each equation that is needed, times its factor."""
+    products: list[Quantity] = []
+    for equation, factor in zip(equations, factors, strict=True):
+        if factor != 0:
+            products.append(_product(quantity, equation, factor, motion, leads=not products))
+    return products
+
+
+def _product(
+    quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], leads: bool
+) -> Quantity:
+    """An equation of motion times a factor, multiplied out."""
+    written = equation.value
+    return establish(
+        "conservation.product",
+        None,
+        lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
+        {"factor": factor, "quantity": quantity},
+        arranged=lambda value: _by_sides(value, list(motion)),
+        routes={"motion": lambda value: _sides(value, motion)},
+        outcome="first" if leads else "next",
+        put_in=None,
+        parents=[equation],
+        key=f"{quantity.key}_{equation.key}",
+    )
+
+
+def _times(factor: Expr, side: Expr) -> Expr:
+    return Integer(0) if side == 0 else Factors(factor, side)
+
+
+def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbol, Expr]) -> Quantity:
+    """The sum of the products, collected."""
+    sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
+    return establish(
+        "conservation.sum",
+        None,
+        lambda: Relation(Terms(*sides[0]), "=", Terms(*sides[1])),
+        {},
+        arranged=lambda value: _by_sides(value, list(motion)),
+        routes={"motion": lambda value: _sides(value, motion)},
+        outcome=_left_over(sides[0], list(motion)),
+        law_shown=Level.FULL,
+        put_in=None,
+        parents=list(products),
+        key=f"{quantity.key}_sum",
+    )
+
+
+def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
+    """What becomes of the terms without a highest rate: there were none, they cancel, or some remain."""
+    without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
+    if all(rest == 0 for rest in without):
+        return "plain"
+    return "cancel" if Add(*without).expand() == 0 else "remain"
+
+
+def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
+    left, right = (bound(explicit(side), motion) for side in value.sides)
+    return left, right
+
+
+def _by_sides(value: Relation, unknown: Sequence[Symbol]) -> Relation:
+    left, right = (explicit(side).expand() for side in value.sides)
+    return Relation(left, value.mark, right)
+
+
+def _by_highest(value: Expr, unknown: Sequence[Symbol]) -> Expr:
+    """A rate of change as it is recognised, a number common to all terms in front."""
+    return tidied(value.expand())
