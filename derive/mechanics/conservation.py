@@ -14,8 +14,8 @@ from sympy import Add, Expr, Integer, Matrix, Symbol, diff, gcd_list
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import Factors, Relation, Terms, TimeRate, bound, explicit, rate
-from derive.mechanics.arrangement import by_rates
-from derive.mechanics.coordinates import by_functions_of_time
+from derive.mechanics.arrangement import by_products
+from derive.mechanics.coordinates import by_functions_of_time, kind_of_rate
 from derive.step import Form, Level, Quantity, Route, compared_with, establish
 from derive.tidy import tidied
 
@@ -48,12 +48,13 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
         TimeRate(quantity.symbol, *moving),
         lambda q: TimeRate(q, *moving),
         {"quantity": quantity},
-        between=[Form(_by_highest(own_rate, list(motion)), "chain_rule", Level.BRIEF)],
+        between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)],
         routes={"functions_of_time": compared_with(by_time), **_by_matter(quantity, motion)},
         outcome=lambda value: "conserved" if value == 0 else "changes",
         motion=motion,
         parents=known,
         key=key or f"{quantity.key}_rate",
+        kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
     )
 
 
@@ -128,9 +129,10 @@ def _product(
         None,
         lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
         {"factor": factor, "quantity": quantity},
-        arranged=lambda value: _by_sides(value, list(motion)),
+        arranged=lambda value: _by_sides(value, _moving([quantity, equation])),
         routes={"motion": lambda value: _sides(value, motion)},
         outcome="first" if leads else "next",
+        law_shown=Level.FULL,
         put_in=None,
         parents=[equation],
         key=f"{quantity.key}_{equation.key}",
@@ -149,7 +151,7 @@ def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbo
         None,
         lambda: Relation(Terms(*sides[0]), "=", Terms(*sides[1])),
         {},
-        arranged=lambda value: _by_sides(value, list(motion)),
+        arranged=lambda value: _by_sides(value, _moving([quantity, *products])),
         routes={"motion": lambda value: _sides(value, motion)},
         outcome=_left_over(sides[0], list(motion)),
         law_shown=Level.FULL,
@@ -172,11 +174,7 @@ def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
     return left, right
 
 
-def _by_sides(value: Relation, unknown: Sequence[Symbol]) -> Relation:
-    left, right = (explicit(side).expand() for side in value.sides)
+def _by_sides(value: Relation, moving: Sequence[Symbol]) -> Relation:
+    """Both sides multiplied out and gathered, the terms with rates first."""
+    left, right = (by_products(explicit(side), moving) for side in value.sides)
     return Relation(left, value.mark, right)
-
-
-def _by_highest(value: Expr, unknown: Sequence[Symbol]) -> Expr:
-    """A rate of change as it is recognised, a number common to all terms in front."""
-    return tidied(value.expand())

@@ -33,7 +33,7 @@ from derive.expressions import (
     tensor,
     vector,
 )
-from derive.mechanics.arrangement import by_rates
+from derive.mechanics.arrangement import by_products
 from derive.mechanics.bodies import Point
 from derive.mechanics.conservation import highest_rates
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
@@ -170,7 +170,7 @@ def rate_in_space(
         inputs,
         between=_rates_worked(momentum, omega, in_body),
         put_in=None,
-        arranged=lambda value: value.applyfunc(lambda entry: by_rates(tidied(entry), moving)),
+        arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
         routes={
             "carried_round": compared_with(lambda: bound(explicit(turned), motion)),
             "matter": compared_with(lambda: bound(explicit(matter()), motion)),
@@ -219,7 +219,8 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         lambda rate, _: Relation(Component(rate, AXES[i]), "=", acting),
         {"rate": rate, "component": moving[i]},
         put_in=None,
-        arranged=lambda value: Relation(by_rates(tidied(value.left), moving), "=", value.right),
+        arranged=lambda value: Relation(by_products(explicit(value.left), moving), "=", value.right),
+        law_shown=Level.FULL,
         routes={"matter": lambda value: (value.residual, explicit(rate.context["rate"]())[i] - acting)},
         outcome=_coupling(rate.value, moving, i, torque),
         kind="torque",
@@ -249,7 +250,7 @@ def rate_in_body(
     equations   Euler's equations, for the axes x, y and z in turn
     Second route: the components I_x omega_x and so on differentiated, the angular accelerations as the equations give
     them.
-    Outcomes: zero (constant in the body), in_general.
+    Outcomes: zero (constant in the body), in_general, driven (a torque acts).
     Errors: arguments of other kinds.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
@@ -270,7 +271,7 @@ def rate_in_body(
         {"omega": omega, "momentum": momentum},
         put_in=Level.FULL,
         routes={"motion": compared_with(lambda: bound(explicit(BodyRate(momentum.value, *moving)), motion))},
-        outcome=lambda value: "zero" if is_zero(value) else "in_general",
+        outcome=lambda value: "zero" if is_zero(value) else "in_general" if is_zero(acting) else "driven",
         kind="torque",
         parents=list(equations),
         context={"motion": motion},

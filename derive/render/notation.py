@@ -402,8 +402,8 @@ class Notation:
         (Pi, lambda self, _: Name("pi")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),
+        (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add, of which SymPy makes it a kind
         (Add | ex.Terms, _sum),
-        (MatAdd, lambda self, expr: self._terms(list(expr.args))),
         (MatMul, _matrix_product),
         (Mul, _product),
         (Pow, _power),

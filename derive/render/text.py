@@ -124,9 +124,15 @@ def _line(layout: Layout) -> str:
 def _tight(layout: Layout, *, is_above: bool = False) -> str:
     """An operand of `/`: bracketed if it would be misread; a product may stand before the stroke as it is."""
     text = plain(layout)
-    simple = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied)
+    simple = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied) or _is_differential(layout)
     product = is_above and isinstance(layout, Row) and not any(isinstance(item, Mark) for item in layout.items)
     return text if simple or product else f"({text})"
+
+
+def _is_differential(layout: Layout) -> bool:
+    """The d of d/dt, and the dt."""
+    first = layout.items[0] if isinstance(layout, Row) else layout
+    return first in (Word("d"), Word("partial"))
 
 
 def _row(items: tuple[Layout, ...]) -> Box:
