@@ -141,7 +141,7 @@ def rate_in_space(
     in_body    its rate of change in the body by the equations of motion, if that is to be put in
     Second route: L turned with the body by a rotation matrix and differentiated; the sum of m r x a over particles;
     the component along a direction that is fixed in space, and so turns backwards in the body.
-    Outcomes: zero (constant in space), generic.
+    Outcomes: zero (constant in space), zero_in_both (and in the body), generic.
     Errors: arguments of other kinds.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
@@ -149,6 +149,7 @@ def rate_in_space(
     require_kind("rate_in_space", "omega", omega, "angular speed")
     moving = list(omega.coordinates)
     motion = in_body.context["motion"] if in_body else {}
+    still = in_body is not None and is_zero(in_body.value)
     L, w = momentum, omega
     turned, matter = CarriedRate(L.value, w.value, *moving), L.context["rate"]
 
@@ -176,7 +177,7 @@ def rate_in_space(
             "matter": compared_with(lambda: bound(explicit(matter()), motion)),
             "fixed_direction": lambda value: (explicit(Dot(value, column(*component_names("n")))), along_fixed_direction()),
         },
-        outcome=lambda value: "zero" if is_zero(value) else "generic",
+        outcome=lambda value: "generic" if not is_zero(value) else "zero_in_both" if still else "zero",
         kind="torque",
         words={"about": L.context["about"]},
         context={"rate": matter, "moving": moving},

@@ -126,7 +126,7 @@ class _Page:
         return body + rf" \tag*{{{reason}\eqnumber{{{printed.number}}}}}{anchor}"
 
     def answer(self, answer: Answer) -> str:
-        left = latex(self.notation.layout(answer.symbol))
+        left = latex(self.notation.side(answer.symbol))
         right = latex(self.notation.result(answer.value))
         if answer.rounded is None:
             return f"{left} {MARKS[answer.relation].strip()} {right}"

@@ -47,7 +47,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
         side = (line.relation, right_side(line, notation))
         last = packed[-1] if packed else None
         if line.left is not None and packed:
-            packed.append(Printed(notation.layout(line.left), (side,), line.reason))
+            packed.append(Printed(notation.side(line.left), (side,), line.reason))
             continue
         if last and last.sides[-1][1] == side[1] and line.relation == "equals":
             continue  # what is laid out alike is one line to the reader
@@ -55,7 +55,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
         if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
             packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
         else:
-            left = notation.layout(line.left) if line.left is not None else None
+            left = notation.side(line.left) if line.left is not None else None
             packed.append(Printed(left, (side,), line.reason))
     end = packed[-1]
     packed[-1] = Printed(end.left, end.sides, end.reason, equations.number)

@@ -131,12 +131,10 @@ class Notation:
             content, rest = expr.primitive()
             if content != 1 and content.q == 1:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-        terms = (
-            list(expr.args)
-            if isinstance(expr, ex.Terms)
-            else accelerations_first(positive_first(expr.as_ordered_terms()))
-        )
-        return self._terms(terms)
+        return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
+
+    def _ordered_terms(self, expr: Add) -> list[Expr]:
+        return accelerations_first(positive_first(expr.as_ordered_terms()))
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
@@ -334,7 +332,12 @@ class Notation:
         return row(Fraction(Word(sign), below), SPACE, behind)
 
     def _relation(self, expr: ex.Relation) -> Layout:
-        return row(self.layout(expr.left), Mark(expr.word), self.layout(expr.right))
+        left, right = (self.side(side) for side in expr.sides)
+        return row(left, Mark(expr.word), right)
+
+    def side(self, expr: Any) -> Layout:
+        """A side of an equation: a number common to its terms is not put before a bracket."""
+        return self._terms(self._ordered_terms(expr)) if isinstance(expr, Add) else self.layout(expr)
 
     def _identity(self, expr: Identity) -> Layout:
         return Name("1", style="tensor")

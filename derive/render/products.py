@@ -123,8 +123,8 @@ def rank_of_dimension(dimension: Dimension | None) -> int:
     """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:
         return 4
-    if dimension.mass and not dimension.length:
-        return 0
+    if dimension.mass and dimension.length >= 0 and not dimension.time:
+        return 0  # a mass, a moment of inertia
     if dimension.mass:
         return 4
     if dimension.length and dimension.time:

@@ -114,7 +114,7 @@ class _Page:
 
     def _answer(self, answer: Answer) -> str:
         relation = "equals" if answer.rounded is not None else answer.relation
-        items: list[Layout] = [self.notation.layout(answer.symbol), Mark(relation), self.notation.result(answer.value)]
+        items: list[Layout] = [self.notation.side(answer.symbol), Mark(relation), self.notation.result(answer.value)]
         if answer.rounded is not None:
             items += [Mark(answer.relation), self.notation.layout(answer.rounded)]
         body = plain(row(*items)).split("\n")
