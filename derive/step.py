@@ -166,7 +166,7 @@ def establish(
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
     arranged  how the result is written; it changes no value
-    motion    rate -> what the equations of motion make of it, put in at the last line, which holds for such motions only
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """

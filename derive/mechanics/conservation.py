@@ -8,7 +8,6 @@ are wanted for which the equations, added up, hold them alike.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from sympy import Add, Expr, Integer, Matrix, Symbol, diff, gcd_list
 
@@ -16,10 +15,10 @@ from derive.errors import Complaint, Rejected
 from derive.expressions import Factors, Relation, Terms, TimeRate, bound, explicit, rate
 from derive.mechanics.arrangement import by_products
 from derive.mechanics.coordinates import by_functions_of_time, kind_of_rate
-from derive.step import Form, Level, Quantity, Route, compared_with, establish
+from derive.step import Form, Level, Quantity, compared_with, establish
 from derive.tidy import tidied
 
-HIGHEST = 2
+HIGHEST = 2  # the order of the rates that equations of motion determine
 
 
 def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
@@ -28,8 +27,8 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
     equations   equations of motion, as many as they have highest rates, and linear in these
     Each equation times its factor is a step, and so is the sum of these, where there are several.
-    Second route: Q as a function of time, its highest rates put in as the equations give them; where Q belongs to a
-    body, also the sum over its particles.
+    Second route: Q as a function of time, its highest rates put in as the equations give them; the rate less the sum,
+    for all motions alike; where Q belongs to a body, also the sum over its particles.
     Outcomes: conserved (the rate is zero), changes.
     Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -37,11 +36,19 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     moving = _moving([quantity, *equations])
     motion = highest_rates(equations, moving)
     own_rate = explicit(TimeRate(quantity.value, *moving))
-    products = _products(quantity, equations, _multipliers(own_rate, equations, list(motion)), motion)
+    common, factors = _multipliers(own_rate, equations, list(motion))
+    products = _products(quantity, equations, factors, motion)
     known = [_sum(quantity, products, motion)] if len(products) > 1 else products
 
     def by_time() -> Expr:
         return bound(by_functions_of_time(quantity.value, moving), motion)
+
+    def less_the_sum() -> Expr:
+        """What is left of the rate, whatever the motion, once the equations are taken off as often as they occur."""
+        return own_rate - common * Add(*(_equation(equation).residual for equation in known))
+
+    def by_matter() -> Expr:
+        return bound(explicit(quantity.context["rate"]()), motion)
 
     return establish(
         "conservation.rate_under",
@@ -49,20 +56,17 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
         lambda q: TimeRate(q, *moving),
         {"quantity": quantity},
         between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)],
-        routes={"functions_of_time": compared_with(by_time), **_by_matter(quantity, motion)},
+        routes={
+            "functions_of_time": compared_with(by_time),
+            "sum": compared_with(less_the_sum),
+            **({"matter": compared_with(by_matter)} if "rate" in quantity.context else {}),
+        },
         outcome=lambda value: "conserved" if value == 0 else "changes",
         motion=motion,
         parents=known,
         key=key or f"{quantity.key}_rate",
         kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
     )
-
-
-def _by_matter(quantity: Quantity, motion: Mapping[Symbol, Expr]) -> dict[str, Route]:
-    """The sum over the particles of the body that the quantity belongs to, if it belongs to one."""
-    if "rate" not in quantity.context:
-        return {}
-    return {"matter": compared_with(lambda: bound(explicit(quantity.context["rate"]()), motion))}
 
 
 def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
@@ -94,10 +98,10 @@ def _highest(q: Symbol, residuals: Sequence[Expr]) -> Symbol | None:
     return next((rate(q, n) for n in range(HIGHEST, 0, -1) if rate(q, n) in present), None)
 
 
-def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> list[Expr]:
-    """The factors for which the equations, added up, have each highest rate as often as the rate of Q has it.
+def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> tuple[Expr, list[Expr]]:
+    """A number and the factors for which the equations, added up, hold each highest rate as the rate of Q does.
 
-    A number that is common to all factors is left out: it changes nothing.
+    The number is what is common to all of them: on paper nobody multiplies by it.
     """
     matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
     wanted = Matrix([diff(own_rate, a) for a in unknown])
@@ -105,7 +109,7 @@ def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequenc
         raise Rejected(Complaint("wrong-argument", "the quantity has higher rates than the equations of motion give"))
     factors = [tidied(factor) for factor in matrix.T.LUsolve(wanted)]
     common = gcd_list([factor.as_coeff_Mul()[0] for factor in factors if factor != 0] or [Integer(1)])
-    return [factor / common for factor in factors]
+    return common, [factor / common for factor in factors]
 
 
 def _products(

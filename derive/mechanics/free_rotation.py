@@ -175,7 +175,10 @@ def rate_in_space(
         routes={
             "carried_round": compared_with(lambda: bound(explicit(turned), motion)),
             "matter": compared_with(lambda: bound(explicit(matter()), motion)),
-            "fixed_direction": lambda value: (explicit(Dot(value, column(*component_names("n")))), along_fixed_direction()),
+            "fixed_direction": lambda value: (
+                explicit(Dot(value, column(*component_names("n")))),
+                along_fixed_direction(),
+            ),
         },
         outcome=lambda value: "generic" if not is_zero(value) else "zero_in_both" if still else "zero",
         kind="torque",

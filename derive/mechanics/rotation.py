@@ -26,7 +26,7 @@ from derive.expressions import (
     scaled,
     vector,
 )
-from derive.mechanics.bodies import Cuboid, Point
+from derive.mechanics.bodies import Point
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
 from derive.tidy import factored_matrix, size_and_rest, tidied
 
@@ -98,7 +98,7 @@ def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     """The integral over the body of a function of the position from the point of the tensor, times dm."""
     body = inertia.context["body"]
     point: Point = inertia.context["about"]
-    if not isinstance(body, Cuboid):
+    if hasattr(body, "over_mass"):
         return body.over_mass(integrand, point)
     r = column(*(limit[0] for limit in body.limits(point.position)))
     values = explicit(integrand(r))

@@ -81,7 +81,13 @@ def accelerations_first(terms: list[Any]) -> list[Any]:
     def place(term: Any) -> int:
         rates = [s for s in term.free_symbols if s.name.endswith("_dot")]
         accelerates = any(s.name.endswith("_ddot") for s in term.free_symbols)
-        return 0 if accelerates else 1 if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates)) else 2
+        return (
+            0
+            if accelerates
+            else 1
+            if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates))
+            else 2
+        )
 
     return sorted(terms, key=place)
 
