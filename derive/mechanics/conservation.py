@@ -27,8 +27,9 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
     equations   equations of motion, as many as they have highest rates, and linear in these
     Each equation times its factor is a step, and so is the sum of these, where there are several.
-    Second route: Q as a function of time, its highest rates put in as the equations give them; the rate less the sum,
-    for all motions alike; where Q belongs to a body, also the sum over its particles.
+    Second route: Q as a function of time, its highest rates put in as the equations give them; the same less the sum of
+    the equations, for all motions alike; where Q belongs to a body, also what its particles contribute, the sum put
+    back.
     Outcomes: conserved (the rate is zero), changes.
     Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -37,18 +38,12 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     motion = highest_rates(equations, moving)
     own_rate = explicit(TimeRate(quantity.value, *moving))
     common, factors = _multipliers(own_rate, equations, list(motion))
+    matter = quantity.context.get("rate")
     products = _products(quantity, equations, factors, motion)
     known = [_sum(quantity, products, motion)] if len(products) > 1 else products
 
-    def by_time() -> Expr:
-        return bound(by_functions_of_time(quantity.value, moving), motion)
-
-    def less_the_sum() -> Expr:
-        """What is left of the rate, whatever the motion, once the equations are taken off as often as they occur."""
-        return own_rate - common * Add(*(_equation(equation).residual for equation in known))
-
-    def by_matter() -> Expr:
-        return bound(explicit(quantity.context["rate"]()), motion)
+    in_time = by_functions_of_time(quantity.value, moving)
+    taken_off = common * Add(*(_equation(equation).residual for equation in known))  # zero along the motion
 
     return establish(
         "conservation.rate_under",
@@ -57,9 +52,9 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
         {"quantity": quantity},
         between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)],
         routes={
-            "functions_of_time": compared_with(by_time),
-            "sum": compared_with(less_the_sum),
-            **({"matter": compared_with(by_matter)} if "rate" in quantity.context else {}),
+            "functions_of_time": compared_with(lambda: bound(in_time, motion)),
+            "sum": compared_with(lambda: in_time - taken_off),
+            **({"matter": lambda value: (value + taken_off, matter())} if matter else {}),
         },
         outcome=lambda value: "conserved" if value == 0 else "changes",
         motion=motion,

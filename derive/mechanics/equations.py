@@ -96,16 +96,17 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
+    v = of.value
     return establish(
         "equations.squared_magnitude",
         Pow(Norm(of.symbol), 2),
         lambda v: Dot(v, v),
         {"vector": of},
         put_in=Level.FULL,
-        routes={"turned": compared_with(lambda: length_by_turning(of.value) ** 2)},
+        routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
         outcome=lambda square: "zero" if square == 0 else "generic",
         key=key,
-        context={"rate": lambda: 2 * explicit(Dot(of.value, of.context["rate"]()))} if "rate" in of.context else {},
+        context={"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {},
     )
 
 

@@ -123,11 +123,11 @@ ROUTES: list[tuple[str, str, str, str, str]] = [
     (
         "rate_under",
         CONSERVATION,
-        "by_functions_of_time(quantity.value, moving), motion",
-        "by_functions_of_time(quantity.value, moving), {}",
+        "lambda: bound(in_time, motion)",
+        "lambda: in_time",
         "kinetic_energy_rate",
     ),
-    ("rate_under", CONSERVATION, "own_rate - common", "own_rate - 2 * common", "kinetic_energy_rate"),
+    ("rate_under", CONSERVATION, "in_time - taken_off", "in_time - 2 * taken_off", "kinetic_energy_rate"),
     ("rate_under", ROTATION, "r), acceleration(r)))},", "r), r))},", "kinetic_energy_rate"),
-    ("squared_magnitude", EQUATIONS, "of.value) ** 2)", "of.value) ** 3)", "squared_magnitude"),
+    ("squared_magnitude", EQUATIONS, "turning(v) ** 2)", "turning(v) ** 3)", "squared_magnitude"),
 ]
