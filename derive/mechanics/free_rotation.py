@@ -39,6 +39,8 @@ from derive.mechanics.conservation import highest_rates
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
 from derive.tidy import tidied
 
+NO_TORQUE = (Integer(0), Integer(0), Integer(0))
+
 
 @dataclass(frozen=True)
 class RigidBody:
@@ -141,7 +143,7 @@ def rate_in_space(
     in_body    its rate of change in the body by the equations of motion, if that is to be put in
     Second route: L turned with the body by a rotation matrix and differentiated; the sum of m r x a over particles;
     the component along a direction that is fixed in space, and so turns backwards in the body.
-    Outcomes: zero (constant in space), zero_in_both (and in the body), generic.
+    Outcomes: zero (constant in space), zero_in_both (and in the body), driven (a torque acts), generic.
     Errors: arguments of other kinds.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
@@ -149,7 +151,6 @@ def rate_in_space(
     require_kind("rate_in_space", "omega", omega, "angular speed")
     moving = list(omega.coordinates)
     motion = in_body.context["motion"] if in_body else {}
-    still = in_body is not None and is_zero(in_body.value)
     L, w = momentum, omega
     turned, matter = CarriedRate(L.value, w.value, *moving), L.context["rate"]
 
@@ -180,7 +181,7 @@ def rate_in_space(
                 along_fixed_direction(),
             ),
         },
-        outcome=lambda value: "generic" if not is_zero(value) else "zero_in_both" if still else "zero",
+        outcome=lambda value: _constancy(value, in_body),
         kind="torque",
         words={"about": L.context["about"]},
         context={"rate": matter, "moving": moving},
@@ -188,18 +189,26 @@ def rate_in_space(
     )
 
 
+def _constancy(rate: Any, in_body: Quantity | None) -> str:
+    """Whether the vector is constant in space, and in the body too; unknown before the equations are put in."""
+    if in_body is None:
+        return "generic"
+    if not is_zero(rate):
+        return "driven"
+    return "zero_in_both" if is_zero(in_body.value) else "zero"
+
+
 def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
-    """The two parts of the rate: with their components, or as the same vector product twice."""
-    turning = Cross(omega.symbol, momentum.symbol)
+    """The two parts of the rate: with their components, or with that in the body as the equations of motion give it."""
     if in_body is not None:
-        return [Form(MatAdd(scaled(Integer(-1), turning), turning), "in_body", Level.STANDARD)]
+        seen = in_body.step.chain[0].expr
+        parts = seen.args if isinstance(seen, MatAdd) else (seen,)
+        return [Form(MatAdd(*parts, Cross(omega.symbol, momentum.symbol)), "in_body", Level.STANDARD)]
     in_components = explicit(BodyRate(momentum.value, *omega.coordinates))
     return [Form(MatAdd(in_components, Cross(omega.value, momentum.value)), "differentiated", Level.STANDARD)]
 
 
-def euler_equations(
-    rate: Quantity, torque: tuple[Expr, Expr, Expr] = (Integer(0), Integer(0), Integer(0))
-) -> tuple[Quantity, Quantity, Quantity]:
+def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE) -> tuple[Quantity, Quantity, Quantity]:
     """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and so on round: dL/dt = N by components.
 
     rate     rate of change in space of the angular momentum, vector (3), N m, principal axes of the body

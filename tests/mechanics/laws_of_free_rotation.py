@@ -67,8 +67,8 @@ LAWS: list[tuple[str, str, str, str, str]] = [
     (
         "rate_in_space put together",
         FREE,
-        "Integer(-1), turning), turning)",
-        "Integer(1), turning), turning)",
+        "MatAdd(*parts, Cross(",
+        "MatAdd(*parts, *parts, Cross(",
         "in_space",
     ),
     ("euler_equations", FREE, "Component(rate, AXES[i])", "Component(rate, AXES[i - 1])", "euler_x"),
