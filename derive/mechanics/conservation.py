@@ -148,7 +148,7 @@ def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbo
     return establish(
         "conservation.sum",
         None,
-        lambda: Relation(Terms(*sides[0]), "=", Terms(*sides[1])),
+        lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
         {},
         arranged=lambda value: _by_sides(value, _moving([quantity, *products])),
         routes={"motion": lambda value: _sides(value, motion)},
@@ -158,6 +158,11 @@ def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbo
         parents=list(products),
         key=f"{quantity.key}_sum",
     )
+
+
+def _added(sides: Sequence[Expr]) -> list[Expr]:
+    """The terms of several sums in a row; nothing is written for a zero, unless there is nothing else."""
+    return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:

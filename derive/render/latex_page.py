@@ -115,8 +115,8 @@ class _Page:
         return " \\\\\n".join(steps)
 
     def _row(self, printed: Printed, stop: str) -> str:
-        left = latex(printed.left) if printed.left else ""
         fitted = r"\fit{%s}" if printed.width > WIDTH else "%s"
+        left = fitted % latex(printed.left) if printed.left else ""
         sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
         body = f"{left} &{sides}{stop}"
         reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""

@@ -91,8 +91,14 @@ LAWS: list[tuple[str, str, str, str, str]] = [
     # a product or a sum that no motion obeys, and one that every motion obeys but that is not the rate of the energy
     ("rate_under", CONSERVATION, "Factors(f, written.left)", "Terms(f, written.left)", "kinetic_energy_euler_x"),
     ("rate_under", CONSERVATION, "Factors(f, written.left)", "Factors(f, f, written.left)", "kinetic_energy_rate"),
-    ("rate_under", CONSERVATION, "Terms(*sides[0])", "Terms(*sides[0], quantity.value)", "kinetic_energy_sum"),
-    ("rate_under", CONSERVATION, "Terms(*sides[0])", "Terms(*sides[0][1:])", "kinetic_energy_rate"),
+    (
+        "rate_under",
+        CONSERVATION,
+        "Terms(*_added(sides[0]))",
+        "Terms(quantity.value, *_added(sides[0]))",
+        "kinetic_energy_sum",
+    ),
+    ("rate_under", CONSERVATION, "Terms(*_added(sides[0]))", "Terms(*_added(sides[0][1:]))", "kinetic_energy_rate"),
     (
         "rate_under",
         CONSERVATION,
