@@ -28,6 +28,7 @@ from derive.step import Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
+    Math,
     Node,
     Phrases,
     Ref,
@@ -324,7 +325,8 @@ class _Writer:
         return tuple(lines)
 
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
-        template = "" if before is None else self.words.reason(step, form.because, before)
+        stands_alone = before is None and not isinstance(form.expr, Relation)
+        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, template)
         if isinstance(form.expr, Relation):
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
@@ -345,10 +347,15 @@ class _Writer:
             for key in step.inputs
             if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
         ]
-        if "refs" in template and not refs:
-            return ()
         refs.sort(key=lambda ref: self.numbers[ref.key])
-        return filled(template, {**self.page_names, "refs": joined(refs, self._and)})
+        equations = [ref for ref in refs if self.symbols[ref.key] is None]
+        if "refs" in template and not refs or "equations" in template and not equations:
+            return ()
+        last = self._and
+        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        return filled(
+            template, {**self.page_names, **own, "refs": joined(refs, last), "equations": joined(equations, last)}
+        )
 
     # --- how it was checked ---
 

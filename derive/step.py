@@ -154,6 +154,7 @@ def establish(
     words: Mapping[str, str] | None = None,
     coordinates: Mapping[Symbol, str] | None = None,
     arranged: Callable[[Any], Any] = tidied,
+    motion: Mapping[Symbol, Expr] | None = None,
 ) -> Quantity:
     """Make a step, or refuse.
 
@@ -166,6 +167,7 @@ def establish(
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
     arranged  how the result is written; it changes no value
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
@@ -177,7 +179,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = arranged(bound(explicit(substituted), bindings))
+    result = arranged(bound(explicit(substituted), {**bindings, **(motion or {})}))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
@@ -185,11 +187,12 @@ def establish(
             Form(formula, "law", law_shown),
             *([Form(substituted, "put_in", put_in)] if put_in else []),
             *between,
-            *([Form(result, "result")] if show_result else []),
+            *([Form(result, "motion" if motion else "result")] if show_result else []),
             *after,
-        ]
+        ],
+        symbol,
     )
-    evidence = [_line_evidence(key, chain, i, bindings) for i in range(1, len(chain))]
+    evidence = [_line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
     evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
@@ -270,10 +273,13 @@ def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
     return Evidence("definition", Grade.DEFINITION, rule)
 
 
-def _without_repeats(forms: Sequence[Form]) -> list[Form]:
-    """A form that looks just like the one before it says nothing; the lower level of the two is kept."""
+def _without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
+    """A form that looks just like the one before it says nothing; the lower level of the two is kept.
+
+    Nor does one that is only the symbol of the step, unless there is no other.
+    """
     kept: list[Form] = []
-    for form in forms:
+    for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
             level = min(kept[-1].level, form.level, key=list(Level).index)
             kept[-1] = replace(kept[-1], level=level)
@@ -296,13 +302,17 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
     return {name: value for name, value in values.items() if name != value}
 
 
-def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any]) -> Evidence:
+def _line_evidence(
+    key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
+) -> Evidence:
     left, right = (explicit(bound(form.expr, bindings)) for form in chain[i - 1 : i + 1])
     claim = f"line {i + 1} equals line {i}"
     if chain[i].because == "rounded":
         return _rounding_evidence(key, claim, left, chain[i].expr)
     if isinstance(chain[i].expr, Truncated):
         return _series_evidence(key, claim, left, chain[i].expr)
+    if chain[i].because == "motion":
+        left, right = bound(left, motion), bound(right, motion)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in chain[i].nonzero])
     if not verdict:
         raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)

@@ -2,6 +2,7 @@
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
 from derive.mechanics.conditions import boundary_case, positive_where
+from derive.mechanics.conservation import rate_under
 from derive.mechanics.constraints import (
     Tie,
     contact_forces,
@@ -13,7 +14,15 @@ from derive.mechanics.constraints import (
 )
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude
+from derive.mechanics.equations import at, let, magnitude, squared_magnitude
+from derive.mechanics.free_rotation import (
+    RigidBody,
+    changing_angular_velocity,
+    euler_equations,
+    principal_tensor,
+    rate_in_body,
+    rate_in_space,
+)
 from derive.mechanics.inertia import inertia_tensor, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
@@ -41,6 +50,7 @@ __all__ = [
     "Coordinate",
     "Cuboid",
     "Direction",
+    "RigidBody",
     "Tie",
     "angle_between",
     "angular_momentum",
@@ -48,6 +58,7 @@ __all__ = [
     "at",
     "boundary_case",
     "centre_of_mass",
+    "changing_angular_velocity",
     "contact_forces",
     "coordinate",
     "cosine_between",
@@ -55,6 +66,7 @@ __all__ = [
     "density",
     "equation_of_motion",
     "equation_with_multipliers",
+    "euler_equations",
     "force_of_constraint",
     "free_lagrangian",
     "frequency",
@@ -73,10 +85,15 @@ __all__ = [
     "multipliers_eliminated",
     "plane_kinetic_energy",
     "positive_where",
+    "principal_tensor",
+    "rate_in_body",
+    "rate_in_space",
     "rate_of",
+    "rate_under",
     "rolled_centre",
     "slope",
     "spin",
+    "squared_magnitude",
     "tie",
     "torque",
     "weight_energy",

@@ -172,7 +172,7 @@ def _is_sign_of_change(layout: Layout) -> bool:
 def _is_differential(layout: Layout) -> bool:
     """d or dx, which need no brackets above or below a stroke."""
     first = layout.items[0] if isinstance(layout, Row) else layout
-    return _is_sign_of_change(first) and (not isinstance(layout, Row) or len(layout.items) == 2)
+    return _is_sign_of_change(first)
 
 
 def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:
