@@ -17,7 +17,7 @@ from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Grade
-from derive.expressions import Amount, Relation
+from derive.expressions import Amount, Relation, Truncated
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
@@ -28,6 +28,7 @@ from derive.step import Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
+    Math,
     Node,
     Phrases,
     Ref,
@@ -270,6 +271,8 @@ class _Writer:
         rounded = None
         if value is not None:
             rounded = value.chain[-1].expr
+        if isinstance(step.result, Truncated):
+            return Answer(key, step.symbol, step.result, None, "approx")
         if isinstance(step.result, Relation):
             return Answer(key, step.result.left, step.result.right, None, step.result.word)
         relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
@@ -314,7 +317,7 @@ class _Writer:
 
     def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
         level = Level.FULL if mode == "full" else self.level
-        forms = [form for form in step.chain if level.shows(form.level)]
+        forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
         if mode == "result":
             forms = [step.chain[-1]]
         before = [None, *(form.because for form in forms)]
@@ -322,13 +325,14 @@ class _Writer:
         return tuple(lines)
 
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
-        template = "" if before is None else self.words.reason(step, form.because, before)
+        stands_alone = before is None and not isinstance(form.expr, Relation)
+        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, template)
         if isinstance(form.expr, Relation):
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation="approx" if form.because == "rounded" else "equals",
+            relation="approx" if form.because in {"rounded", "series"} else "equals",
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
@@ -343,10 +347,15 @@ class _Writer:
             for key in step.inputs
             if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
         ]
-        if "refs" in template and not refs:
-            return ()
         refs.sort(key=lambda ref: self.numbers[ref.key])
-        return filled(template, {**self.page_names, "refs": joined(refs, self._and)})
+        equations = [ref for ref in refs if self.symbols[ref.key] is None]
+        if "refs" in template and not refs or "equations" in template and not equations:
+            return ()
+        last = self._and
+        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        return filled(
+            template, {**self.page_names, **own, "refs": joined(refs, last), "equations": joined(equations, last)}
+        )
 
     # --- how it was checked ---
 

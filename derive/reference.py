@@ -26,7 +26,7 @@ from derive.dimensions import Dimension, dimension_of_kind, kind_with_article, n
 from derive.errata import Erratum, erratum_of
 from derive.errors import Complaint, DeriveError, Place
 from derive.evidence import Grade, Verdict, equal
-from derive.expressions import AXES, component_names, explicit
+from derive.expressions import AXES, Relation, component_names, explicit
 from derive.problem import Problem, run_solve
 from derive.rounding import Rounded, off_by_more_than_half_a_unit
 from derive.source import did_you_mean
@@ -169,6 +169,9 @@ def _verdict(stated: Stated, step: Quantity, entry: Entry, pinned: Problem) -> V
     kept = {letter for value in values for letter in value.free_symbols}
     numbers = {m.symbol: m.si for m in pinned.measured if m.symbol not in kept}
     unit = entry.unit or read_unit("rad")
+    if isinstance(derived, Relation):  # an equation is stated by what vanishes in it
+        wrong = _of_kind(stated.entries[0][1] * unit.dimension, values[0], step.step.kind)
+        return wrong or equal(Relation(values[0], "=", Integer(0)), derived)
     worst = Verdict(Grade.PROVED, "identical")
     for i, right in enumerate(derived if shape else [derived]):
         right = right.xreplace(numbers)
