@@ -158,7 +158,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = tidied(bound(explicit(substituted), bindings))
+    result = tidied(bound(explicit(bound(substituted, bindings)), bindings))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [

@@ -1,6 +1,15 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
+from derive.mechanics.composed import (
+    Composed,
+    Part,
+    axial_moment,
+    centre_distance,
+    part_moment,
+    total_mass,
+    transverse_moment,
+)
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import inertia_tensor, moved_to
@@ -13,14 +22,27 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
+from derive.mechanics.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 
 __all__ = [
+    "Ball",
+    "Composed",
+    "Cone",
     "Cuboid",
+    "Cylinder",
     "Direction",
+    "Disc",
+    "Hoop",
+    "Part",
+    "Plate",
+    "Rod",
     "angle_between",
     "angular_momentum",
     "any_angular_velocity",
     "at",
+    "axial_moment",
+    "centre_distance",
     "centre_of_mass",
     "cosine_between",
     "density",
@@ -29,6 +51,10 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
+    "part_moment",
     "spin",
     "torque",
+    "total_mass",
+    "transverse_moment",
+    "volume",
 ]
