@@ -153,11 +153,19 @@ def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[St
 
 
 def _opened_names(step: Step, table: Table) -> Table:
-    """Names that a definition brings in, such as the components of any angular velocity, have its kind's dimension."""
-    if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
+    """Names that a step brings in: a length that depends on a coordinate brings the coordinate, and a definition what
+    it is made of, such as the components of any angular velocity. They have the dimension of the step's kind."""
+    if step.kind is None:
         return {}
-    free: set[Basic] = set().union(*(form.expr.free_symbols for form in step.chain))
+    free: set[Basic] = {symbol for role, symbol in step.roles if role == "coordinate"}
+    if any(e.grade is Grade.DEFINITION for e in step.evidence):
+        free = set().union(*(form.expr.free_symbols - _integrated(form.expr) for form in step.chain))
     return {name: dimension_of_kind(step.kind) for name in free if name not in table}
+
+
+def _integrated(expr: Any) -> set[Basic]:
+    """The variables of integration of an integral over the mass, which are no names of its own."""
+    return {x for whole in expr.atoms(ex.MassIntegral) for x, *_ in whole.args[5:]}
 
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:

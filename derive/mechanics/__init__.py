@@ -12,7 +12,8 @@ from derive.mechanics.composed import (
 )
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
-from derive.mechanics.inertia import inertia_tensor, moved_to
+from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
+from derive.mechanics.principal import principal_axes, principal_moments
 from derive.mechanics.rotation import (
     angle_between,
     angular_momentum,
@@ -37,6 +38,7 @@ __all__ = [
     "Part",
     "Plate",
     "Rod",
+    "agreement",
     "angle_between",
     "angular_momentum",
     "any_angular_velocity",
@@ -52,6 +54,8 @@ __all__ = [
     "magnitude",
     "moved_to",
     "part_moment",
+    "principal_axes",
+    "principal_moments",
     "spin",
     "torque",
     "total_mass",
