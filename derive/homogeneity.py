@@ -61,6 +61,14 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
         return None if ex.explicit(expr) == 0 else NUMBER
     if isinstance(expr, Add | MatAdd | ex.Terms):
         return _common(expr.args, table)
+    if isinstance(expr, ex.Relation):
+        return _common(expr.sides, table)
+    if isinstance(expr, ex.Partial):
+        above, below = (dimension_of(arg, table) for arg in expr.args)
+        return None if above is None or below is None else above / below
+    if isinstance(expr, ex.TimeRate):
+        moving = dimension_of(expr.args[0], table)
+        return None if moving is None else moving / dimension_of_kind("time")
     if isinstance(expr, ex.BodyRate):
         vector = dimension_of(expr.args[0], table)
         return None if vector is None else vector / dimension_of_kind("time")
@@ -135,9 +143,10 @@ def _of_numbers(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension |
 
 def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[Step]) -> tuple[Table, list[Complaint]]:
     """Every name's dimension, step by step, and a complaint for each line that is not homogeneous."""
-    table: Table = dict(declared)
+    table: Table = {**declared, ex.PLUS_MINUS: NUMBER}
     complaints: list[Complaint] = []
     for step in steps:
+        table.update(_moving_names(step))
         local = {**table, **_opened_names(step, table)}
         try:
             dimension = _of_chain(step, local)
@@ -152,14 +161,19 @@ def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[St
     return table, complaints
 
 
+def _moving_names(step: Step) -> Table:
+    """The coordinates that a step brings in, and their rates."""
+    time = dimension_of_kind("time")
+    return {
+        (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n for q, kind in step.coordinates for n in range(4)
+    }
+
+
 def _opened_names(step: Step, table: Table) -> Table:
-    """Names that a step brings in: a length that depends on a coordinate brings the coordinate, and a definition what
-    it is made of, such as the components of any angular velocity. They have the dimension of the step's kind."""
-    if step.kind is None:
+    """Names that a definition brings in, such as the components of any angular velocity, have its kind's dimension."""
+    if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
         return {}
-    free: set[Basic] = {symbol for role, symbol in step.roles if role == "coordinate"}
-    if any(e.grade is Grade.DEFINITION for e in step.evidence):
-        free = set().union(*(form.expr.free_symbols - _integrated(form.expr) for form in step.chain))
+    free: set[Basic] = set().union(*(form.expr.free_symbols - _integrated(form.expr) for form in step.chain))
     return {name: dimension_of_kind(step.kind) for name in free if name not in table}
 
 
@@ -185,7 +199,7 @@ def _of_chain(step: Step, table: Table) -> Dimension | None:
 def _names_of(step: Step, dimension: Dimension | None) -> Table:
     if dimension is None and step.kind:
         dimension = dimension_of_kind(step.kind)
-    names: Table = {step.symbol: dimension}
+    names: Table = {} if step.symbol is None else {step.symbol: dimension}
     if isinstance(step.symbol, MatrixSymbol) and step.symbol.shape == (3, 1):
         names.update(dict.fromkeys(ex.component_names(step.symbol.name), dimension))
     return names

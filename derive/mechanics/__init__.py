@@ -1,6 +1,7 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
+<<<<<<< HEAD
 from derive.mechanics.composed import (
     Composed,
     Part,
@@ -10,6 +11,9 @@ from derive.mechanics.composed import (
     total_mass,
     transverse_moment,
 )
+=======
+from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
+>>>>>>> main
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
@@ -27,9 +31,13 @@ from derive.mechanics.solids import Ball, Cone, Cylinder, volume
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 
 __all__ = [
+<<<<<<< HEAD
     "Ball",
     "Composed",
     "Cone",
+=======
+    "Coordinate",
+>>>>>>> main
     "Cuboid",
     "Cylinder",
     "Direction",
@@ -46,6 +54,7 @@ __all__ = [
     "axial_moment",
     "centre_distance",
     "centre_of_mass",
+    "coordinate",
     "cosine_between",
     "density",
     "inertia_tensor",
@@ -53,9 +62,13 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
+<<<<<<< HEAD
     "part_moment",
     "principal_axes",
     "principal_moments",
+=======
+    "rate_of",
+>>>>>>> main
     "spin",
     "torque",
     "total_mass",

@@ -11,7 +11,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Poly, Symbol, cos, sin, sqrt
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import AXES, Dot, column, explicit, scalar, vector
+from derive.expressions import Dot, column, explicit, scalar, vector
 from derive.step import Quantity, establish, is_zero, require_kind
 from derive.tidy import factored_matrix, tidied
 
@@ -90,7 +90,7 @@ def _axis(
         "principal.axis",
         vector(f"{symbol}_{k + 1}"),
         lambda *_: direction,
-        {"moments": moments, **({"coordinate": angle} if is_free else {})},
+        {"moments": moments, **({"angle": angle} if is_free else {})},
         routes={
             "put_back": lambda e: (tensor.value * e, moments.value[k] * e),
             "unit": lambda e: (Dot(e, e), Integer(1)),
@@ -100,7 +100,7 @@ def _axis(
         kind="number",
         put_in=None,
         parents=[tensor, *before],
-        words={"along": AXES[k]},
+        coordinates={angle: "angle"} if is_free else {},
         key=f"{key}_{k + 1}",
     )
 

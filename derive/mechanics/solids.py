@@ -224,6 +224,7 @@ def _section_radius(body: Cone, point: Point, region: Region) -> Quantity:
         routes={"limits": lambda r: (r, value), "straight": lambda r: _on_one_line(body, point, z, r)},
         kind="length",
         put_in=None,
+        coordinates={z: "length"},
         words={"start": point.name},
         key="section_radius",
     )
