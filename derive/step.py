@@ -176,11 +176,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-<<<<<<< HEAD
-    result = tidied(bound(explicit(bound(substituted, bindings)), bindings))
-=======
-    result = arranged(bound(explicit(substituted), bindings))
->>>>>>> main
+    result = arranged(bound(explicit(bound(substituted, bindings)), bindings))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [

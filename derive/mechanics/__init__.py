@@ -1,7 +1,6 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
-<<<<<<< HEAD
 from derive.mechanics.composed import (
     Composed,
     Part,
@@ -11,9 +10,7 @@ from derive.mechanics.composed import (
     total_mass,
     transverse_moment,
 )
-=======
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
->>>>>>> main
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
@@ -31,13 +28,10 @@ from derive.mechanics.solids import Ball, Cone, Cylinder, volume
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 
 __all__ = [
-<<<<<<< HEAD
     "Ball",
     "Composed",
     "Cone",
-=======
     "Coordinate",
->>>>>>> main
     "Cuboid",
     "Cylinder",
     "Direction",
@@ -62,13 +56,10 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
-<<<<<<< HEAD
     "part_moment",
     "principal_axes",
     "principal_moments",
-=======
     "rate_of",
->>>>>>> main
     "spin",
     "torque",
     "total_mass",
