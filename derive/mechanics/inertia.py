@@ -167,7 +167,7 @@ def _entry_by_integration(
         kind="moment of inertia",
         put_in=None,
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
-        words={"about": point.name, "coordinates": "cylindrical" if region.element != 1 else "cartesian"},
+        words={"about": point.name},
         parents=[definition, *body.radii(point, region)],
     )
 

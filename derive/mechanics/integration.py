@@ -129,7 +129,7 @@ def _outwards(terms: list[Term], front: Expr) -> list[Form]:
         lines.append(_line(front, terms, Nested.with_bracket, "antiderivative", Level.STANDARD))
         terms = [_collected(tuple(_one_further(part) for part in term)) for term in terms]
         lines.append(_line(front, terms, Nested.written, "limits", Level.STANDARD))
-    values = [tuple(part.carried_out() if isinstance(part, Nested) else part for part in term) for term in terms]
+    values = [tuple(_one_further(part) for part in sorted(term, key=_is_plain, reverse=True)) for term in terms]
     return [
         *lines,
         _line(front, terms, Nested.with_bracket, "antiderivative", Level.STANDARD),

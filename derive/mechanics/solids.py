@@ -194,7 +194,7 @@ def volume(body: Cone) -> Quantity:
         {"edge": region.limits[2][2], "x_is": r * cos(theta), "y_is": r * sin(theta)},
         between=worked_integral(region, Integer(1), Integer(1), Integer(1)),
         routes={"pappus": lambda value: (value, _by_pappus(body))},
-        outcome=COORDINATES[1],
+        outcome="cylindrical",
         kind="volume",
         put_in=None,
         words={"start": start.name},
