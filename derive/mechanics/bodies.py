@@ -203,7 +203,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density") -> Quan
     return establish(
         "bodies.density",
         Symbol(symbol or letter, positive=True),
-        Ratio,
+        lambda mass, extent: Ratio(mass, extent),
         {"mass": body.mass, "extent": extent},
         routes={"mass_given_back": lambda rho: (region.integral(rho), body.mass)},
         outcome=_density_outcome(body, extent),
