@@ -26,12 +26,13 @@ from sympy import (
     Symbol,
     Tuple,
     diff,
+    nan,
     sqrt,
 )
 from sympy.core.symbol import Str
 from sympy.matrices import ImmutableMatrix
 
-from derive.integrals import definite
+from derive.integrals import definite, has_root
 
 Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has no common type for them
 
@@ -388,9 +389,17 @@ def _carried_out(expr: Basic) -> Value:
 
 
 def _definite(integral: Integral) -> Expr:
-    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy."""
-    value = definite(explicit(integral.function), integral.limits)
-    return integral.doit() if value is None else value
+    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy.
+
+    An integral over a root of its variable that is of no such kind is left undefined, which equals nothing: there
+    SymPy may be wrong, or not come back.
+    """
+    integrand = explicit(integral.function)
+    value = definite(integrand, integral.limits)
+    if value is not None:
+        return value
+    ends = [end for _, *limits in integral.limits for end in limits]
+    return nan if any(has_root(part) for part in [integrand, *ends]) else integral.doit()
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:

@@ -167,7 +167,7 @@ def _name(name: Name) -> str:
         letter = rf"\mathbf{{{letter}}}"
     if name.dots:
         letter = rf"\{'d' * name.dots}ot{{{letter}}}"
-    letter += primes
+    letter = f"{{{letter}{primes}}}" if primes else letter  # in braces, so that it can be squared
     return f"{letter}_{{{_subscript(name.subscript)}}}" if name.subscript else letter
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from tests.mechanics.round_bodies import M, R, a, cone_derivation, h, m, skew_tensor, top_derivation
+from tests.mechanics.round_bodies import M, R, cone_derivation, h, skew_tensor, top_derivation
 
 Verbs = SimpleNamespace
 BODIES, SOLIDS, THIN, INERTIA = "mechanics.bodies", "mechanics.solids", "mechanics.thin_bodies", "mechanics.inertia"
@@ -64,13 +64,6 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         "centre_of_mass",
     ),
     # a cone about its apex and about its base
-    (
-        "inertia_tensor of a cone",
-        INERTIA,
-        "1 - sin(e.base.args[0]) ** 2",
-        "1 + sin(e.base.args[0]) ** 2",
-        "apex_tensor_xx",
-    ),
     ("inertia_tensor of a cone", INERTIA, "(1, 1): at[(0, 0)]", "(1, 1): at[(2, 2)]", "apex_tensor"),
     ("inertia_tensor of a cone", REGIONS, "chord = sqrt(r**2", "chord = sqrt(4 * r**2", "base_tensor_xx"),
     ("inertia_tensor of a cone", REGIONS, "(y, -r - b, r - b)", "(y, -b, r - b)", "base_tensor_xx"),
@@ -79,13 +72,6 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         SOLIDS,
         "return Group(Terms(tip, -z)) if",
         "return Group(Terms(tip, z)) if",
-        "section_radius",
-    ),
-    (
-        "inertia_tensor of a cone",
-        SOLIDS,
-        "UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))",
-        "UPWARDS = ImmutableDenseMatrix(diag(1, 1, 1))",
         "section_radius",
     ),
     (
@@ -123,8 +109,8 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         "inertia_tensor of a hoop",
         REGIONS,
         "return x - start[0], y - start[1]",
-        "return x + start[0], y - start[1]",
-        "inertia_tensor_xy",
+        "return x - 2 * start[0], y - start[1]",
+        "inertia_tensor_yy",
     ),
     (
         "inertia_tensor of a plate",
@@ -191,8 +177,8 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         "principal_axes of a plate",
         PRINCIPAL,
         "rows[i, :].cross(rows[j, :])",
-        "rows[i, :].cross(rows[i, :] + rows[j, :] + 1 * rows[0, :])",
-        "principal_axis_3",
+        "rows[i, :].cross(rows[i, :] + ImmutableDenseMatrix([[1, 1, 1]]))",
+        "principal_axis_1",
     ),
     ("principal_axes of a plate", PRINCIPAL, "(rest / length)", "(rest / length**2)", "principal_axis_1"),
     # bodies composed of parts
@@ -235,21 +221,79 @@ LAWS: list[tuple[str, str, str, str, str]] = [
 ]
 
 ROUTES: list[tuple[str, str, str, str, str]] = [
+    ("part_moment", COMPOSED, "(m * _squared_distance(centre.", "(2 * m * _squared_distance(centre.", "disc_moment_z"),
     ("volume", SOLIDS, "(r1 + r2 + r3) / 3", "(r1 + r2 + r3) / 2", "volume"),
-    ("centre_of_mass of a cone", SOLIDS, "(Rational(4, 5), Rational(3, 4))", "(Rational(4, 5), Rational(1, 2))", "centre_of_mass_on_axis"),
-    ("inertia_tensor of a cone", SOLIDS, "r * (rim - tip), body.radius", "r * (tip - rim), body.radius", "section_radius"),
-    ("inertia_tensor of a cylinder", SOLIDS, "(Rational(2, 3), Rational(1, 2))", "(Rational(1, 3), Rational(1, 2))", "inertia_tensor_xx"),
-    ("inertia_tensor of a ball", SOLIDS, "(self.mass / 10, column(*place))", "(self.mass / 5, column(*place))", "inertia_tensor_xx"),
-    ("inertia_tensor of a hoop", THIN, "[(self.mass / 4, column(x, y, 0))", "[(self.mass / 2, column(x, y, 0))", "inertia_tensor_xx"),
-    ("inertia_tensor of a plate", THIN, "(self.mass / 6, column(x, y, 0))", "(self.mass / 5, column(x, y, 0))", "inertia_tensor_xx"),
+    (
+        "centre_of_mass of a cone",
+        SOLIDS,
+        "(Rational(4, 5), Rational(3, 4))",
+        "(Rational(4, 5), Rational(1, 2))",
+        "centre_of_mass_on_axis",
+    ),
+    (
+        "inertia_tensor of a cone",
+        SOLIDS,
+        "r * (rim - tip), body.radius",
+        "r * (tip - rim), body.radius",
+        "section_radius",
+    ),
+    (
+        "inertia_tensor of a cylinder",
+        SOLIDS,
+        "(Rational(2, 3), Rational(1, 2))",
+        "(Rational(1, 3), Rational(1, 2))",
+        "inertia_tensor_xx",
+    ),
+    (
+        "inertia_tensor of a ball",
+        SOLIDS,
+        "(self.mass / 10, column(*place))",
+        "(self.mass / 5, column(*place))",
+        "inertia_tensor_xx",
+    ),
+    (
+        "inertia_tensor of a hoop",
+        THIN,
+        "[(self.mass / 4, column(x, y, 0))",
+        "[(self.mass / 2, column(x, y, 0))",
+        "inertia_tensor_xx",
+    ),
+    (
+        "inertia_tensor of a plate",
+        THIN,
+        "(self.mass / 6, column(x, y, 0))",
+        "(self.mass / 5, column(x, y, 0))",
+        "inertia_tensor_xx",
+    ),
     ("agreement", INERTIA, "turn * again.value * turn.T", "2 * turn * again.value * turn.T", "agreement"),
-    ("principal_moments", PRINCIPAL, "- t[i, j] * t[j, i] for", "- t[i, i] * t[j, i] - t[i, i] for", "principal_moments"),
-    ("principal_axes", PRINCIPAL, "(tensor.value * e, moments.value[k] * e)", "(tensor.value * e, moments.value[k - 1] * e)", "principal_axis_3"),
+    (
+        "principal_moments",
+        PRINCIPAL,
+        "- t[i, j] * t[j, i] for",
+        "- t[i, i] * t[j, i] - t[i, i] for",
+        "principal_moments",
+    ),
+    (
+        "principal_axes",
+        PRINCIPAL,
+        "(tensor.value * e, moments.value[k] * e)",
+        "(tensor.value * e, moments.value[k - 1] * e)",
+        "principal_axis_3",
+    ),
     ("total_mass", COMPOSED, "over_mass(lambda _: Integer(1)", "over_mass(lambda _: Integer(2)", "total_mass"),
     ("centre_distance", COMPOSED, "m * (place[2] - l)", "m * (place[2] + l)", "centre_distance"),
-    ("part_moment", SOLIDS, "(mass / 2, column(0, 0, height))", "(mass / 3, column(0, 0, height / 2 + radius))", "disc_moment_x"),
-    ("axial_moment", COMPOSED, "(mass * _squared_distance(place, pair) for", "(2 * mass * _squared_distance(place, pair) for", "axial_moment"),
-    ("transverse_moment", COMPOSED, "_squared_distance(r, pair), part.pivot)", "_squared_distance(r, pair), part.body.middle)", "transverse_moment"),
-]  # fmt: skip
-
-__all__ = ["LAWS", "ROUTES", "RUNS", "a", "m"]
+    (
+        "axial_moment",
+        COMPOSED,
+        "(mass * _squared_distance(place, pair) for",
+        "(2 * mass * _squared_distance(place, pair) for",
+        "axial_moment",
+    ),
+    (
+        "transverse_moment",
+        COMPOSED,
+        "_squared_distance(r, pair), part.pivot)",
+        "_squared_distance(r, pair), part.body.middle)",
+        "transverse_moment",
+    ),
+]

@@ -102,8 +102,8 @@ LAWS = [
     (
         "inertia_tensor",
         INTEGRATION,
-        'Nested.written, "split" if',
-        'Nested.with_bracket, "split" if',
+        "_separated(sign * term, region",
+        "_separated(2 * sign * term, region",
         "corner_tensor_xx",
     ),
     (
@@ -149,7 +149,7 @@ LAWS = [
         INTEGRATION,
         "front = [] if rho == 1 else [rho]",
         "front = [] if rho == 1 else [-rho]",
-        "corner_tensor_xy",
+        "corner_tensor_xx",
     ),
     # parallel axes, entry by entry and as a whole
     ("moved_to", INERTIA, "for k in range(3) if k != i and not", "for k in range(3) if not", "inertia_tensor_xx"),
@@ -157,13 +157,6 @@ LAWS = [
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "-Factors(mass, c[i], c[j])", "inertia_tensor_xy"),
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "Factors(mass, c[i], c[i])", "inertia_tensor_xy"),
     ("moved_to", BODIES, "*(side / 2 for side", "*(side / 3 for side", "corner_tensor"),
-    (
-        "moved_to",
-        INERTIA,
-        "(i, j): at[(min(i, j)" if False else "symbol, key, pair) for pair in pairs}",
-        "symbol, key, pair[::-1]) for pair in pairs}",
-        "inertia_tensor",
-    ),
     # rotation
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(w, d)", "spin"),
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(-w / Norm(d), d)", "spin"),
@@ -242,7 +235,7 @@ ROUTES = [
         "inertia_tensor",
         INERTIA,
         "Cross(n, point.seen(place))",
-        "Cross(n, place - 2 * point.position + n)",
+        "Cross(n, 2 * point.seen(place))",
         "corner_tensor_xx",
     ),
     ("inertia_tensor", INERTIA, "explicit(Dot(n, tensor * n))", "explicit(Dot(n, n))", "corner_tensor"),
