@@ -16,7 +16,7 @@ from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Evidence, Grade
-from derive.expressions import Amount, Relation
+from derive.expressions import Amount, Relation, Truncated
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
@@ -230,6 +230,8 @@ class _Writer:
         rounded = None
         if value is not None:
             rounded = value.chain[-1].expr
+        if isinstance(step.result, Truncated):
+            return Answer(key, step.symbol, step.result, None, "approx")
         if isinstance(step.result, Relation):
             return Answer(key, step.result.left, step.result.right, None, step.result.word)
         relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
@@ -273,7 +275,7 @@ class _Writer:
 
     def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
         level = Level.FULL if mode == "full" else self.level
-        forms = [form for form in step.chain if level.shows(form.level)]
+        forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
         if mode == "result":
             forms = [step.chain[-1]]
         before = [None, *(form.because for form in forms)]
@@ -287,7 +289,7 @@ class _Writer:
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation="approx" if form.because == "rounded" else "equals",
+            relation="approx" if form.because in {"rounded", "series"} else "equals",
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
