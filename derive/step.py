@@ -179,7 +179,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = arranged(bound(explicit(substituted), {**bindings, **(motion or {})}))
+    result = arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **(motion or {})}))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [

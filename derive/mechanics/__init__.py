@@ -1,6 +1,15 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
+from derive.mechanics.composed import (
+    Composed,
+    Part,
+    axial_moment,
+    centre_distance,
+    part_moment,
+    total_mass,
+    transverse_moment,
+)
 from derive.mechanics.conditions import boundary_case, positive_where
 from derive.mechanics.conservation import rate_under
 from derive.mechanics.constraints import (
@@ -23,7 +32,7 @@ from derive.mechanics.free_rotation import (
     rate_in_body,
     rate_in_space,
 )
-from derive.mechanics.inertia import inertia_tensor, moved_to
+from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
     generalized_force,
@@ -35,6 +44,7 @@ from derive.mechanics.lagrangian import (
 )
 from derive.mechanics.oscillations import frequency, frequency_squared, linearised
 from derive.mechanics.potentials import curvature_at, leading_order, slope
+from derive.mechanics.principal import principal_axes, principal_moments
 from derive.mechanics.rolling import rolled_centre
 from derive.mechanics.rotation import (
     angle_between,
@@ -45,18 +55,32 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
+from derive.mechanics.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 
 __all__ = [
+    "Ball",
+    "Composed",
+    "Cone",
     "Coordinate",
     "Cuboid",
+    "Cylinder",
     "Direction",
+    "Disc",
+    "Hoop",
+    "Part",
+    "Plate",
     "RigidBody",
+    "Rod",
     "Tie",
+    "agreement",
     "angle_between",
     "angular_momentum",
     "any_angular_velocity",
     "at",
+    "axial_moment",
     "boundary_case",
+    "centre_distance",
     "centre_of_mass",
     "changing_angular_velocity",
     "contact_forces",
@@ -83,8 +107,11 @@ __all__ = [
     "momentum_rate",
     "moved_to",
     "multipliers_eliminated",
+    "part_moment",
     "plane_kinetic_energy",
     "positive_where",
+    "principal_axes",
+    "principal_moments",
     "principal_tensor",
     "rate_in_body",
     "rate_in_space",
@@ -96,5 +123,8 @@ __all__ = [
     "squared_magnitude",
     "tie",
     "torque",
+    "total_mass",
+    "transverse_moment",
+    "volume",
     "weight_energy",
 ]
