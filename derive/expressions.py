@@ -12,7 +12,6 @@ from functools import lru_cache
 from typing import Any, TypeAlias
 
 from sympy import (
-    Add,
     Basic,
     Expr,
     ImmutableDenseMatrix,
@@ -30,6 +29,8 @@ from sympy import (
 )
 from sympy.core.symbol import Str
 from sympy.matrices import ImmutableMatrix
+
+from derive.integrals import definite
 
 Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has no common type for them
 
@@ -386,14 +387,9 @@ def _carried_out(expr: Basic) -> Value:
 
 
 def _definite(integral: Integral) -> Expr:
-    """A definite integral; powers are integrated as powers, for which SymPy's integrator is slow."""
-    value = explicit(integral.function)
-    for x, lower, upper in integral.limits:
-        terms = [term.as_coeff_exponent(x) for term in Add.make_args(value.expand())]
-        if not all(n.is_Integer and n >= 0 and not c.has(x) for c, n in terms):
-            return integral.doit()
-        value = Add(*(c * (upper ** (n + 1) - lower ** (n + 1)) / (n + 1) for c, n in terms))
-    return value.expand()
+    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy."""
+    value = definite(explicit(integral.function), integral.limits)
+    return integral.doit() if value is None else value
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:

@@ -30,6 +30,8 @@ _POSITIVE = {
     "area",
     "volume",
     "density",
+    "surface density",
+    "line density",
     "speed",
     "acceleration",
     "angular speed",
@@ -69,12 +71,27 @@ AngularSpeed: TypeAlias = Annotated[Expr, Kind("AngularSpeed", "angular speed", 
 Speed: TypeAlias = Annotated[Expr, Kind("Speed", "speed", ("v", "u"))]
 Acceleration: TypeAlias = Annotated[Expr, Kind("Acceleration", "acceleration", ("g", "a"))]
 Density: TypeAlias = Annotated[Expr, Kind("Density", "density", ("rho", "sigma"))]
+SurfaceDensity: TypeAlias = Annotated[Expr, Kind("SurfaceDensity", "surface density", ("sigma", "mu"))]
+LineDensity: TypeAlias = Annotated[Expr, Kind("LineDensity", "line density", ("lambda_l", "mu"))]
 Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
 SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
 Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
 
 _DIRECTION = Kind("Direction", "direction", (), 3)
-_MEASURES = (Mass, Length, Lengths, Time, Angle, AngularSpeed, Speed, Acceleration, Density, Force)
+_MEASURES = (
+    Mass,
+    Length,
+    Lengths,
+    Time,
+    Angle,
+    AngularSpeed,
+    Speed,
+    Acceleration,
+    Density,
+    SurfaceDensity,
+    LineDensity,
+    Force,
+)
 _KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, SpringConstant, Number)), _DIRECTION)
 KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
 

@@ -176,7 +176,11 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
+<<<<<<< HEAD
     result = arranged(bound(explicit(substituted), bindings))
+=======
+    result = tidied(bound(explicit(bound(substituted, bindings)), bindings))
+>>>>>>> cone
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [

@@ -61,6 +61,8 @@ class Chain:
     """Where the lines of the step go."""
 
 
+ASKED = {"point", "coordinates", "axis_letter"}  # words that a phrase chooses by, and does not print
+
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
 Node = Text | Math | DimensionMark | Unit | Ref | Chain
@@ -208,7 +210,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         "result": Math(step.result),
     }
     names.update({role: Math(symbol) for role, symbol in step.roles})
-    names.update({name: word if name == "point" else words.term(word) for name, word in step.words})
+    names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)

@@ -1,7 +1,19 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
+<<<<<<< HEAD
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
+=======
+from derive.mechanics.composed import (
+    Composed,
+    Part,
+    axial_moment,
+    centre_distance,
+    part_moment,
+    total_mass,
+    transverse_moment,
+)
+>>>>>>> cone
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import inertia_tensor, moved_to
@@ -14,15 +26,31 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
+from derive.mechanics.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 
 __all__ = [
+<<<<<<< HEAD
     "Coordinate",
+=======
+    "Ball",
+    "Composed",
+    "Cone",
+>>>>>>> cone
     "Cuboid",
+    "Cylinder",
     "Direction",
+    "Disc",
+    "Hoop",
+    "Part",
+    "Plate",
+    "Rod",
     "angle_between",
     "angular_momentum",
     "any_angular_velocity",
     "at",
+    "axial_moment",
+    "centre_distance",
     "centre_of_mass",
     "coordinate",
     "cosine_between",
@@ -32,7 +60,14 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
+<<<<<<< HEAD
     "rate_of",
+=======
+    "part_moment",
+>>>>>>> cone
     "spin",
     "torque",
+    "total_mass",
+    "transverse_moment",
+    "volume",
 ]
