@@ -122,6 +122,11 @@ class Quantity:
     __truediv__ = __rtruediv__ = __pow__ = __rpow__ = __neg__ = __matmul__ = _no_arithmetic
 
 
+def lettered(quantity: Quantity) -> Quantity:
+    """The quantity known by its letter alone: what rests on it keeps the letter, until values are put in."""
+    return replace(quantity, value=quantity.symbol, parents=(quantity,))
+
+
 Law = Callable[..., Any]
 Route = Callable[[Any], tuple[Any, Any]]
 
@@ -176,11 +181,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-<<<<<<< HEAD
-    result = arranged(bound(explicit(substituted), bindings))
-=======
-    result = tidied(bound(explicit(bound(substituted, bindings)), bindings))
->>>>>>> cone
+    result = arranged(bound(explicit(bound(substituted, bindings)), bindings))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [

@@ -1,9 +1,7 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
-<<<<<<< HEAD
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
-=======
 from derive.mechanics.composed import (
     Composed,
     Part,
@@ -13,7 +11,6 @@ from derive.mechanics.composed import (
     total_mass,
     transverse_moment,
 )
->>>>>>> cone
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import inertia_tensor, moved_to
@@ -30,13 +27,10 @@ from derive.mechanics.solids import Ball, Cone, Cylinder, volume
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 
 __all__ = [
-<<<<<<< HEAD
-    "Coordinate",
-=======
     "Ball",
     "Composed",
     "Cone",
->>>>>>> cone
+    "Coordinate",
     "Cuboid",
     "Cylinder",
     "Direction",
@@ -60,11 +54,8 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
-<<<<<<< HEAD
     "rate_of",
-=======
     "part_moment",
->>>>>>> cone
     "spin",
     "torque",
     "total_mass",
