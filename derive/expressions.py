@@ -12,6 +12,7 @@ from functools import lru_cache
 from typing import Any, TypeAlias
 
 from sympy import (
+    Add,
     Basic,
     Expr,
     ImmutableDenseMatrix,

@@ -1,7 +1,6 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
-from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.composed import (
     Composed,
     Part,
@@ -11,6 +10,7 @@ from derive.mechanics.composed import (
     total_mass,
     transverse_moment,
 )
+from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import inertia_tensor, moved_to

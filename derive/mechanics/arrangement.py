@@ -36,7 +36,8 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1) -> Expr:
 
 def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]]) -> Expr:
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
-    if any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
+    halved = tidied(coefficient).as_coeff_Mul()[0].q % 2 == 0
+    if halved and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
         return Mul(Rational(1, 2), spread(2 * coefficient), *(s**n for s, n in rates), evaluate=False)
     return Mul(spread(coefficient), *(s**n for s, n in rates))
 
