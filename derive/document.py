@@ -22,7 +22,7 @@ from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
 from derive.reference import Told
 from derive.source import did_you_mean
-from derive.step import Form, Level, Step
+from derive.step import NUMBERS, Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
@@ -94,13 +94,13 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Answer:
-    """A boxed result: symbol = exact value, and its rounded value if it has one."""
+    """A boxed result: symbol = exact value, or another relation between them; and its numbers, each after its sign."""
 
     key: str
     symbol: Any
     value: Any
-    rounded: Any | None
-    relation: str = "approx"
+    relation: str = "equals"
+    numbers: tuple[tuple[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -227,13 +227,11 @@ class _Writer:
     def _answer(self, key: str) -> Answer:
         step = self.derivation.step(key)
         value = self.values.get(key)
-        rounded = None
-        if value is not None:
-            rounded = value.chain[-1].expr
+        forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
+        numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
         if isinstance(step.result, Relation):
-            return Answer(key, step.result.left, step.result.right, None, step.result.word)
-        relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        return Answer(key, step.symbol, step.result, rounded, relation if rounded is not None else "equals")
+            return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
+        return Answer(key, step.symbol, step.result, numbers=numbers)
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
@@ -283,11 +281,13 @@ class _Writer:
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
         template = "" if before is None else self.words.reason(step, form.because, before)
         reason = self._reason(step, template)
+        if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
+            return Line(None, _sign_before(form), form.expr.right, reason)
         if isinstance(form.expr, Relation):
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation="approx" if form.because == "rounded" else "equals",
+            relation=_sign_before(form),
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
@@ -331,6 +331,14 @@ class _Writer:
     def _by_grade(self, evidence: list[Evidence]) -> str:
         counts = {grade: sum(e.grade is grade for e in evidence) for grade in Grade}
         return ", ".join(f"{n} {self.words.grades[grade]}" for grade, n in counts.items() if n)
+
+
+def _sign_before(form: Form) -> str:
+    return "approx" if form.because == "rounded" else "equals"
+
+
+def _right_side(value: Any) -> Any:
+    return value.right if isinstance(value, Relation) else value
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

@@ -44,5 +44,3 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
         parents=[force, momentum],
         context={"momentum": momentum, "coordinate": q},
     )
-
-

@@ -13,9 +13,9 @@ from typing import Any
 from sympy import Add, Expr, Integer, Mul, Symbol, resultant, sqrt
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import PLUS_MINUS, Factors, Ratio, Relation, Root, Terms, bound, explicit, scalar
+from derive.expressions import PLUS_MINUS, Factors, Ratio, Relation, Root, Terms, bound, scalar
 from derive.measured import sign_known
-from derive.step import Form, Level, Quantity, compared_with, establish
+from derive.step import Quantity, establish
 from derive.tidy import tidied
 
 FOUR = Integer(4)
@@ -147,7 +147,11 @@ def _formula(of: Quadratic) -> Expr:
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
     """k (u +- sqrt(u^2 - w)), where u is what the coefficient b alone has: S, not m a^2 S."""
-    own = [f for f in Mul.make_args(-of.b) if f.free_symbols and not (of.a.has(*f.free_symbols) or of.c.has(*f.free_symbols))]
+    own = [
+        f
+        for f in Mul.make_args(-of.b)
+        if f.free_symbols and not (of.a.has(*f.free_symbols) or of.c.has(*f.free_symbols))
+    ]
     u = Mul(*own)
     outside = tidied(-of.b / u)
     if sign_known(outside) == -1:

@@ -118,9 +118,7 @@ def turning_rate(angles: EulerAngles, symbol: str = "omega", key: str = "angular
     """
     phi, theta, psi = angles.coordinates
     vertical = column(0, sin(theta.symbol), cos(theta.symbol))
-    turns = MatAdd(
-        scaled(theta.rate, column(1, 0, 0)), scaled(phi.rate, vertical), scaled(psi.rate, column(0, 0, 1))
-    )
+    turns = MatAdd(scaled(theta.rate, column(1, 0, 0)), scaled(phi.rate, vertical), scaled(psi.rate, column(0, 0, 1)))
 
     def by_rotation_matrix() -> Matrix:
         body, following = angles.of_body, angles.following
@@ -211,9 +209,7 @@ def centre_height(top: Top, angles: EulerAngles, symbol: str = "z", key: str = "
     )
 
 
-def constant_spin(
-    omega: Quantity, rate: Expr, conserved: Quantity, top: Top, key: str = "constant_spin"
-) -> Quantity:
+def constant_spin(omega: Quantity, rate: Expr, conserved: Quantity, top: Top, key: str = "constant_spin") -> Quantity:
     """Spin about the axis, psi_dot + phi_dot cos theta = S, constant because psi is cyclic.
 
     omega       in the axes that follow the axis of the top, 1/s
@@ -244,9 +240,7 @@ def constant_spin(
     )
 
 
-def tilt_equation(
-    motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key: str = "tilt_equation"
-) -> Quantity:
+def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key: str = "tilt_equation") -> Quantity:
     """Equation of motion of the tilt at constant spin,
     I_x theta_ddot - I_x phi_dot^2 sin theta cos theta + I_z S phi_dot sin theta - M g l sin theta = 0.
 

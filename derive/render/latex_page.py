@@ -128,9 +128,8 @@ class _Page:
     def answer(self, answer: Answer) -> str:
         left = latex(self.notation.layout(answer.symbol))
         right = latex(self.notation.result(answer.value))
-        if answer.rounded is None:
-            return f"{left} {MARKS[answer.relation].strip()} {right}"
-        return f"{left} = {right} {MARKS[answer.relation].strip()} {latex(self.notation.layout(answer.rounded))}"
+        sides = [(answer.relation, right), *((sign, latex(self.notation.layout(n))) for sign, n in answer.numbers)]
+        return " ".join([left, *(f"{MARKS[sign].strip()} {side}" for sign, side in sides)])
 
     def margin(self, display: Display) -> str:
         lines = [escaped(self.words.grades[display.grade])]

@@ -113,10 +113,10 @@ class _Page:
         return lines
 
     def _answer(self, answer: Answer) -> str:
-        relation = "equals" if answer.rounded is not None else answer.relation
-        items: list[Layout] = [self.notation.layout(answer.symbol), Mark(relation), self.notation.result(answer.value)]
-        if answer.rounded is not None:
-            items += [Mark(answer.relation), self.notation.layout(answer.rounded)]
+        items: list[Layout] = [self.notation.layout(answer.symbol)]
+        items += [Mark(answer.relation), self.notation.result(answer.value)]
+        for sign, number in answer.numbers:
+            items += [Mark(sign), self.notation.layout(number)]
         body = plain(row(*items)).split("\n")
         size = max(map(len, body))
         rule = "─" * (size + 2)
