@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Integer, Rational, Symbol, pi
+from sympy import Expr, Integer, Rational, Symbol, pi
 
 from derive.errors import Rejected
+from derive.expressions import explicit
 from derive.given import (
     KINDS,
     Angle,

@@ -53,6 +53,7 @@ LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 ENGINE = {name for name in MODULES if LAYER[name.partition(".")[0]] <= 3}
 PRINTING = {"cli", "commands", "terminal", "doctor", "bootstrap"}
 DEFINITIONS = {"any_angular_velocity", "let", "axis_vector"}
+VERB_MODULES = ("bodies", "composed", "equations", "inertia", "principal", "rotation", "solids")
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
 
@@ -160,7 +161,7 @@ def verbs() -> dict[str, Any]:
     """Every public function of mechanics and numbers that yields a quantity."""
     modules = [
         derive.numbers,
-        *(getattr(derive.mechanics, name) for name in ("bodies", "equations", "inertia", "rotation")),
+        *(getattr(derive.mechanics, name) for name in VERB_MODULES),
     ]
     return {
         name: function

@@ -13,7 +13,8 @@ from derive.mechanics.composed import (
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
-from derive.mechanics.inertia import inertia_tensor, moved_to
+from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
+from derive.mechanics.principal import principal_axes, principal_moments
 from derive.mechanics.rotation import (
     angle_between,
     angular_momentum,
@@ -39,6 +40,7 @@ __all__ = [
     "Part",
     "Plate",
     "Rod",
+    "agreement",
     "angle_between",
     "angular_momentum",
     "any_angular_velocity",
@@ -54,8 +56,10 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
-    "rate_of",
     "part_moment",
+    "principal_axes",
+    "principal_moments",
+    "rate_of",
     "spin",
     "torque",
     "total_mass",

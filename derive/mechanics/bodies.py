@@ -17,7 +17,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Rational, Sy
 from sympy.matrices import ImmutableMatrix
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import Factors, Ratio, column, explicit, scalar, vector
+from derive.expressions import Factors, Ratio, column, component_names, explicit, vector
 from derive.mechanics.direction import Direction
 from derive.mechanics.integration import worked_integral
 from derive.mechanics.regions import Point, Region, box, no_such_coordinates
@@ -274,7 +274,7 @@ def _centre_on_axis(body: Body, start: Point, region: Region, letter: str, key: 
     integral = region.integral(region.position[2])
     return establish(
         "bodies.centre_on_axis",
-        scalar(letter.replace("r", "z", 1)),
+        component_names(letter)[2],
         lambda density, mass: Factors(Ratio(density, mass), integral),
         {"density": rho, "mass": body.mass},
         between=worked_integral(region, region.position[2], rho.symbol / body.mass, body.size),

@@ -96,7 +96,7 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
         {"r": vector("r")},
         definition=True,
         kind="moment of inertia",
-        parents=[body.density],
+        parents=[body.density, *body.radii(point, region)],
         put_in=None,
         show_result=False,
         words={"about": point.name},
@@ -160,14 +160,14 @@ def _entry_by_integration(
         "inertia.entry",
         entry_name(name, i, j),
         _with_sign_in_front(region, weight),
-        {"density": rho},
+        {"density": rho, "square": weight},
         between=worked_integral(region, weight, rho.symbol, body.size),
         routes={"particles": compared_with(lambda: _entry_from_particles(body, point, pair))},
         outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
         put_in=None,
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
-        words={"about": point.name, "coordinates": "cylindrical" if region.element != 1 else "cartesian"},
+        words={"about": point.name},
         parents=[definition, *body.radii(point, region)],
     )
 
@@ -191,10 +191,10 @@ def _without_angles(weight: Expr) -> Expr:
     return weight if plain.atoms(sin, cos) else plain
 
 
-def _with_sign_in_front(region: Region, weight: Expr) -> Callable[[Expr], Expr]:
+def _with_sign_in_front(region: Region, weight: Expr) -> Callable[[Expr, Expr], Expr]:
     if weight.could_extract_minus_sign():
-        return lambda rho: Factors(-rho, region.integral(-weight))
-    return lambda rho: Factors(rho, region.integral(weight))
+        return lambda rho, _: Factors(-rho, region.integral(-weight))
+    return lambda rho, _: Factors(rho, region.integral(weight))
 
 
 def _moment_from_particles(body: Body, point: Point, n: Any) -> Expr:
@@ -314,4 +314,34 @@ def _entry_moved(there: Quantity, centre: Quantity, middle: Point, name: str, ke
         parents=[there],
         words={"start": start.name},
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
+    )
+
+
+def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:
+    """Two ways to the same tensor agree, I' = I.
+
+    found   tensor (3, 3), kg m^2
+    again   the tensor of the same body about the same point, found in another way, perhaps along axes that are turned
+    Second route: the tensor found in the other way, turned to the axes of the first.
+    Outcomes: generic; turned, where z was counted the other way.
+    Errors: the tensors are not of one body about one point.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    points = [tensor.context["about"] for tensor in (found, again)]
+    if found.context["body"] != again.context["body"] or points[0].position != points[1].position:
+        message = f"`{found.key}` and `{again.key}` are not tensors of one body about one point"
+        raise Rejected(Complaint("not-the-same", message))
+    turn = points[0].axes.T * points[1].axes
+    return establish(
+        "inertia.agreement",
+        again.symbol,
+        lambda first, _: first,
+        {"found": found, "again": again},
+        routes={"other_way": compared_with(lambda: turn * again.value * turn.T)},
+        outcome="generic" if turn.is_Identity else "turned",
+        kind="moment of inertia",
+        put_in=None,
+        context=found.context,
+        words={"about": points[0].name},
+        key=key,
     )

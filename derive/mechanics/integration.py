@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from sympy import Add, Expr, Integer, Integral, Mul, Poly, Pow, Rational, Symbol, factor, factor_terms
+from sympy import Add, Expr, Integer, Integral, Mul, Poly, Pow, Rational, Symbol, cos, factor, factor_terms, pi, sin
 
 from derive.expressions import Bracket, Factors, Group, Terms, bound, explicit
 from derive.integrals import antiderivative, definite
-from derive.mechanics.regions import Region
+from derive.mechanics.regions import Region, coordinates
 from derive.step import Form, Level
 from derive.tidy import tidied
 
@@ -70,7 +70,7 @@ class Nested:
 def _wrapped(parts: Sequence[Expr], limits: Sequence[OneVariable], inner: Expr) -> Expr:
     """One integral sign after another around what is inside, from the innermost out; constants go in front."""
     for part, limit in reversed(list(zip(parts, limits, strict=True))):
-        factors = [f for f in (part, inner) if f != 1]
+        factors = [Group(f) if isinstance(f, Integral) else f for f in (part, inner) if f != 1]
         whole = factors[0] if len(factors) == 1 else Factors(*factors) if factors else Integer(1)
         inner = Integral(whole, limit)
     return inner
@@ -91,6 +91,8 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
         lines = _over_discs(region, sign * integrand, front)
     else:
         lines = _outwards([_separated(sign * term, region.limits) for term in terms], front)
+    if rho == 1:
+        return lines
     return [*lines, *_mass_collected(region, integrand, sign, rho, volume, len(terms) > 1)]
 
 
@@ -120,12 +122,14 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 def _outwards(terms: list[Term], front: Expr) -> list[Form]:
     """From the innermost integrals outwards, a line for the antiderivatives and one for what the limits give."""
     nested = _are_nested(terms)
-    lines = [_line(front, terms, Nested.written, "split" if nested else "separate", Level.STANDARD)]
+    # One term that is nested reads much as it did before it was split.
+    level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
+    lines = [_line(front, terms, Nested.written, "split" if nested else "separate", level)]
     while _are_nested(terms):
         lines.append(_line(front, terms, Nested.with_bracket, "antiderivative", Level.STANDARD))
         terms = [_collected(tuple(_one_further(part) for part in term)) for term in terms]
         lines.append(_line(front, terms, Nested.written, "limits", Level.STANDARD))
-    values = [tuple(part.carried_out() if isinstance(part, Nested) else part for part in term) for term in terms]
+    values = [tuple(_one_further(part) for part in sorted(term, key=_is_plain, reverse=True)) for term in terms]
     return [
         *lines,
         _line(front, terms, Nested.with_bracket, "antiderivative", Level.STANDARD),
@@ -178,7 +182,9 @@ def _length(part: Nested) -> Expr:
 
 
 def _times(rho: Expr, terms: list[Expr]) -> Expr:
-    return Factors(rho, *_flat(terms[0])) if len(terms) == 1 else Factors(rho, Terms(*terms))
+    front = [] if rho == 1 else [rho]
+    factors = [*front, *_flat(terms[0])] if len(terms) == 1 else [*front, Terms(*terms)]
+    return factors[0] if len(factors) == 1 else Factors(*factors)
 
 
 def _flat(term: Expr) -> tuple[Expr, ...]:
@@ -194,34 +200,44 @@ def _has_chords(region: Region) -> bool:
 
 
 def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """First along the chord, then over the disc, then along the axis."""
+    """First along the chord, then over the disc by y = r sin u, then along the axis."""
     z_limit, y_limit, x_limit = region.limits
-    chords = explicit(Integral(integrand, x_limit))
-    chords = _by_powers(chords, y_limit[0])
-    discs = _each_carried_out(chords, y_limit)
-    lines = [
-        Form(Factors(front, Integral(Terms(*chords), y_limit, z_limit)), "chords", Level.STANDARD),
-        Form(Factors(front, Integral(_sum(discs), z_limit)), "discs", Level.STANDARD),
-    ]
-    if region.section is not None:
-        discs = [bound(disc, dict([region.section])) for disc in discs]
-    split = [_collected((Nested(factor(disc), (z_limit,)),)) for disc in discs]
+    chords = [factor_terms(c) for c in Add.make_args(factor_terms(explicit(Integral(integrand, x_limit))).expand())]
+    turned = [_by_angle(chord, y_limit, region) for chord in chords]
+    discs = [explicit(Integral(chord, y_limit)) for chord in chords]
+    discs = list(Add.make_args(Add(*discs).expand()))
+    along = [bound(disc, dict([region.section] if region.section else [])) for disc in discs]
+    split = [_collected((Nested(_from_the_tip(factor(disc), z_limit), (z_limit,)),)) for disc in along]
     return [
-        *lines,
+        Form(Factors(front, Integral(_sum(chords), y_limit, z_limit)), "chords", Level.STANDARD),
+        *([Form(Factors(front, Integral(_sum(turned), z_limit)), "turned", Level.FULL)] if all(turned) else []),
+        Form(Factors(front, Integral(_sum(discs), z_limit)), "discs", Level.STANDARD),
         _line(front, split, Nested.written, "section", Level.STANDARD),
-        _line(front, split, _with_power_bracket, "antiderivative", Level.FULL),
+        _line(front, split, _with_power_bracket, "antiderivative", Level.STANDARD),
         Form(_times(front, [Mul(*(_one_further(part) for part in term)) for term in split]), "multiplied"),
     ]
 
 
-def _by_powers(value: Expr, y: Symbol) -> list[Expr]:
-    """The root of the chord factored out of each term, so that it reads as a length times a weight."""
-    return [factor_terms(term) for term in Add.make_args(factor_terms(value).expand())]
+def _by_angle(chord: Expr, limit: OneVariable, region: Region) -> Expr | None:
+    """The integral over y of c y^m (r^2 - y^2)^(k/2), from -r to r, by y = r sin u."""
+    y, _, r = limit
+    outside, inside = chord.as_independent(y, as_Add=False)
+    powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
+    m = powers.pop(y, Integer(0))
+    if len(powers) != 1 or (next(iter(powers)) - r**2 + y**2).expand() != 0:
+        return None
+    n = 2 * next(iter(powers.values())) + 1
+    (u,) = coordinates("u", region.limits[0][2].free_symbols | r.free_symbols)
+    return Factors(outside * r ** (m + n), Integral(sin(u) ** m * cos(u) ** n, (u, -pi / 2, pi / 2)))
 
 
-def _each_carried_out(terms: list[Expr], limit: OneVariable) -> list[Expr]:
-    found = [explicit(Integral(term, limit)) for term in terms]
-    return list(Add.make_args(Add(*found).expand()))
+def _from_the_tip(value: Expr, limit: OneVariable) -> Expr:
+    """(h - z)^4, not (z - h)^4: what is counted is the positive distance."""
+    z, lower, _ = limit
+    return value.replace(
+        lambda e: e.is_Pow and e.base.is_Add and e.exp.is_even and e.base.subs(z, lower).is_negative,
+        lambda e: Pow(-e.base, e.exp),
+    )
 
 
 def _sum(terms: list[Expr]) -> Expr:

@@ -186,16 +186,15 @@ def volume(body: Cone) -> Quantity:
     """
     start = body.point(body.reference)
     region = body.region(start)
-    _, y, z = region.names[2], region.names[1], region.names[0]
-    r = region.names[2]
+    _, theta, r = region.names
     return establish(
         "bodies.volume",
         Symbol("V", positive=True),
         lambda *_: region.integral(Integer(1)),
-        {"coordinate": z, "edge": region.limits[2][2], "x_is": r * cos(y), "y_is": r * sin(y)},
+        {"edge": region.limits[2][2], "x_is": r * cos(theta), "y_is": r * sin(theta)},
         between=worked_integral(region, Integer(1), Integer(1), Integer(1)),
         routes={"pappus": lambda value: (value, _by_pappus(body))},
-        outcome=COORDINATES[1],
+        outcome="cylindrical",
         kind="volume",
         put_in=None,
         words={"start": start.name},
@@ -225,6 +224,7 @@ def _section_radius(body: Cone, point: Point, region: Region) -> Quantity:
         routes={"limits": lambda r: (r, value), "straight": lambda r: _on_one_line(body, point, z, r)},
         kind="length",
         put_in=None,
+        coordinates={z: "length"},
         words={"start": point.name},
         key="section_radius",
     )
