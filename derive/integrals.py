@@ -74,7 +74,13 @@ def _chord_integral(term: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limi
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
         if base == y and exponent.is_Integer and exponent > 0:
             m = int(exponent)
-        elif exponent.is_Rational and exponent.q == 2 and exponent > 0 and (base - upper**2 + y**2).expand() == 0 and k == 0:
+        elif (
+            exponent.is_Rational
+            and exponent.q == 2
+            and exponent > 0
+            and (base - upper**2 + y**2).expand() == 0
+            and k == 0
+        ):
             k = int(2 * exponent)
         else:
             return None

@@ -30,6 +30,11 @@ def numbers_known(numbers: Mapping[Symbol, Expr]) -> Iterator[None]:
         _numbers.reset(token)
 
 
+def with_numbers(expr: Expr) -> Expr:
+    """The expression with the numbers behind its letters, as far as there are any."""
+    return explicit(bound(explicit(expr), _numbers.get() or {}))
+
+
 def sign_known(expr: Expr) -> int | None:
     """The sign of an expression, by its letters or else by their numbers: 1, -1, 0; None where neither decides it."""
     expr = explicit(expr)
@@ -39,7 +44,7 @@ def sign_known(expr: Expr) -> int | None:
         return 1
     if expr.is_negative:
         return -1
-    value = explicit(bound(expr, _numbers.get() or {}))
+    value = with_numbers(expr)
     if value.free_symbols:
         return None
     if vanishes(value):

@@ -16,6 +16,7 @@ from derive.derivation import Derivation, derivation_of, returned_quantities, wi
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
 from derive.errors import Complaint, Rejected
+from derive.expressions import Relation
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
@@ -188,7 +189,7 @@ def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
 def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
-    kind = answer.step.kind or "number"
+    kind = _kind_of(problem, answer)
     units: list[tuple[str, Expr]] = []
     for unit in form.units:
         asked = read_unit(unit, part.ask.place)
@@ -200,6 +201,14 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     figures = form.figures or problem.figures
     value = value_of(answer, problem.amounts, *first, figures, more=more)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
+
+
+def _kind_of(problem: Problem, answer: Quantity) -> str:
+    """The kind of what a number is put in for: in a relation such as R > a/2 that of R."""
+    if isinstance(answer.value, Relation):
+        letter = problem.symbols.get(str(answer.value.left))
+        return letter.kind if letter else "number"
+    return answer.step.kind or "number"
 
 
 def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int]:

@@ -53,37 +53,38 @@ def _put_in(values: Sequence[Quantity]) -> dict[Any, Any]:
     return {q.symbol: q.value for q in values}
 
 
-def discriminant(
-    equation: Quantity, x: Symbol, *values: Quantity, symbol: str = "Delta", key: str = "discriminant"
-) -> Quantity:
+def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
-    equation   a x^2 + b x + c = 0
-    x          the unknown
-    values     what letters of the coefficients stand for here
+    roots   as `roots_of` yields them
     Second route: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
-    Outcomes: positive, negative, zero, conditional (not known from the letters); `linear` where a is zero.
-    Errors: the equation is not quadratic in x.
+    Outcomes: positive, negative, zero, conditional (not known from the letters).
+    Errors: the equation is linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
-    general = coefficients_of(equation, x)
-    here = general.with_values(_put_in(values))
+    general, here = roots.context["general"], roots.context["quadratic"]
+    values, x = roots.context["values"], roots.context["unknown"]
+    if here.a == 0:
+        raise Rejected(Complaint("not-quadratic", f"`{roots.key}` has the root of a linear equation"))
 
     def by_resultant(found: Expr) -> tuple[Expr, Expr]:
-        if here.a == 0:
-            return found, here.b**2
         return -here.a * found, resultant(here.at(x), 2 * here.a * x + here.b, x)
 
     return establish(
         "quadratics.discriminant",
         scalar(symbol),
-        lambda _, *those: bound(_of_terms(general), dict(zip((q.symbol for q in values), those, strict=True))),
-        {"equation": equation, **{q.key: q for q in values}},
+        lambda *those: _with_those(_of_terms(general), values, those),
+        {q.key: q for q in values},
         routes={"resultant": by_resultant},
-        outcome=lambda found: "linear" if here.a == 0 else _SIGNS[sign_known(found)],
+        outcome=lambda found: _SIGNS[sign_known(found)],
         key=key,
-        context={"equation": here},
+        parents=[roots],
     )
+
+
+def _with_those(expr: Expr, values: Sequence[Quantity], those: Sequence[Any]) -> Expr:
+    """The formula with names or with values for the letters of some quantities."""
+    return bound(expr, dict(zip((q.symbol for q in values), those, strict=True)))
 
 
 _SIGNS = {1: "positive", -1: "negative", 0: "zero", None: "conditional"}
@@ -93,12 +94,15 @@ def _of_terms(of: Quadratic) -> Expr:
     return Terms(of.b**2, -FOUR * of.a * of.c)
 
 
-def roots_of(equation: Quantity, x: Symbol, *values: Quantity, key: str = "roots") -> Quantity:
+def roots_of(
+    equation: Quantity, x: Symbol, *values: Quantity, key: str = "roots", one_stands_for: Sequence[str] = ()
+) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
 
     equation   a x^2 + b x + c = 0
     x          the unknown
     values     what letters of the coefficients stand for here
+    one_stands_for   keys of answers that this step gives where there is only one root
     Second route: put back into the equation; the sum of the two is -b/a.
     Outcomes: two, none, double, conditional by the sign of b^2 - 4 a c; opposite (two, one of each sign); linear.
     Errors: the equation is not quadratic in x, or a and b both vanish.
@@ -120,13 +124,14 @@ def roots_of(equation: Quantity, x: Symbol, *values: Quantity, key: str = "roots
     return establish(
         "quadratics.roots_of",
         x,
-        lambda _, *those: bound(formula, dict(zip((q.symbol for q in values), those, strict=True))),
+        lambda _, *those: _with_those(formula, values, those),
         {"equation": equation, **{q.key: q for q in values}},
         routes={"put_back": lambda found: (here.at(found), Integer(0)), "sum": sum_of_both},
         outcome=outcome,
         arranged=lambda found: tidied(found) if linear else _arranged(here, found),
         key=key,
-        context={"quadratic": here, "unknown": x},
+        context={"general": general, "quadratic": here, "unknown": x, "values": values},
+        stands_for=one_stands_for if linear else (),
     )
 
 

@@ -16,7 +16,6 @@ from sympy import Expr, Integer, MatAdd, Matrix, MatrixSymbol, Pow, Rational, Sy
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import (
-    CarriedRate,
     Cross,
     Factors,
     Relation,
@@ -28,10 +27,10 @@ from derive.expressions import (
     scaled,
     vector,
 )
-from derive.mechanics.arrangement import by_accelerations, by_rates
+from derive.mechanics.arrangement import by_accelerations
 from derive.mechanics.coordinates import Coordinate, by_functions_of_time, coordinate, letters_of
 from derive.mechanics.matter import symmetric_body
-from derive.step import Form, Quantity, compared_with, establish, lettered, require_kind
+from derive.step import Quantity, compared_with, establish, lettered, require_kind
 
 ZERO, ONE, HALF = Integer(0), Integer(1), Rational(1, 2)
 
@@ -279,41 +278,3 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
 
 def _spin_apart(left: Expr, psi_rate: Symbol, turning: Expr) -> Expr:
     return left.expand().xreplace({psi_rate: turning})
-
-
-def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantity:
-    """Equation of the rate of steady precession, I_x cos theta phi_dot^2 - I_z S phi_dot + M g l = 0.
-
-    tilt   the equation of motion of the tilt at constant spin; theta and phi_dot are constant now, and the axis is
-           not vertical, so that sin theta does not vanish
-    Second route: the angular momentum carried round the vertical by a rotation at the rate phi_dot and differentiated
-    is the torque of the weight.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
-    """
-    angles: EulerAngles = tilt.context["angles"]
-    phi, theta, _ = angles.coordinates
-    top, gravity, spin = (tilt.context[name] for name in ("top", "gravity", "spin"))
-    sine = sin(theta.symbol)
-    at_rest = tilt.value.left.xreplace({theta.acceleration: ZERO, theta.rate: ZERO})
-    kept = by_rates(-(at_rest / sine).expand(), [phi.symbol])
-
-    def by_carrying(found: Relation) -> tuple[Relation, Relation]:
-        round_vertical = scaled(phi.rate, column(0, sine, cos(theta.symbol)))
-        momentum = top.momentum(column(0, phi.rate * sine, spin))
-        changing = explicit(CarriedRate(momentum, explicit(round_vertical)))[0]
-        return Relation(found.left * sine, "=", 0), Relation(top.torque(gravity, theta.symbol) - changing, "=", 0)
-
-    return establish(
-        "tops.steady_precession",
-        None,
-        lambda: Relation(at_rest, "=", 0),
-        {},
-        put_in=None,
-        after=[Form(Relation(kept, "=", 0), "divided", nonzero=(sine,))],
-        show_result=False,
-        routes={"carried_round": by_carrying},
-        arranged=lambda _: Relation(kept, "=", 0),
-        key=key,
-        parents=[tilt],
-        context=tilt.context,
-    )
