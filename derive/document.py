@@ -16,7 +16,7 @@ from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Evidence, Grade
-from derive.expressions import Amount, Relation
+from derive.expressions import Amount, Relation, Truncated
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
@@ -229,6 +229,8 @@ class _Writer:
         value = self.values.get(key)
         forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
         numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
+        if isinstance(step.result, Truncated):
+            return Answer(key, step.symbol, step.result, "approx")
         if isinstance(step.result, Relation):
             return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
         return Answer(key, step.symbol, step.result, numbers=numbers)
@@ -271,7 +273,7 @@ class _Writer:
 
     def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
         level = Level.FULL if mode == "full" else self.level
-        forms = [form for form in step.chain if level.shows(form.level)]
+        forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
         if mode == "result":
             forms = [step.chain[-1]]
         before = [None, *(form.because for form in forms)]
@@ -334,7 +336,7 @@ class _Writer:
 
 
 def _sign_before(form: Form) -> str:
-    return "approx" if form.because == "rounded" else "equals"
+    return "approx" if form.because in {"rounded", "series"} else "equals"
 
 
 def _right_side(value: Any) -> Any:

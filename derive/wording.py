@@ -16,6 +16,7 @@ from typing import Any
 import yaml
 from jinja2 import StrictUndefined, TemplateError, UndefinedError
 from jinja2.sandbox import ImmutableSandboxedEnvironment
+from sympy.core.symbol import Str
 
 from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
@@ -209,7 +210,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         "symbol": name_of(step),
         "result": Math(step.result),
     }
-    names.update({role: Math(symbol) for role, symbol in step.roles})
+    names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in step.roles})
     names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:

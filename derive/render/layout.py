@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 
@@ -89,6 +90,14 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class Evaluated:
+    """A layout with a bar behind it, and below the bar where it is taken."""
+
+    inside: Layout
+    where: Layout
+
+
+@dataclass(frozen=True)
 class IntegralSign:
     """The sign with its limits, if it has any."""
 
@@ -124,6 +133,7 @@ Layout = (
     | RootSign
     | Fenced
     | Limits
+    | Evaluated
     | IntegralSign
     | Applied
     | Array
@@ -175,3 +185,14 @@ def is_number(layout: Layout) -> bool:
 
 def is_enclosed(layout: Layout) -> bool:
     return isinstance(layout, Fenced | Limits | Array)
+
+
+def named(name: str) -> Name:
+    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots."""
+    match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
+    if not match:
+        return Name(name)
+    sub, dots = match["sub"] or "", match["dots"]
+    if not dots and re.fullmatch(r"d*dot", sub):
+        sub, dots = "", sub
+    return Name(match["base"], sub, dots.count("d") if dots else 0)

@@ -8,6 +8,7 @@ from derive.document import Equations, Line
 from derive.render.layout import (
     Applied,
     Array,
+    Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
@@ -96,6 +97,8 @@ def width(layout: Layout) -> float:
             return width(inside) + 1.6
         case Limits(inside, lower, upper):
             return width(inside) + 1.6 + 0.7 * max(width(lower), width(upper))
+        case Evaluated(inside, where):
+            return width(inside) + 0.3 + 0.7 * width(where)
         case IntegralSign(lower, upper):
             return 2.0 + (0.5 * max(width(lower), width(upper)) if lower and upper else 0)
         case Applied(name, argument, power):
