@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from math import prod
 
-from sympy import Expr, Symbol
+from sympy import Expr, Mul, Symbol
 
 from derive.exact import vanishes
 from derive.expressions import bound, explicit
+from derive.tidy import tidied
 
 DIGITS = 30
 
@@ -37,15 +39,21 @@ def with_numbers(expr: Expr) -> Expr:
 
 def sign_known(expr: Expr) -> int | None:
     """The sign of an expression, by its letters or else by their numbers: 1, -1, 0; None where neither decides it."""
-    expr = explicit(expr)
-    if vanishes(expr):
+    factors = [_sign_of_factor(factor) for factor in Mul.make_args(tidied(expr))]
+    if 0 in factors:
         return 0
-    if expr.is_positive:
+    return None if None in factors else prod(sign for sign in factors if sign)
+
+
+def _sign_of_factor(factor: Expr) -> int | None:
+    if vanishes(factor):
+        return 0
+    if factor.is_positive:
         return 1
-    if expr.is_negative:
+    if factor.is_negative:
         return -1
-    value = with_numbers(expr)
-    if value.free_symbols:
+    value = with_numbers(factor)
+    if value.free_symbols or not value.is_real:
         return None
     if vanishes(value):
         return 0

@@ -84,7 +84,8 @@ def precession_rates(steady: Quantity, tilt: Expr, key: str = RATES) -> Quantity
         raise Rejected(Complaint("vertical", message, help="give a tilt between 0 and 180 degrees"))
     held = [] if tilt == angles.theta.symbol else [fixed_tilt(tilt, angles)]
     instead = (CONDITION, SLOW, FAST)
-    return roots_of(steady, angles.phi.rate, *held, *top.values, key=key, one_stands_for=instead)
+    unknown = angles.phi.rate
+    return roots_of(steady, unknown, *held, *top.values, key=key, kind="angular speed", one_stands_for=instead)
 
 
 def precession_condition(rates: Quantity, spin: Expr, key: str = CONDITION) -> Quantity:
@@ -140,12 +141,10 @@ def _steady_rate(
     rates: Quantity, condition: Quantity, sign: int, outcome: str, key: str, stands_for: tuple[str, ...] = ()
 ) -> Quantity:
     quadratic: Quadratic = rates.context["quadratic"]
-    a, b, c = quadratic.a, quadratic.b, quadratic.c
     name = key.partition("_")[0]
-    turn = -1 if sign_known(a) == -1 else 1
 
     def other_form() -> Expr:
-        return 2 * c / (-b - turn * sign * sqrt(quadratic.discriminant))
+        return 2 * quadratic.c / (-quadratic.b - sign * sqrt(quadratic.discriminant))
 
     return establish(
         "precession.steady_rate",
@@ -170,11 +169,10 @@ def no_steady_precession(rates: Quantity, condition: Quantity, key: str = "no_st
     """That there is no steady precession at this tilt: the spin is below its least value, S < S_0.
 
     rates       as `precession_rates` yields them
-    condition   as `precession_condition` yields it, with its bound S_0
+    condition   S >= S_0, as `precession_condition` yields it
     Second route: the discriminant with the numbers that are given, which is negative.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
-    letter, least = condition.context["letter"], condition.context["bound"]
     quadratic: Quadratic = rates.context["quadratic"]
 
     def by_numbers(found: Relation) -> tuple[Expr, Expr]:
@@ -185,7 +183,7 @@ def no_steady_precession(rates: Quantity, condition: Quantity, key: str = "no_st
     return establish(
         "precession.no_steady_precession",
         None,
-        lambda: Relation(letter, "<", least),
+        lambda: Relation(condition.value.left, "<", condition.value.right),
         {},
         put_in=None,
         routes={"numbers": by_numbers},

@@ -41,12 +41,13 @@ class Quadratic:
 
 
 def coefficients_of(equation: Quantity, x: Symbol) -> Quadratic:
-    """Those of a relation that is quadratic in x; anything else is refused."""
+    """Those of a relation that is quadratic in x, the first without a minus sign; anything else is refused."""
     polynomial = equation.value.residual.as_poly(x) if isinstance(equation.value, Relation) else None
     if polynomial is None or polynomial.degree() != 2:
         message = f"`{equation.key}` is not a quadratic equation in {x.name}"
         raise Rejected(Complaint("not-quadratic", message))
-    return Quadratic(*polynomial.all_coeffs())
+    turn = -1 if polynomial.LC().could_extract_minus_sign() else 1
+    return Quadratic(*(turn * each for each in polynomial.all_coeffs()))
 
 
 def _put_in(values: Sequence[Quantity]) -> dict[Any, Any]:
@@ -58,7 +59,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 
     roots   as `roots_of` yields them
     Second route: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
-    Outcomes: positive, negative, zero, conditional (not known from the letters).
+    Outcomes: positive, negative, vanishing, conditional (not known from the letters).
     Errors: the equation is linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -87,7 +88,7 @@ def _with_those(expr: Expr, values: Sequence[Quantity], those: Sequence[Any]) ->
     return bound(expr, dict(zip((q.symbol for q in values), those, strict=True)))
 
 
-_SIGNS = {1: "positive", -1: "negative", 0: "zero", None: "conditional"}
+_SIGNS = {1: "positive", -1: "negative", 0: "vanishing", None: "conditional"}
 
 
 def _of_terms(of: Quadratic) -> Expr:
@@ -95,13 +96,19 @@ def _of_terms(of: Quadratic) -> Expr:
 
 
 def roots_of(
-    equation: Quantity, x: Symbol, *values: Quantity, key: str = "roots", one_stands_for: Sequence[str] = ()
+    equation: Quantity,
+    x: Symbol,
+    *values: Quantity,
+    key: str = "roots",
+    kind: str | None = None,
+    one_stands_for: Sequence[str] = (),
 ) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
 
     equation   a x^2 + b x + c = 0
     x          the unknown
     values     what letters of the coefficients stand for here
+    kind       what kind of quantity x is
     one_stands_for   keys of answers that this step gives where there is only one root
     Second route: put back into the equation; the sum of the two is -b/a.
     Outcomes: two, none, double, conditional by the sign of b^2 - 4 a c; opposite (two, one of each sign); linear.
@@ -132,6 +139,7 @@ def roots_of(
         key=key,
         context={"general": general, "quadratic": here, "unknown": x, "values": values},
         stands_for=one_stands_for if linear else (),
+        kind=kind,
     )
 
 
@@ -144,10 +152,7 @@ def character(of: Quadratic) -> str:
 
 
 def _formula(of: Quadratic) -> Expr:
-    """One fraction with the root in it; its bottom without a minus sign, which the sign of either kind can bear."""
-    turn = -1 if of.a.could_extract_minus_sign() else 1
-    root = Root(_of_terms(of))
-    return Ratio(Terms(-turn * of.b, Factors(PLUS_MINUS, root)), 2 * turn * of.a)
+    return Ratio(Terms(-of.b, Factors(PLUS_MINUS, Root(_of_terms(of)))), 2 * of.a)
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:

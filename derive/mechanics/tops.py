@@ -164,6 +164,7 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
         scalar(symbol),
         law,
         {"across": letters.across, "along": letters.along, "omega": omega},
+        parents=[letters.mass, letters.distance, letters.along, letters.across],
         show_result=False,
         routes={"mass_points": compared_with(matter.kinetic_energy)},
         arranged=explicit,
