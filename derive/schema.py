@@ -19,6 +19,7 @@ DEFAULT_FIGURES = 4
 _TEXT = {"type": "string"}
 _SCALAR = {"type": ["string", "number"]}
 _POINTS = {"type": "number", "minimum": 0, "multipleOf": 0.5}
+_UNIT = {"type": "string", "examples": list(UNIT_NAMES)}
 _FIGURES = {"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}
 
 
@@ -32,7 +33,10 @@ class Key:
 
 
 FORM_KEYS: Table[str, Key] = {
-    "unit": Key("unit of the number, such as `degree` or `N m`", {"type": "string", "examples": list(UNIT_NAMES)}),
+    "unit": Key(
+        "unit of the number, such as `degree` or `N m`, or a list of units",
+        {"anyOf": [_UNIT, {"type": "array", "items": _UNIT, "minItems": 1}]},
+    ),
     "figures": Key("significant figures of the number", _FIGURES),
 }
 

@@ -256,6 +256,8 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
+    if given.written is not None:
+        return (Math(given.written),)
     if given.kind.name == "Direction":
         return *words.term("components"), Text(f" {words.labels['along']} "), Math(tuple(given.value.components))
     amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in measured}
