@@ -1,0 +1,414 @@
+r"""The grammar of a formula: chains of sides, sums, products, factors.
+
+    chain    relation? side (relation side)*         side    sum ("or" sum)?
+    sum      sign? product (sign product)*           sign    + - \pm \mp
+    product  factor ((\cdot | \times)? factor)* ("/" factor)?    with integral signs and differentials among the factors
+    factor   atom power?                             atom    number, letter, fraction, root, function, bracket, matrix
+
+Where paper leaves two readings open, the formula is refused and the help says how to write either: `a/2b`, `\sin a b`
+of two numbers, `\sin x^2`, `2\frac12`, `U(\theta)`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NoReturn
+
+from sympy import Integer, Rational, exp, pi, sqrt
+
+from derive.dimensions import NUMBER
+from derive.latex.arguments import Functions
+from derive.latex.grids import Grid, Value, between
+from derive.latex.integrals import Sign, bracket_of, check_scope, differential_of, integrated
+from derive.latex.letters import letter_at
+from derive.latex.runs import Run
+from derive.latex.tokens import MAX_DEPTH, Argument, Token
+from derive.latex.vocabulary import CLOSING, FRACTIONS, FUNCTIONS, OPENING, RELATIONS
+from derive.terms import Term
+
+_TIMES = ("\\cdot", "\\times", "*")
+_SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
+
+
+class Formula(Functions):
+    """Reads one text in one branch: `\\pm` is + in the first and - in the second."""
+
+    branch = 0
+    branches = 1  # how many the side now being read has
+
+    # -- chains ---------------------------------------------------------------------------------------------------
+
+    def chain(self, run: Run) -> tuple[list[tuple[list[Value], int, Token, Token]], list[str]]:
+        """The sides, each with its alternatives, branches, first and last token; and the marks before them, or ""."""
+        sides, marks = [], [self.relation(run) or ""]
+        while True:
+            first = run.token
+            self.branches = 1
+            alternatives = [self.sum(run, 0)]
+            while self.alternative(run):
+                alternatives.append(self.sum(run, 0))
+            assert first is not None
+            if len(alternatives) > 2 or (len(alternatives) == 2 and self.branches == 2):
+                self.refuse("latex", "a value has two branches at most", first.start, first.end)
+            sides.append((alternatives, self.branches, first, run.before))
+            mark = self.relation(run)
+            if mark is None:
+                break
+            marks.append(mark)
+        if run.token:
+            self.unexpected(run)
+        return sides, marks
+
+    def relation(self, run: Run) -> str | None:
+        token = run.token
+        if token and (mark := RELATIONS.get(run.written)):
+            run.at += 1
+            return mark
+        return None
+
+    def alternative(self, run: Run) -> bool:
+        token = run.token
+        if token and token.kind == "command" and token.arguments and token.arguments[0]:
+            inside = token.arguments[0].tokens
+            if "".join(t.text for t in inside) == "or":
+                run.at += 1
+                return True
+        return False
+
+    # -- sums and products ----------------------------------------------------------------------------------------
+
+    def sign(self, run: Run) -> str | None:
+        if run.token is None or run.written not in _SIGNS:
+            return None
+        both = _SIGNS[run.written]
+        if both[0] != both[1]:
+            self.branches = 2
+        run.at += 1
+        return "+" if both[self.branch] > 0 else "-"
+
+    def sum(self, run: Run, depth: int) -> Value:
+        if depth > MAX_DEPTH:
+            here = run.token or run.before
+            self.refuse("too-large", f"this formula is nested more than {MAX_DEPTH} deep", here.start)
+        first = run.token
+        sign = self.sign(run)
+        left = self.product(run, depth)
+        if sign == "-" and first:
+            left = self.minus(left, first.start)
+        while sign := self.sign(run):
+            left = self.sum_of(left, self.product(run, depth), sign)
+        return left
+
+    def product(self, run: Run, depth: int) -> Value:
+        outside: Value | None = None
+        inside: Value | None = None
+        signs: list[Sign] = []
+        count, first = 0, run.at
+        while True:
+            times = self.times(run)
+            if self.is_differential(run, signs):
+                differential_of(self, signs, self.differential(run), count)
+            elif run.written == "\\int":
+                signs.append(self.integral_sign(run, depth, count))
+            elif self.begins_factor(run):
+                before = run.before if run.at > first else None
+                factor = self.factor(run, depth)
+                self.check_side_by_side(before, times, run, factor)
+                check_scope(self, signs, factor)
+                count += 1
+                if signs:
+                    inside = factor if inside is None else self.product_of(inside, factor, times)
+                else:
+                    outside = factor if outside is None else self.product_of(outside, factor, times)
+            elif times:
+                self.missing(run)
+            elif run.written == "/":
+                divided = inside if signs else outside
+                if divided is None:
+                    self.missing(run)
+                quotient = self.divided(run, depth, divided, signs)
+                inside, outside = (quotient, outside) if signs else (inside, quotient)
+            else:
+                break
+        if signs:
+            one = Term(Integer(1), NUMBER, signs[0].start, signs[-1].end)
+            whole = integrated(self, one if inside is None else inside, signs, outside)
+            return whole if outside is None else self.product_of(outside, whole, "")
+        if outside is None:
+            self.missing(run)
+        return outside
+
+    def times(self, run: Run) -> str:
+        if run.token is None or run.written not in _TIMES:
+            return ""
+        run.at += 1
+        return run.before.text if run.before.kind == "mark" else f"\\{run.before.text}"
+
+    def divided(self, run: Run, depth: int, above: Value, signs: list[Sign]) -> Value:
+        """`a/b`, where nothing may follow: `a/2b` is a/(2b) to one reader and (a/2)b to the next."""
+        slash = run.token
+        assert slash is not None
+        run.at += 1
+        if not self.begins_factor(run):
+            self.missing(run)
+        below = self.factor(run, depth)
+        following = run.token
+        if following and not self.is_differential(run, signs):
+            if self.begins_factor(run) or run.written in (*_TIMES, "/", "\\int"):
+                help_line = "write `\\frac{...}{...}`"
+                self.refuse("ambiguous", "it is not clear how far this `/` reaches", slash.start, slash.end, help_line)
+        return self.quotient_of(above, below)
+
+    def check_side_by_side(self, before: Token | None, times: str, run: Run, factor: Value) -> None:
+        """Two numbers side by side are one number, a mixed number or a slip; `a2` is half a subscript."""
+        if before is None or times:
+            return
+        token = run.token_at(factor.start)
+        if token is None:
+            return
+        if token.kind == "number" and before.kind == "number":
+            help_line = "write `\\cdot` between them"
+            self.refuse("ambiguous", "two numbers stand side by side", before.start, token.end, help_line)
+        if token.kind == "number" and before.kind == "letter" and before.end == token.start:
+            help_line = f"write `{token.text}{before.text}`, or `{before.text}_{token.text}` for a subscript"
+            self.refuse("ambiguous", "a number follows this letter", before.start, token.end, help_line)
+        if before.kind == "number" and token.text in FRACTIONS and isinstance(factor, Term):
+            if factor.expr.is_number and all(a and all(t.kind == "number" for t in a.tokens) for a in token.arguments):
+                help_line = "write `\\cdot` for a product, or one fraction"
+                self.refuse("ambiguous", "this could be a mixed number", before.start, token.end, help_line)
+
+    # -- integrals ------------------------------------------------------------------------------------------------
+
+    def integral_sign(self, run: Run, depth: int, count: int) -> Sign:
+        sign = run.token
+        assert sign is not None
+        run.at += 1
+        lower, upper, named = self.limits(run, depth, sign)
+        return Sign(lower, upper, sign.start, run.before.end, count, named)
+
+    def limits(self, run: Run, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
+        """What stands below and above, and the variable if it is named there: `_{z=0}^{z=h}`."""
+        found: dict[str, tuple[Term, Term | None]] = {}
+        while run.token and run.token.kind == "script" and run.token.text not in found:
+            script = run.token.text
+            found[script] = self.limit(self.script(run), depth)
+        if len(found) < 2:
+            missing = "^" if "_" in found else "_"
+            self.refuse("integral", f"the limit after `{missing}` is missing", sign.start, sign.end)
+        return found["_"][0], found["^"][0], found["_"][1]
+
+    def limit(self, argument: Argument, depth: int) -> tuple[Term, Term | None]:
+        inner = Run.over(argument)
+        named = None
+        if any(token.text == "=" for token in argument.tokens):
+            named = self.letter(inner)
+            if named is None or inner.written != "=":
+                self.unexpected(inner)
+            inner.at += 1
+        value = self.scalar_in(self.closed_sum(inner, depth + 1), "a limit")
+        return value, named
+
+    def is_differential(self, run: Run, signs: list[Sign]) -> bool:
+        """Whether a `d` and a letter stand here, and an integral waits for them; an upright d is no letter of ours."""
+        token = run.token
+        if token is None or all(sign.variable for sign in signs):
+            return False
+        upright = token.text == "mathrm" and token.arguments[0] and [t.text for t in token.arguments[0].tokens] == ["d"]
+        plain = token.kind == "letter" and token.text == "d" and "d" not in self.letters
+        return bool((upright or plain) and letter_at(run.following))
+
+    def differential(self, run: Run) -> Term:
+        run.at += 1
+        letter = self.letter(run)
+        assert letter is not None
+        return letter
+
+    # -- factors --------------------------------------------------------------------------------------------------
+
+    def begins_factor(self, run: Run) -> bool:
+        token = run.token
+        if token is None:
+            return False
+        if token.kind == "bar":
+            return not run.inside_bars
+        if token.kind in ("number", "letter", "open", "matrix"):
+            return True
+        names = FRACTIONS | {"sqrt", "pi"} | set(FUNCTIONS)
+        return token.kind == "command" and (token.text in names or letter_at(token) is not None)
+
+    def factor(self, run: Run, depth: int) -> Value:
+        base = self.atom(run, depth)
+        token = run.token
+        if token and token.text == "'":
+            self.refuse("latex", "a prime is not read", token.start, help="transcribe what the derivative is equal to")
+        if token is None or token.kind != "script":
+            return base
+        if token.text == "_":
+            help_line = "limits are written `_{...}^{...}`"
+            self.refuse("latex", "only a letter has a subscript", token.start, token.end, help_line)
+        return self.raised_to(base, self.script(run), depth, run)
+
+    def raised_to(self, base: Value, script: Argument, depth: int, run: Run) -> Value:
+        if [token.text for token in script.tokens] == ["circ"]:
+            degrees = self.scalar_in(base, "an angle in degrees")
+            if degrees.dimension != NUMBER or not degrees.expr.is_number:
+                self.refuse("latex", "only a number has degrees", base.start, base.end)
+            return replace(degrees, expr=degrees.expr * pi / 180, end=script.end)
+        if run.token and run.token.kind == "script":
+            self.refuse("latex", "this has two powers", run.token.start, help="put the first one in brackets")
+        exponent = self.scalar_in(self.closed_sum(Run.over(script), depth + 1), "an exponent")
+        if base is self.euler:
+            term = self.applied("exp", exp, exponent, base.start, script.end)
+            return term
+        return self.power_of(base, replace(exponent, start=script.start, end=script.end))
+
+    def script(self, run: Run) -> Argument:
+        """What stands after `^` or `_`: a group, or the one thing that TeX would take."""
+        mark = run.token
+        assert mark is not None
+        run.at += 1
+        argument = run.argument_after(mark, self.text)
+        if argument is None or not argument.tokens:
+            self.refuse("latex", f"nothing stands after `{mark.text}`", mark.start, mark.end)
+        bare = self.text[argument.start] != "{" and len(argument.tokens) == 1
+        if bare and argument.tokens[0].kind == "number" and len(argument.tokens[0].text) > 1:
+            number = argument.tokens[0]
+            help_line = f"write `{mark.text}{{{number.text}}}`"
+            self.refuse("ambiguous", "only the first digit would stand there", number.start, number.end, help_line)
+        return argument
+
+    def atom(self, run: Run, depth: int) -> Value:
+        token = run.token
+        assert token is not None
+        if (letter := self.letter_or_axis(run)) is not None:
+            return letter
+        run.at += 1
+        if token.kind == "number":
+            return self.number(token.text, token.start, token.end)
+        if token.kind == "matrix":
+            return self.matrix(token, depth)
+        if token.kind in ("open", "bar"):
+            return self.bracketed(run, token, depth)
+        if token.text == "pi":
+            return Term(pi, NUMBER, token.start, token.end)
+        if token.text in FRACTIONS:
+            self.check_not_a_derivative(token)
+            above, below = (self.inside(argument, depth) for argument in token.arguments)
+            return between(self.quotient_of(above, below), token.start, token.end)
+        if token.text == "sqrt":
+            return self.root(token, depth)
+        return self.function(run, token, depth)
+
+    def check_not_a_derivative(self, token: Token) -> None:
+        firsts = [argument.tokens[0].text for argument in token.arguments if argument and argument.tokens]
+        if firsts == ["d", "d"] and "d" not in self.letters:
+            help_line = "transcribe what it is equal to"
+            self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
+
+    def inside(self, argument: Argument | None, depth: int) -> Value:
+        assert argument is not None
+        value = self.closed_sum(Run.over(argument), depth + 1)
+        return between(value, argument.start, argument.end)
+
+    def closed_sum(self, run: Run, depth: int) -> Value:
+        """A sum that is all there is between two braces."""
+        value = self.sum(run, depth)
+        if run.token:
+            self.unexpected(run)
+        return value
+
+    def root(self, token: Token, depth: int) -> Value:
+        degree, radicand = token.arguments
+        inner = self.scalar_in(self.inside(radicand, depth), "what stands under a root")
+        if degree is None:
+            return self.applied("sqrt", sqrt, inner, token.start, token.end)
+        number = self.scalar_in(self.closed_sum(Run.over(degree), depth + 1), "the degree of a root")
+        if not number.expr.is_Integer or number.expr < 2:
+            self.refuse("latex", "the degree of a root is a whole number from 2", degree.start, degree.end)
+        exponent = replace(number, expr=Rational(1, number.expr))
+        return between(self.raised(inner, exponent), token.start, token.end)
+
+    # -- brackets and matrices ------------------------------------------------------------------------------------
+
+    def bracketed(self, run: Run, opening: Token, depth: int) -> Value:
+        """What stands in brackets: a value, a triple, an antiderivative between limits."""
+        first = run.at
+        bars = opening.kind == "bar"
+        closing = "|" if bars else OPENING[opening.text]
+        run.bars.append(bars)
+        values = [self.sum(run, depth + 1)]
+        while run.token and run.written == ",":
+            run.at += 1
+            values.append(self.sum(run, depth + 1))
+        run.bars.pop()
+        token = run.token
+        if token is None or not (token.kind == "close" or (token.kind == "bar" and closing == "|")):
+            if token is not None:
+                self.unexpected(run)
+            self.refuse("latex", f"this `{opening.text}` is never closed", opening.start, opening.end)
+        found = "|" if token.kind == "bar" else CLOSING[token.text]
+        if found != closing:
+            self.refuse("latex", f"`{opening.text}` is closed by `{token.text}`", token.start, token.end)
+        run.at += 1
+        if opening.text == "." and not (run.token and run.token.kind == "script"):
+            self.refuse("latex", "limits are missing after this bar", token.start, token.end)
+        if len(values) > 1:
+            return self.triple(values, opening.start, token.end)
+        inner = between(values[0], opening.start, token.end)
+        if run.token and run.written == "_":
+            return self.with_limits(run, inner, first, depth)
+        return self.size_of(inner, opening.start, token.end) if closing == "|" else inner
+
+    def with_limits(self, run: Run, inner: Value, first: int, depth: int) -> Value:
+        named = self.named_as_a_whole(run, first)
+        if named is not None:
+            return named
+        assert run.token is not None
+        lower, upper, variable = self.limits(run, depth, run.token)
+        return bracket_of(self, inner, lower, upper, variable, run.before.end)
+
+    def triple(self, values: list[Value], start: int, end: int) -> Grid:
+        entries = tuple((self.scalar_in(value, "a component"),) for value in values)
+        if len(entries) != 3:
+            self.refuse("shape", f"a vector has 3 components, but this has {len(entries)}", start, end)
+        return Grid(entries, start, end)
+
+    def matrix(self, token: Token, depth: int) -> Value:
+        rows: list[list[list[Token]]] = [[[]]]
+        for inner in token.inside:
+            if inner.kind == "row":
+                rows.append([[]])
+            elif inner.kind == "cell":
+                rows[-1].append([])
+            else:
+                rows[-1][-1].append(inner)
+        if rows[-1] == [[]]:
+            rows.pop()
+        if not rows or len({len(row) for row in rows}) > 1 or len(rows) > 6 or len(rows[0]) > 6:
+            told = ", ".join(str(len(row)) for row in rows) or "no"
+            self.refuse("shape", f"rows of {told} entries make no matrix", token.start, token.end)
+        entries = tuple(tuple(self.entry(cell, token, depth) for cell in row) for row in rows)
+        return entries[0][0] if len(entries) == len(entries[0]) == 1 else Grid(entries, token.start, token.end)
+
+    def entry(self, cell: list[Token], matrix: Token, depth: int) -> Term:
+        if not cell:
+            self.refuse("shape", "an entry of this matrix is empty", matrix.start, matrix.end)
+        value = self.closed_sum(Run(tuple(cell), cell[-1].end), depth + 1)
+        return self.scalar_in(value, "an entry")
+
+    # -- what is not there ----------------------------------------------------------------------------------------
+
+    def unexpected(self, run: Run) -> NoReturn:
+        token = run.token
+        assert token is not None
+        if token.kind in ("cell", "row"):
+            self.refuse("latex", "one formula is read at a time", token.start, token.end)
+        self.refuse("latex", f"`{self.text[token.start : token.end]}` is not expected here", token.start, token.end)
+
+    def missing(self, run: Run) -> NoReturn:
+        token = run.token
+        if token and token.kind in ("cell", "row", "word"):
+            self.unexpected(run)
+        where = f"before `{self.text[token.start : token.end]}`" if token else "at the end"
+        start = token.start if token else run.end - 1
+        self.refuse("latex", f"something is missing {where}", start, token.end if token else None)

@@ -1,0 +1,153 @@
+"""Integrals as a document writes them: signs with their limits, differentials anywhere customary, brackets with limits.
+
+Only integrals of powers, sines and cosines are taken, so that none runs away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from sympy import Add, Dummy, Expr, Integral, Mul, Pow, Symbol, cos, expand, sin
+
+from derive.expressions import Bracket, Group, explicit
+from derive.latex.grids import Grids, Value, each
+from derive.terms import Term
+
+MAX_POWER = 60
+
+
+@dataclass
+class Sign:
+    r"""An integral sign of a product: its limits, what stood between it and its differential, the variable once known.
+
+    `\int_0^a dx f` reaches over all that follows in the product, `\int_0^a f dx` ends at its differential.
+    """
+
+    lower: Term
+    upper: Term
+    start: int
+    end: int
+    after: int  # how many factors stand before it
+    named: Term | None = None  # as in `_{z=0}`
+    variable: Term | None = None
+    ended: bool = False
+
+
+def differential_of(reader: Grids, signs: list[Sign], variable: Term, factors: int) -> None:
+    """Pair a differential with the innermost sign that has none yet."""
+    sign = next(sign for sign in reversed(signs) if sign.variable is None)
+    if any(other.variable and other.variable.expr == variable.expr for other in signs):
+        message = f"`{reader.shown(variable)}` is already the variable of another integral here"
+        reader.refuse("integral", message, variable.start, variable.end)
+    if sign.named and sign.named.expr != variable.expr:
+        message = f"the limits are those of `{reader.shown(sign.named)}`, not of `{reader.shown(variable)}`"
+        reader.refuse("integral", message, variable.start, variable.end)
+    sign.variable, sign.ended = variable, factors > sign.after
+
+
+def check_scope(reader: Grids, signs: list[Sign], factor: Value) -> None:
+    """Whether a factor is inside or outside an integral must be plain when it has the integral's variable."""
+    for sign in signs:
+        if sign.variable and sign.ended and _has(factor, sign.variable.expr):
+            message = f"`{reader.shown(sign.variable)}` stands here after its integral has ended"
+            reader.refuse("integral", message, factor.start, factor.end, "put the differential last, or first")
+
+
+def _has(value: Value, letter: Expr) -> bool:
+    entries = [value] if isinstance(value, Term) else [term for row in value.rows for term in row]
+    return any(term.expr.has(letter) for term in entries)
+
+
+def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: Value | None) -> Value:
+    """The integrals of a product, the one that was opened last taken first."""
+    for position in range(len(signs) - 1, -1, -1):
+        sign = signs[position]
+        if sign.variable is None:
+            help_line = "put an integrand that is a sum in brackets"
+            reader.refuse("integral", "this integral has no differential", sign.start, sign.end, help_line)
+        if outside is not None and _has(outside, sign.variable.expr):
+            message = f"`{reader.shown(sign.variable)}` stands outside its integral"
+            reader.refuse("integral", message, outside.start, outside.end)
+        inner = {other.variable.expr for other in signs[position:] if other.variable}
+        for limit in (sign.lower, sign.upper):
+            if limit.expr.free_symbols & inner:
+                message = f"the limit `{reader.shown(limit)}` has a variable that is integrated inside"
+                reader.refuse("integral", message, limit.start, limit.end)
+        inside = _one(reader, inside, sign, sign.variable)
+    return inside
+
+
+def _one(reader: Grids, inside: Value, sign: Sign, variable: Term) -> Value:
+    check_limits(reader, variable, sign.lower, sign.upper)
+
+    def integral(term: Term) -> Term:
+        size, terms = grown(term, sign.lower, sign.upper)
+        reader.bound(sign.start, term.end, size, terms)
+        x = Dummy(str(variable.expr), real=True)
+        function = term.expr.xreplace({variable.expr: x})
+        if not _is_elementary(explicit(function), x):
+            message = f"only powers, sines and cosines of `{reader.shown(variable)}` can be integrated"
+            reader.refuse("integral", message, term.start, term.end)
+        whole = Group(Integral(function, (x, sign.lower.expr, sign.upper.expr)))
+        dimension = term.dimension * variable.dimension
+        return replace(term, expr=whole, dimension=dimension, size=size, terms=terms, kind=None)
+
+    return each(inside, integral)
+
+
+def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
+    for limit in limits:
+        if not reader.fits(variable, limit):
+            message = f"the limit `{reader.shown(limit)}` is {limit.is_a}, but `{reader.shown(variable)}` is"
+            reader.refuse("dimension", f"{message} {variable.is_a}", limit.start, limit.end)
+
+
+def _is_elementary(function: Expr, x: Symbol) -> bool:
+    """A sum of products of powers, sines and cosines of x: its antiderivative is found by the rules of a first course."""
+    return all(
+        _is_power_or_wave(factor, x)
+        for term in Add.make_args(expand(function))
+        for factor in Mul.make_args(term.as_independent(x, as_Add=False)[1])
+    )
+
+
+def _is_power_or_wave(factor: Expr, x: Symbol) -> bool:
+    base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, 1)
+    if not factor.has(x):
+        return True
+    if not (getattr(exponent, "is_Integer", True) and 0 < exponent <= MAX_POWER):
+        return False
+    return base == x or (isinstance(base, sin | cos) and exponent <= 12 and not base.args[0].diff(x).has(x))
+
+
+def bracket_of(reader: Grids, inner: Value, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
+    """An antiderivative between limits; its variable is the one letter that the limits can be put in for."""
+    term = reader.scalar_in(inner, "what stands before limits")
+    limits = (lower.expr, upper.expr)
+    x = variable.expr if variable else _only_letter(reader, term, lower, upper)
+    if variable:
+        check_limits(reader, variable, lower, upper)
+    size, terms = grown(term, lower, upper)
+    reader.bound(term.start, end, size, terms)
+    bound = Dummy(str(x), real=True)
+    between = Bracket(term.expr.xreplace({x: bound}), bound, *limits)
+    return replace(term, expr=between, end=end, size=size, terms=terms, kind=None)
+
+
+def grown(term: Term, lower: Term, upper: Term) -> tuple[int, int]:
+    """How large a value can become when limits are put in for a letter of it: its size bounds the letter's power."""
+    terms = term.terms * (lower.terms**term.size + upper.terms**term.size)
+    return term.size * max(lower.size, upper.size) + 1, terms
+
+
+def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
+    """The letter of the bracket that the limits do not have and whose dimension is theirs."""
+    outside = lower.expr.free_symbols | upper.expr.free_symbols
+    limit = upper if upper.expr != 0 else lower
+    free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)
+    found = [s for s in free if limit.expr == 0 or not reader.homogeneous or reader.dimensions[s] == limit.dimension]
+    if len(found) != 1:
+        told = "no letter fits them" if not found else "it could be " + " or ".join(sorted(f"`{s}`" for s in found))
+        help_line = "write the variable with the lower limit: `_{x=0}`"
+        reader.refuse("integral", f"it is not clear what the limits are for: {told}", term.start, term.end, help_line)
+    return found[0]
