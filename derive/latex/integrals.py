@@ -103,7 +103,7 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, x: Symbol) -> bool:
-    """A sum of products of powers, sines and cosines of x: its antiderivative is found by the rules of a first course."""
+    """A sum of products of powers, sines and cosines of x, which the rules of a first course integrate."""
     return all(
         _is_power_or_wave(factor, x)
         for term in Add.make_args(expand(function))
