@@ -30,13 +30,15 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.evidence import vanishes
-from derive.expressions import explicit
+from derive.exact import vanishes
+from derive.expressions import Relation, explicit
 
 
 def tidied(value: Any) -> Any:
     """The explicit value in its tidy form, entry by entry for a matrix."""
     value = explicit(value)
+    if isinstance(value, Relation):
+        return Relation(tidied(value.left), value.mark, tidied(value.right))
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(_tidied_scalar))
     return _tidied_scalar(value)
