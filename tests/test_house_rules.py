@@ -45,6 +45,7 @@ LAYERS = (
         "given",
         "problem",
         "stated",
+        "verdicts",
         "reference",
     ),
     ("wording", "document"),

@@ -18,7 +18,7 @@ from sympy import Integer, Rational, exp, pi, sqrt
 
 from derive.dimensions import NUMBER
 from derive.latex.arguments import Functions
-from derive.latex.grids import Grid, Value, between
+from derive.latex.grids import Grid, Grids, Value, between
 from derive.latex.integrals import Sign, bracket_of, check_scope, differential_of, integrated
 from derive.latex.letters import letter_at
 from derive.latex.runs import Run
@@ -28,6 +28,28 @@ from derive.terms import Term
 
 _TIMES = ("\\cdot", "\\times", "*")
 _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
+
+
+class _Parts:
+    """The factors of a product: what stands side by side first, then the dots and crosses from left to right."""
+
+    def __init__(self, reader: Grids):
+        self.reader = reader
+        self.parts: list[Value] = []
+        self.signs: list[str] = []
+
+    def take(self, factor: Value, times: str) -> None:
+        if self.parts and not times:
+            self.parts[-1] = self.reader.product_of(self.parts[-1], factor, "")
+        else:
+            self.parts.append(factor)
+            self.signs.append(times)
+
+    def product(self) -> Value:
+        whole = self.parts[0]
+        for part, sign in zip(self.parts[1:], self.signs[1:], strict=True):
+            whole = self.reader.product_of(whole, part, sign)
+        return whole
 
 
 class Formula(Functions):
@@ -100,10 +122,10 @@ class Formula(Functions):
         return left
 
     def product(self, run: Run, depth: int) -> Value:
-        outside: Value | None = None
-        inside: Value | None = None
+        outside, inside = _Parts(self), _Parts(self)
         signs: list[Sign] = []
-        count, first = 0, run.at
+        count = 0
+        alone: Token | None = None  # the factor before, if it is one token
         while True:
             times = self.times(run)
             if self.is_differential(run, signs):
@@ -111,32 +133,29 @@ class Formula(Functions):
             elif run.written == "\\int":
                 signs.append(self.integral_sign(run, depth, count))
             elif self.begins_factor(run):
-                before = run.before if run.at > first else None
+                first = run.at
                 factor = self.factor(run, depth)
-                self.check_side_by_side(before, times, run, factor)
+                self.check_side_by_side(alone if not times else None, run.tokens[first], factor)
+                alone = run.before if run.at == first + 1 else None
                 check_scope(self, signs, factor)
                 count += 1
-                if signs:
-                    inside = factor if inside is None else self.product_of(inside, factor, times)
-                else:
-                    outside = factor if outside is None else self.product_of(outside, factor, times)
+                (inside if signs else outside).take(factor, times)
             elif times:
                 self.missing(run)
             elif run.written == "/":
                 divided = inside if signs else outside
-                if divided is None:
+                if not divided.parts:
                     self.missing(run)
-                quotient = self.divided(run, depth, divided, signs)
-                inside, outside = (quotient, outside) if signs else (inside, quotient)
+                divided.parts[-1] = self.divided(run, depth, divided.parts[-1], signs)
             else:
                 break
         if signs:
             one = Term(Integer(1), NUMBER, signs[0].start, signs[-1].end)
-            whole = integrated(self, one if inside is None else inside, signs, outside)
-            return whole if outside is None else self.product_of(outside, whole, "")
-        if outside is None:
+            whole = integrated(self, inside.product() if inside.parts else one, signs, outside.parts)
+            outside.take(whole, "")
+        elif not outside.parts:
             self.missing(run)
-        return outside
+        return outside.product()
 
     def times(self, run: Run) -> str:
         if run.token is None or run.written not in _TIMES:
@@ -159,12 +178,9 @@ class Formula(Functions):
                 self.refuse("ambiguous", "it is not clear how far this `/` reaches", slash.start, slash.end, help_line)
         return self.quotient_of(above, below)
 
-    def check_side_by_side(self, before: Token | None, times: str, run: Run, factor: Value) -> None:
+    def check_side_by_side(self, before: Token | None, token: Token, factor: Value) -> None:
         """Two numbers side by side are one number, a mixed number or a slip; `a2` is half a subscript."""
-        if before is None or times:
-            return
-        token = run.token_at(factor.start)
-        if token is None:
+        if before is None:
             return
         if token.kind == "number" and before.kind == "number":
             help_line = "write `\\cdot` between them"

@@ -58,16 +58,17 @@ def _has(value: Value, letter: Expr) -> bool:
     return any(term.expr.has(letter) for term in entries)
 
 
-def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: Value | None) -> Value:
+def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: list[Value]) -> Value:
     """The integrals of a product, the one that was opened last taken first."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:
             help_line = "put an integrand that is a sum in brackets"
             reader.refuse("integral", "this integral has no differential", sign.start, sign.end, help_line)
-        if outside is not None and _has(outside, sign.variable.expr):
-            message = f"`{reader.shown(sign.variable)}` stands outside its integral"
-            reader.refuse("integral", message, outside.start, outside.end)
+        for part in outside:
+            if _has(part, sign.variable.expr):
+                message = f"`{reader.shown(sign.variable)}` stands outside its integral"
+                reader.refuse("integral", message, part.start, part.end)
         inner = {other.variable.expr for other in signs[position:] if other.variable}
         for limit in (sign.lower, sign.upper):
             if limit.expr.free_symbols & inner:

@@ -1,7 +1,7 @@
 """Letters as a document writes them, and the declared names they stand for.
 
 A name is a letter, Greek or Latin, and what stands below it: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot makes the
-rate of change of a letter, whose name has a prime: `theta'`.
+letter's rate of change, as `derive.expressions.rate` names it: `theta_dot`.
 """
 
 from __future__ import annotations
@@ -9,11 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 
-from sympy import Symbol
-
-from derive.dimensions import Dimension, dimension_of_kind
+from derive.dimensions import dimension_of_kind
+from derive.expressions import rate
 from derive.latex.tokens import Argument, Token
 from derive.latex.vocabulary import ARROWS, BOLD, DECORATIONS, DOTS, GREEK, WORDS
 from derive.terms import Declared, Term
@@ -71,13 +69,9 @@ def term_of(letter: Letter, declared: Declared) -> Term:
     """The letter's value: its symbol, or the symbol of its rate."""
     symbol, dimension, kind = declared.symbol, declared.dimension, declared.kind
     if letter.dots:
-        symbol = Symbol(declared.symbol.name + "'" * letter.dots, real=True)
-        return Term(symbol, rate(dimension, letter.dots), letter.start, letter.end)
+        symbol, dimension = rate(symbol, letter.dots), dimension / dimension_of_kind("time") ** letter.dots
+        return Term(symbol, dimension, letter.start, letter.end)
     return Term(symbol, dimension, letter.start, letter.end, kind=kind)
-
-
-def rate(dimension: Dimension, times: int) -> Dimension:
-    return dimension / dimension_of_kind("time") ** Fraction(times)
 
 
 def letter_at(token: Token | None) -> Letter | None:

@@ -42,10 +42,6 @@ class Run:
             return ""
         return f"\\{token.text}" if token.kind == "command" else token.text
 
-    def token_at(self, start: int) -> Token | None:
-        """The token that begins at an index of the text."""
-        return next((token for token in self.tokens if token.start == start), None)
-
     def argument_after(self, mark: Token, text: str) -> Argument | None:
         """The tokens of the group that follows a `^` or `_`, or the one token where there are no braces."""
         token = self.token
