@@ -10,7 +10,7 @@ from collections.abc import Mapping as Table
 from dataclasses import replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixSymbol, Rational, Symbol
+from sympy import Add, Expr, Integer, MatrixSymbol, Pow, Rational, Symbol, factor_terms
 
 from derive.derivation import with_ancestors
 from derive.dimensions import Dimension, dimension_of_kind, kind_with_article, named
@@ -199,9 +199,12 @@ def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
 
 
 def _coefficients(expr: Expr) -> dict[Expr, Expr]:
-    """Letters -> the number in front of them."""
+    """Letters -> the number in front of them; those that a root has in every term are drawn out of it."""
     found: dict[Expr, Expr] = {}
-    for term in Add.make_args(expr.expand()):
+    opened = expr.replace(
+        lambda e: isinstance(e, Pow) and not e.exp.is_Integer, lambda e: factor_terms(e.base) ** e.exp
+    )
+    for term in Add.make_args(opened.expand()):
         number, letters = term.as_independent(*expr.free_symbols, as_Add=False)
         if number != 0:
             found[letters] = found.get(letters, Integer(0)) + number

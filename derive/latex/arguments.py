@@ -155,9 +155,8 @@ class Functions(Grids):
             place = run.token or function
             message = f"the argument of `\\{function.text}` is missing"
             self.refuse("latex", message, place.start, place.end)
-        if not self.fits(argument, Term(Integer(1), NUMBER, 0, 0)) or (
-            self.opens(run) and self.is_only_a_number(argument)
-        ):
+        unfit = self.homogeneous and argument.dimension != NUMBER
+        if unfit or (self.opens(run) and self.is_only_a_number(argument)):
             message = f"the argument of `\\{function.text}` is not clear"
             self.refuse("ambiguous", message, argument.start, argument.end, "put it in brackets")
         self.check_end(run, argument, depth)
@@ -173,8 +172,7 @@ class Functions(Grids):
         else:
             self.check_power(run, factor)
         argument = factor if argument is None else self.multiplied(argument, factor)
-        is_angle = self.fits(argument, Term(Integer(1), NUMBER, 0, 0))
-        return argument, degrees or (is_angle and not self.is_only_a_number(argument))
+        return argument, degrees or (argument.dimension == NUMBER and not self.is_only_a_number(argument))
 
     def script_ahead(self, run: Run) -> Argument:
         at = run.at
@@ -202,7 +200,7 @@ class Functions(Grids):
             following = self.atom(run, depth)
             run.at = at
             del self.undeclared[told:]
-            unclear = isinstance(following, Term) and self.fits(argument, following)
+            unclear = isinstance(following, Term) and following.dimension == NUMBER
         if unclear:
             message = f"`{self.shown(argument)}` may not be the whole argument"
             self.refuse("ambiguous", message, argument.start, token.end, "put the argument in brackets")

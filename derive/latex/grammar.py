@@ -19,7 +19,7 @@ from sympy import Integer, Rational, exp, pi, sqrt
 from derive.dimensions import NUMBER
 from derive.latex.arguments import Functions
 from derive.latex.grids import Grid, Grids, Value, between
-from derive.latex.integrals import Sign, bracket_of, check_scope, differential_of, integrated
+from derive.latex.integrals import Sign, bracket_of, differential_of, integrated
 from derive.latex.letters import letter_at
 from derive.latex.runs import Run
 from derive.latex.tokens import MAX_DEPTH, Argument, Token
@@ -124,21 +124,18 @@ class Formula(Functions):
     def product(self, run: Run, depth: int) -> Value:
         outside, inside = _Parts(self), _Parts(self)
         signs: list[Sign] = []
-        count = 0
         alone: Token | None = None  # the factor before, if it is one token
         while True:
             times = self.times(run)
             if self.is_differential(run, signs):
-                differential_of(self, signs, self.differential(run), count)
+                differential_of(self, signs, self.differential(run))
             elif run.written == "\\int":
-                signs.append(self.integral_sign(run, depth, count))
+                signs.append(self.integral_sign(run, depth))
             elif self.begins_factor(run):
                 first = run.at
                 factor = self.factor(run, depth)
                 self.check_side_by_side(alone if not times else None, run.tokens[first], factor)
                 alone = run.before if run.at == first + 1 else None
-                check_scope(self, signs, factor)
-                count += 1
                 (inside if signs else outside).take(factor, times)
             elif times:
                 self.missing(run)
@@ -195,12 +192,12 @@ class Formula(Functions):
 
     # -- integrals ------------------------------------------------------------------------------------------------
 
-    def integral_sign(self, run: Run, depth: int, count: int) -> Sign:
+    def integral_sign(self, run: Run, depth: int) -> Sign:
         sign = run.token
         assert sign is not None
         run.at += 1
         lower, upper, named = self.limits(run, depth, sign)
-        return Sign(lower, upper, sign.start, run.before.end, count, named)
+        return Sign(lower, upper, sign.start, run.before.end, named)
 
     def limits(self, run: Run, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
         """What stands below and above, and the variable if it is named there: `_{z=0}^{z=h}`."""

@@ -20,20 +20,18 @@ MAX_POWER = 60
 class Sign:
     r"""An integral sign of a product: its limits, what stood between it and its differential, the variable once known.
 
-    `\int_0^a dx f` reaches over all that follows in the product, `\int_0^a f dx` ends at its differential.
+    It reaches over all that follows in its product, for in `\int_0^h z dz \int_0^z dx` the second is inside the first.
     """
 
     lower: Term
     upper: Term
     start: int
     end: int
-    after: int  # how many factors stand before it
     named: Term | None = None  # as in `_{z=0}`
     variable: Term | None = None
-    ended: bool = False
 
 
-def differential_of(reader: Grids, signs: list[Sign], variable: Term, factors: int) -> None:
+def differential_of(reader: Grids, signs: list[Sign], variable: Term) -> None:
     """Pair a differential with the innermost sign that has none yet."""
     sign = next(sign for sign in reversed(signs) if sign.variable is None)
     if any(other.variable and other.variable.expr == variable.expr for other in signs):
@@ -42,15 +40,7 @@ def differential_of(reader: Grids, signs: list[Sign], variable: Term, factors: i
     if sign.named and sign.named.expr != variable.expr:
         message = f"the limits are those of `{reader.shown(sign.named)}`, not of `{reader.shown(variable)}`"
         reader.refuse("integral", message, variable.start, variable.end)
-    sign.variable, sign.ended = variable, factors > sign.after
-
-
-def check_scope(reader: Grids, signs: list[Sign], factor: Value) -> None:
-    """Whether a factor is inside or outside an integral must be plain when it has the integral's variable."""
-    for sign in signs:
-        if sign.variable and sign.ended and _has(factor, sign.variable.expr):
-            message = f"`{reader.shown(sign.variable)}` stands here after its integral has ended"
-            reader.refuse("integral", message, factor.start, factor.end, "put the differential last, or first")
+    sign.variable = variable
 
 
 def _has(value: Value, letter: Expr) -> bool:
