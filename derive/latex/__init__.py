@@ -5,6 +5,8 @@
     letters     a letter with its subscript and dots as a declared name
     grids       sums and products of scalars, vectors and matrices
     integrals   signs and differentials, brackets between limits
+    arguments   functions and how far their arguments reach
+    brackets    brackets, triples, matrices, limits
     grammar     chains, sums, products, factors
 
 What cannot be read, or could be read in two ways, is refused at its place.

@@ -37,12 +37,15 @@ class Functions(Grids):
         if letter is None:
             return None
         declared = self.letters.named(letter)
-        if declared is None and letter.axis is not None:
+        if letter.axis is not None and (declared is None or letter.hat):
             one, zero = (Term(Integer(n), NUMBER, letter.start, letter.end) for n in (1, 0))
             return Grid(tuple((one if i == letter.axis else zero,) for i in range(3)), letter.start, letter.end)
         if declared is None and letter.name == "e" and run.written == "^":
             self.euler = replace(self.euler, start=letter.start, end=letter.end)
             return self.euler
+        if letter.hat:
+            what = self.text[letter.start : letter.end]
+            self.refuse("latex", f"`{what}` is a unit vector that is not read", letter.start, letter.end)
         self.check_not_a_function(letter, run)
         return self.value_of(letter)
 

@@ -17,13 +17,13 @@ from typing import NoReturn
 from sympy import Integer, Rational, exp, pi, sqrt
 
 from derive.dimensions import NUMBER
-from derive.latex.arguments import Functions
-from derive.latex.grids import Grid, Grids, Value, between
-from derive.latex.integrals import Sign, bracket_of, differential_of, integrated
+from derive.latex.brackets import Brackets
+from derive.latex.grids import Grids, Value, between
+from derive.latex.integrals import Sign, differential_of, integrated
 from derive.latex.letters import letter_at
 from derive.latex.runs import Run
 from derive.latex.tokens import MAX_DEPTH, Argument, Token
-from derive.latex.vocabulary import CLOSING, FRACTIONS, FUNCTIONS, OPENING, RELATIONS
+from derive.latex.vocabulary import FRACTIONS, FUNCTIONS, RELATIONS
 from derive.terms import Term
 
 _TIMES = ("\\cdot", "\\times", "*")
@@ -52,7 +52,7 @@ class _Parts:
         return whole
 
 
-class Formula(Functions):
+class Formula(Brackets):
     """Reads one text in one branch: `\\pm` is + in the first and - in the second."""
 
     branch = 0
@@ -126,7 +126,7 @@ class Formula(Functions):
         signs: list[Sign] = []
         alone: Token | None = None  # the factor before, if it is one token
         while True:
-            times = self.times(run)
+            times = self.times(run) if signs or outside.parts else ""
             if self.is_differential(run, signs):
                 differential_of(self, signs, self.differential(run))
             elif run.written == "\\int":
@@ -198,28 +198,6 @@ class Formula(Functions):
         run.at += 1
         lower, upper, named = self.limits(run, depth, sign)
         return Sign(lower, upper, sign.start, run.before.end, named)
-
-    def limits(self, run: Run, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
-        """What stands below and above, and the variable if it is named there: `_{z=0}^{z=h}`."""
-        found: dict[str, tuple[Term, Term | None]] = {}
-        while run.token and run.token.kind == "script" and run.token.text not in found:
-            script = run.token.text
-            found[script] = self.limit(self.script(run), depth)
-        if len(found) < 2:
-            missing = "^" if "_" in found else "_"
-            self.refuse("integral", f"the limit after `{missing}` is missing", sign.start, sign.end)
-        return found["_"][0], found["^"][0], found["_"][1]
-
-    def limit(self, argument: Argument, depth: int) -> tuple[Term, Term | None]:
-        inner = Run.over(argument)
-        named = None
-        if any(token.text == "=" for token in argument.tokens):
-            named = self.letter(inner)
-            if named is None or inner.written != "=":
-                self.unexpected(inner)
-            inner.at += 1
-        value = self.scalar_in(self.closed_sum(inner, depth + 1), "a limit")
-        return value, named
 
     def is_differential(self, run: Run, signs: list[Sign]) -> bool:
         """Whether a `d` and a letter stand here, and an integral waits for them; an upright d is no letter of ours."""
@@ -340,74 +318,6 @@ class Formula(Functions):
             self.refuse("latex", "the degree of a root is a whole number from 2", degree.start, degree.end)
         exponent = replace(number, expr=Rational(1, number.expr))
         return between(self.raised(inner, exponent), token.start, token.end)
-
-    # -- brackets and matrices ------------------------------------------------------------------------------------
-
-    def bracketed(self, run: Run, opening: Token, depth: int) -> Value:
-        """What stands in brackets: a value, a triple, an antiderivative between limits."""
-        first = run.at
-        bars = opening.kind == "bar"
-        closing = "|" if bars else OPENING[opening.text]
-        run.bars.append(bars)
-        values = [self.sum(run, depth + 1)]
-        while run.token and run.written == ",":
-            run.at += 1
-            values.append(self.sum(run, depth + 1))
-        run.bars.pop()
-        token = run.token
-        if token is None or not (token.kind == "close" or (token.kind == "bar" and closing == "|")):
-            if token is not None:
-                self.unexpected(run)
-            self.refuse("latex", f"this `{opening.text}` is never closed", opening.start, opening.end)
-        found = "|" if token.kind == "bar" else CLOSING[token.text]
-        if found != closing:
-            self.refuse("latex", f"`{opening.text}` is closed by `{token.text}`", token.start, token.end)
-        run.at += 1
-        if opening.text == "." and not (run.token and run.token.kind == "script"):
-            self.refuse("latex", "limits are missing after this bar", token.start, token.end)
-        if len(values) > 1:
-            return self.triple(values, opening.start, token.end)
-        inner = between(values[0], opening.start, token.end)
-        if run.token and run.written == "_":
-            return self.with_limits(run, inner, first, depth)
-        return self.size_of(inner, opening.start, token.end) if closing == "|" else inner
-
-    def with_limits(self, run: Run, inner: Value, first: int, depth: int) -> Value:
-        named = self.named_as_a_whole(run, first)
-        if named is not None:
-            return named
-        assert run.token is not None
-        lower, upper, variable = self.limits(run, depth, run.token)
-        return bracket_of(self, inner, lower, upper, variable, run.before.end)
-
-    def triple(self, values: list[Value], start: int, end: int) -> Grid:
-        entries = tuple((self.scalar_in(value, "a component"),) for value in values)
-        if len(entries) != 3:
-            self.refuse("shape", f"a vector has 3 components, but this has {len(entries)}", start, end)
-        return Grid(entries, start, end)
-
-    def matrix(self, token: Token, depth: int) -> Value:
-        rows: list[list[list[Token]]] = [[[]]]
-        for inner in token.inside:
-            if inner.kind == "row":
-                rows.append([[]])
-            elif inner.kind == "cell":
-                rows[-1].append([])
-            else:
-                rows[-1][-1].append(inner)
-        if rows[-1] == [[]]:
-            rows.pop()
-        if not rows or len({len(row) for row in rows}) > 1 or len(rows) > 6 or len(rows[0]) > 6:
-            told = ", ".join(str(len(row)) for row in rows) or "no"
-            self.refuse("shape", f"rows of {told} entries make no matrix", token.start, token.end)
-        entries = tuple(tuple(self.entry(cell, token, depth) for cell in row) for row in rows)
-        return entries[0][0] if len(entries) == len(entries[0]) == 1 else Grid(entries, token.start, token.end)
-
-    def entry(self, cell: list[Token], matrix: Token, depth: int) -> Term:
-        if not cell:
-            self.refuse("shape", "an entry of this matrix is empty", matrix.start, matrix.end)
-        value = self.closed_sum(Run(tuple(cell), cell[-1].end), depth + 1)
-        return self.scalar_in(value, "an entry")
 
     # -- what is not there ----------------------------------------------------------------------------------------
 

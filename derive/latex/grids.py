@@ -13,8 +13,6 @@ from derive.dimensions import NUMBER, Dimension
 from derive.source import Scalar
 from derive.terms import Arithmetic, Term
 
-MAX_SIDE = 6
-
 
 @dataclass(frozen=True)
 class Grid:

@@ -72,7 +72,7 @@ def _one(reader: Grids, inside: Value, sign: Sign, variable: Term) -> Value:
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
-        size, terms = grown(term, sign.lower, sign.upper)
+        size, terms = grown(term, variable.expr, sign.lower, sign.upper)
         reader.bound(sign.start, term.end, size, terms)
         x = Dummy(str(variable.expr), real=True)
         function = term.expr.xreplace({variable.expr: x})
@@ -118,17 +118,36 @@ def bracket_of(reader: Grids, inner: Value, lower: Term, upper: Term, variable: 
     x = variable.expr if variable else _only_letter(reader, term, lower, upper)
     if variable:
         check_limits(reader, variable, lower, upper)
-    size, terms = grown(term, lower, upper)
+    size, terms = grown(term, x, lower, upper)
     reader.bound(term.start, end, size, terms)
     bound = Dummy(str(x), real=True)
     between = Bracket(term.expr.xreplace({x: bound}), bound, *limits)
     return replace(term, expr=between, end=end, size=size, terms=terms, kind=None)
 
 
-def grown(term: Term, lower: Term, upper: Term) -> tuple[int, int]:
-    """How large a value can become when limits are put in for a letter of it: its size bounds the letter's power."""
-    terms = term.terms * (lower.terms**term.size + upper.terms**term.size)
+def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
+    """How large the antiderivative of a value can become when limits are put in for x."""
+    power = _degree(term.expr, x, term.size) + 1
+    terms = term.terms * (lower.terms**power + upper.terms**power)
     return term.size * max(lower.size, upper.size) + 1, terms
+
+
+def _degree(expr: Expr, x: Expr, most: int) -> int:
+    """The highest power of x when multiplied out; `most`, its size, where that cannot be seen."""
+    if not expr.has(x):
+        return 0
+    if expr.is_Add:
+        return max(_degree(arg, x, most) for arg in expr.args)
+    if expr.is_Mul:
+        return sum(_degree(arg, x, most) for arg in expr.args)
+    if isinstance(expr, Pow) and expr.exp.is_Integer and expr.exp > 0:
+        return int(expr.exp) * _degree(expr.base, x, most)
+    if isinstance(expr, Group):
+        return _degree(expr.args[0], x, most)
+    if isinstance(expr, Integral):
+        (y, *limits), inner = expr.limits[0], expr.function
+        return _degree(inner, x, most) + (_degree(inner, y, most) + 1) * max(_degree(at, x, most) for at in limits)
+    return 1 if expr == x or isinstance(expr, sin | cos) else most
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:

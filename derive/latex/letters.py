@@ -30,7 +30,7 @@ class Letter:
     subscript: str = ""
     dots: int = 0
     hat: bool = False
-    bold: bool = False
+    vector: bool = False  # in bold or under an arrow
 
     @property
     def name(self) -> str:
@@ -38,8 +38,8 @@ class Letter:
 
     @property
     def axis(self) -> int | None:
-        """Which unit vector it could be: i, j, k in bold or under an arrow, x, y, z under a hat."""
-        marked = self.hat or (self.bold and self.base in "ijk")
+        """Which unit vector it could be: i, j, k as a vector, x, y, z only under a hat."""
+        marked = self.hat or (self.vector and self.base in "ijk")
         return UNIT_VECTORS.get(self.base) if marked and not self.subscript and not self.dots else None
 
 
@@ -92,6 +92,8 @@ def letter_at(token: Token | None) -> Letter | None:
 def _decorated(token: Token) -> Letter | None:
     argument = token.arguments[0]
     assert argument is not None
+    if not argument.tokens:
+        return None
     if len(argument.tokens) == 1:
         inner = letter_at(argument.tokens[0])
     else:
@@ -104,8 +106,8 @@ def _decorated(token: Token) -> Letter | None:
         token.end,
         inner.subscript,
         inner.dots + DOTS.get(token.text, 0),
-        inner.hat or token.text in ARROWS,
-        inner.bold or token.text in BOLD,
+        inner.hat or token.text == "hat",
+        inner.vector or token.text in ARROWS | BOLD,
     )
 
 

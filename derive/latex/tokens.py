@@ -35,7 +35,7 @@ from derive.latex.vocabulary import (
     SPACES,
     WORDS,
 )
-from derive.source import did_you_mean
+from derive.source import did_you_mean, nearest
 from derive.terms import Arithmetic
 
 MAX_LENGTH = 3000
@@ -189,9 +189,9 @@ class _Tokens:
             yield Token("command", name, start, end, self.arguments(node, name, start))
 
     def unknown(self, name: str, start: int) -> None:
-        message, help_line = REFUSED.get(name, (f"`\\{name}` is not known", did_you_mean(name, sorted(KNOWN))))
-        if name not in REFUSED and help_line:
-            help_line = help_line.replace("`", "`\\", 1)
+        close = nearest(name, sorted(KNOWN, key=str.swapcase))
+        suggested = f"did you mean `\\{close}`?" if close else None
+        message, help_line = REFUSED.get(name, (f"`\\{name}` is not known", suggested))
         self.reader.refuse("latex", message, start, start + 1 + len(name), help_line)
 
     def arguments(self, node: Any, name: str, start: int) -> tuple[Argument | None, ...]:

@@ -46,10 +46,10 @@ RELATIONS: Mapping[str, str] = {
 
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
-ARROWS = frozenset(["vec", "hat", "overrightarrow"])
+ARROWS = frozenset(["vec", "overrightarrow"])
 BOLD = frozenset(["boldsymbol", "bm", "mathbf", "bf"])
 FONTS = frozenset(["mathrm", "mathit", "mathsf", "operatorname", "mathnormal"])
-DECORATIONS = ARROWS | BOLD | FONTS
+DECORATIONS = ARROWS | BOLD | FONTS | {"hat"}
 WORDS = frozenset(["text", "textrm", "textit", "mbox"])
 
 MATRICES = frozenset(["pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix"])
