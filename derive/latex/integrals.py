@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from sympy import Add, Dummy, Expr, Integral, Mul, Pow, Symbol, cos, expand, sin
+from sympy import Add, Dummy, Expr, Integer, Integral, Mul, Pow, Symbol, cos, expand, sin
 
 from derive.expressions import Bracket, Group, explicit
 from derive.latex.grids import Grids, Value, each
 from derive.terms import Term
 
 MAX_POWER = 60
+MAX_WAVES = 24
 
 
 @dataclass
@@ -77,7 +78,7 @@ def _one(reader: Grids, inside: Value, sign: Sign, variable: Term) -> Value:
         x = Dummy(str(variable.expr), real=True)
         function = term.expr.xreplace({variable.expr: x})
         if not _is_elementary(explicit(function), x):
-            message = f"only powers, sines and cosines of `{reader.shown(variable)}` can be integrated"
+            message = f"this is more than powers, sines and cosines of `{reader.shown(variable)}`"
             reader.refuse("integral", message, term.start, term.end)
         whole = Group(Integral(function, (x, sign.lower.expr, sign.upper.expr)))
         dimension = term.dimension * variable.dimension
@@ -95,20 +96,26 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 def _is_elementary(function: Expr, x: Symbol) -> bool:
     """A sum of products of powers, sines and cosines of x, which the rules of a first course integrate."""
-    return all(
-        _is_power_or_wave(factor, x)
-        for term in Add.make_args(expand(function))
-        for factor in Mul.make_args(term.as_independent(x, as_Add=False)[1])
-    )
+    return all(_is_short(term.as_independent(x, as_Add=False)[1], x) for term in Add.make_args(expand(function)))
 
 
-def _is_power_or_wave(factor: Expr, x: Symbol) -> bool:
-    base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, 1)
-    if not factor.has(x):
-        return True
-    if not (getattr(exponent, "is_Integer", True) and 0 < exponent <= MAX_POWER):
-        return False
-    return base == x or (isinstance(base, sin | cos) and exponent <= 12 and not base.args[0].diff(x).has(x))
+def _is_short(product: Expr, x: Symbol) -> bool:
+    """A power of x, or waves of one argument; of both, or of waves that differ, only a few: SymPy takes them slowly."""
+    power, waves, arguments = 0, 0, set()
+    for factor in Mul.make_args(product):
+        base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))
+        if not factor.has(x):
+            continue
+        if not (exponent.is_Integer and 0 < exponent <= MAX_POWER):
+            return False
+        if base == x:
+            power = int(exponent)
+        elif isinstance(base, sin | cos) and not base.args[0].diff(x).has(x):
+            waves += int(exponent)
+            arguments.add(base.args[0])
+        else:
+            return False
+    return waves == 0 or (power == 0 and len(arguments) == 1 and waves <= MAX_WAVES) or (power <= 3 and waves <= 2)
 
 
 def bracket_of(reader: Grids, inner: Value, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:

@@ -67,6 +67,8 @@ REFUSED = [
     (r"\int_{x=0}^{h} z dz", "integral", "z"),
     (r"\int_0^h dz\,dz", "undeclared-symbol", "d"),
     (r"\int_0^h \frac{1}{z} dz", "integral", r"\frac{1}{z}"),
+    (r"\int_0^n \sin^5(3\theta+n)\cos^4\theta d\theta", "integral", r"\sin^5"),
+    (r"\int_0^n \theta^{12}\sin^9\theta d\theta", "integral", r"\theta^{12}"),
     (r"\left[a z\right]_0^h", "integral", r"\left[a z\right]"),
     (r"\left[a\right]_0^{a}", "integral", r"\left[a\right]"),
     # what is no formula
