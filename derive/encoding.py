@@ -21,8 +21,9 @@ _SYMPY = (
 )
 _NODES = (
     "Dot", "Norm", "Cross", "CarriedRate", "BodyRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket",
-    "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate",
-    "Relation",
+    "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate", "Slope", "At",
+    "Truncated",
+    "Relation", "Component",
 )
 # fmt: on
 _CLASSES: dict[str, Any] = {

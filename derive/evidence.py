@@ -17,9 +17,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from sympy import Derivative, Expr, Integer, MatrixBase, Mul, Rational, Symbol, cancel, nan, oo, together, zoo
+from sympy import Derivative, Expr, Integer, MatrixBase, Mul, Rational, Symbol, cancel, nan, oo, sin, together, zoo
 from sympy.core.function import AppliedUndef
 from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR5
 
 from derive.exact import vanishes
 from derive.expressions import PLUS_MINUS, Relation, explicit
@@ -193,16 +194,23 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
             return Verdict(Grade.PROVED, "polynomial normal form")
     if left.residual == 0 or right.residual == 0:
         return _equal_scalars(left.residual, right.residual)
+    if left.mark == right.mark and vanishes(left.residual - right.residual):
+        return Verdict(Grade.PROVED, "polynomial normal form")
     factor = _ratio(left.residual, right.residual)
     for known in nonzero:
         factor = _without_factor(factor, known)
     if not _same_mark(left.mark, right.mark, 1 if factor.is_positive else -1 if factor.is_negative else 0):
-        return Verdict(Grade.REFUTED, f"`{left}` against `{right}`: their sides differ by the factor {factor}")
+        return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
     if not factor.is_nonzero:
-        return Verdict(Grade.REFUTED, f"`{left}` against `{right}`: their sides differ by {factor}, which may be zero")
+        return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
     whole = _ratio(left.residual, right.residual)
     verdict = _equal_scalars(left.residual, whole * right.residual)
     return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
+
+
+def _short(factor: Expr) -> str:
+    text = str(factor)
+    return text if len(text) <= 80 else text[:80] + " ..."
 
 
 def _same_mark(left: str, right: str, sign: int) -> bool:
@@ -223,9 +231,14 @@ def _both_squared(left: Relation, right: Relation) -> bool:
 
 def _ratio(above: Expr, below: Expr) -> Expr:
     try:
-        return cancel(together(above / below))
+        return cancel(together(_by_cosines(above) / _by_cosines(below)))
     except PolynomialError:
         return above / below
+
+
+def _by_cosines(expr: Expr) -> Expr:
+    """Multiplied out, with the squares of sines written by those of cosines, so that common factors show."""
+    return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:

@@ -46,6 +46,12 @@ _NUMBER_UNIT = re.compile(
 )
 
 
+def plural(kind: str) -> str:
+    """Moments of inertia, angular speeds."""
+    noun, of, rest = kind.partition(" of ")
+    return f"{noun}s{of}{rest}"
+
+
 @dataclass(frozen=True)
 class Kind:
     """What a parameter of `solve()` may be: `name` in the script, `each` in `symbols:`, letters for numbers."""
@@ -57,7 +63,7 @@ class Kind:
 
     @property
     def wanted(self) -> str:
-        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {self.each}s"
+        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {plural(self.each)}"
 
 
 Mass: TypeAlias = Annotated[Expr, Kind("Mass", "mass", ("M", "m"))]
@@ -70,12 +76,17 @@ Speed: TypeAlias = Annotated[Expr, Kind("Speed", "speed", ("v", "u"))]
 Acceleration: TypeAlias = Annotated[Expr, Kind("Acceleration", "acceleration", ("g", "a"))]
 Density: TypeAlias = Annotated[Expr, Kind("Density", "density", ("rho", "sigma"))]
 Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
+MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I_0", "J_0"))]
+MomentsOfInertia: TypeAlias = Annotated[
+    tuple[Expr, Expr, Expr], Kind("MomentsOfInertia", "moment of inertia", ("A", "B", "C"), 3)
+]
 SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
 Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
 
 _DIRECTION = Kind("Direction", "direction", (), 3)
 _MEASURES = (Mass, Length, Lengths, Time, Angle, AngularSpeed, Speed, Acceleration, Density, Force)
-_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, SpringConstant, Number)), _DIRECTION)
+_OTHERS = (MomentOfInertia, MomentsOfInertia, SpringConstant, Number)
+_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, *_OTHERS)), _DIRECTION)
 KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
 
 
@@ -196,7 +207,7 @@ def _read_one(
         return _direction(node, wanted, symbols)
     if kind.count == 1:
         return (_value(_scalar(node, wanted), wanted, symbols),)
-    items = _three(node, wanted, f"{kind.count} {kind.each}s", "write it as `[a, b, c]`")
+    items = _three(node, wanted, f"{kind.count} {plural(kind.each)}", "write it as `[a, b, c]`")
     values = []
     own = Faults()
     for item in items:

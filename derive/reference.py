@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from derive.derivation import returned_quantities, with_ancestors
+from derive.errata import Erratum, erratum_of
 from derive.errors import Complaint, DeriveError, Place
 from derive.evidence import Grade, Verdict
 from derive.expressions import Relation
@@ -36,6 +37,7 @@ class Told:
 
     facts: dict[str, Any]
     here: bool
+    erratum: Erratum | None = None
 
     @property
     def outcome(self) -> str:
@@ -55,7 +57,7 @@ class Comparison:
     here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
 
     def told(self) -> Told:
-        return Told(self.facts(), self.here)
+        return Told(self.facts(), self.here, erratum_of(self.entry) if self.outcome == "erratum" else None)
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""

@@ -18,13 +18,14 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, NoReturn
 
-from sympy import Expr, MatrixSymbol, Symbol
+from sympy import Expr, MatrixSymbol, Symbol, diff
+from sympy.core.symbol import Str
 
 from derive.dimensions import kind_with_article
 from derive.errors import Complaint, Rejected, Unverified
 from derive.evidence import Evidence, Grade, Verdict, equal
 from derive.exact import vanishes
-from derive.expressions import AXES, Relation, bound, component_names, explicit
+from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
 
 
@@ -152,6 +153,8 @@ def establish(
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
     coordinates: Mapping[Symbol, str] | None = None,
+    arranged: Callable[[Any], Any] = tidied,
+    motion: Mapping[Symbol, Expr] | None = None,
 ) -> Quantity:
     """Make a step, or refuse.
 
@@ -163,6 +166,8 @@ def establish(
     routes    claim -> function of the result, giving two values that must be equal
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
+    arranged  how the result is written; it changes no value
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
@@ -174,7 +179,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = tidied(bound(explicit(substituted), bindings))
+    result = arranged(bound(explicit(substituted), {**bindings, **(motion or {})}))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
@@ -182,11 +187,12 @@ def establish(
             Form(formula, "law", law_shown),
             *([Form(substituted, "put_in", put_in)] if put_in else []),
             *between,
-            *([Form(result, "result")] if show_result else []),
+            *([Form(result, "motion" if motion else "result")] if show_result else []),
             *after,
-        ]
+        ],
+        symbol,
     )
-    evidence = [_line_evidence(key, chain, i, bindings) for i in range(1, len(chain))]
+    evidence = [_line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
     evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
@@ -198,7 +204,7 @@ def establish(
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple(zip(inputs, names, strict=True)),
+        roles=tuple((role, _called(q)) for role, q in inputs.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
@@ -210,6 +216,13 @@ def establish(
     if record is not None:
         record.append(quantity)
     return quantity
+
+
+def _called(value: Any) -> Any:
+    """What a phrase calls an input: its symbol, or the key of a relation, which has none."""
+    if isinstance(value, Quantity):
+        return Str(value.key) if value.symbol is None else value.symbol
+    return value
 
 
 _established: ContextVar[list[Quantity] | None] = ContextVar("established", default=None)
@@ -260,10 +273,13 @@ def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
     return Evidence("definition", Grade.DEFINITION, rule)
 
 
-def _without_repeats(forms: Sequence[Form]) -> list[Form]:
-    """A form that looks just like the one before it says nothing; the lower level of the two is kept."""
+def _without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
+    """A form that looks just like the one before it says nothing; the lower level of the two is kept.
+
+    Nor does one that is only the symbol of the step, unless there is no other.
+    """
     kept: list[Form] = []
-    for form in forms:
+    for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
             level = min(kept[-1].level, form.level, key=list(Level).index)
             kept[-1] = replace(kept[-1], level=level)
@@ -286,15 +302,31 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
     return {name: value for name, value in values.items() if name != value}
 
 
-def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any]) -> Evidence:
+def _line_evidence(
+    key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
+) -> Evidence:
     left, right = (explicit(bound(form.expr, bindings)) for form in chain[i - 1 : i + 1])
     claim = f"line {i + 1} equals line {i}"
     if chain[i].because == "rounded":
         return _rounding_evidence(key, claim, left, chain[i].expr)
+    if isinstance(chain[i].expr, Truncated):
+        return _series_evidence(key, claim, left, chain[i].expr)
+    if chain[i].because == "motion":
+        left, right = bound(left, motion), bound(right, motion)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in chain[i].nonzero])
     if not verdict:
         raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)
     return Evidence(claim, verdict.grade, verdict.detail)
+
+
+def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
+    """A series that breaks off has, at its place, the value and the derivatives of the whole up to its order."""
+    polynomial, x, place, order = series.args
+    rest = whole - explicit(polynomial)
+    for n in range(int(order) + 1):
+        if not vanishes(diff(rest, x, n).subs(x, place)):
+            raise Unverified(Complaint("unverified", f"`{key}`: the series is wrong at order {n} in {x}"))
+    return Evidence(claim, Grade.APPROXIMATION, f"to order {order} in {x}")
 
 
 def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:

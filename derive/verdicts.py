@@ -99,14 +99,18 @@ def _of_relation(
     statement: Statement, derived: Relation, entry: Entry, pinned: Problem, meanings: Table[Symbol, Expr]
 ) -> Verdict:
     """The document's equation against ours, or against ours times a factor that it says it has multiplied by."""
-    if len(statement.sides) != 2 or statement.marks[1] == "~" or any(side.shape for side in statement.sides):
-        return Verdict(Grade.REFUTED, "a value against a relation" if len(statement.sides) < 2 else "not one relation")
-    left, right = ((side.entries[0][0].xreplace(meanings), side.entries[0][1]) for side in statement.sides)
-    if all(side.homogeneous for side in statement.sides) and 0 not in (left[0], right[0]) and left[1] != right[1]:
+    sides = statement.sides
+    if len(sides) > 2 or statement.marks[-1] == "~" or any(side.shape or len(side.branches) > 1 for side in sides):
+        return Verdict(Grade.REFUTED, "this is not one relation")
+    if len(sides) == 1:  # an equation may be stated by what vanishes in it
+        sides = (sides[0], replace(sides[0], branches=(((Integer(0), sides[0].entries[0][1]),),)))
+    mark = statement.marks[1] if len(statement.sides) == 2 else "="
+    left, right = ((side.entries[0][0].xreplace(meanings), side.entries[0][1]) for side in sides)
+    if all(side.homogeneous for side in sides) and 0 not in (left[0], right[0]) and left[1] != right[1]:
         return Verdict(Grade.REFUTED, f"{named(left[1])} against {named(right[1])}")
     kept = left[0].free_symbols | right[0].free_symbols
     numbers = _numbers(pinned, kept, entry)
-    stated = explicit(Relation(left[0], statement.marks[1], right[0]).xreplace(numbers))
+    stated = explicit(Relation(left[0], mark, right[0]).xreplace(numbers))
     ours = explicit(derived.xreplace(numbers))
     if entry.times is None:
         return equal(stated, ours)

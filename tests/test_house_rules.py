@@ -46,12 +46,14 @@ LAYERS = (
         "problem",
         "stated",
         "verdicts",
+        "errata",
         "reference",
     ),
-    ("wording", "document"),
+    ("wording", "references", "checks", "document"),
     ("output", "render"),
     (
         "solution",
+        "set_document",
         "stored",
         "manifest",
         "workers",
@@ -67,7 +69,8 @@ LAYERS = (
 LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 ENGINE = {name for name in MODULES if LAYER[name.partition(".")[0]] <= 3}
 PRINTING = {"cli", "commands", "terminal", "doctor", "bootstrap"}
-DEFINITIONS = {"any_angular_velocity", "let", "axis_vector"}
+OWN_VERBS = ("bodies", "conservation", "equations", "free_rotation", "inertia", "rotation")
+DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let", "axis_vector"}
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
 
@@ -175,7 +178,7 @@ def verbs() -> dict[str, Any]:
     """Every public function of mechanics and numbers that yields a quantity."""
     modules = [
         derive.numbers,
-        *(getattr(derive.mechanics, name) for name in ("bodies", "equations", "inertia", "rotation")),
+        *(getattr(derive.mechanics, name) for name in OWN_VERBS),
     ]
     return {
         name: function
@@ -254,6 +257,19 @@ def written_outcomes(module: str, call: ast.Call) -> set[str]:
     return found
 
 
+def documented_outcomes(module: str, call: ast.Call) -> set[str]:
+    """The outcomes that the docstring of the verb names, without what it says of them in brackets."""
+    functions = [n for n in TREES[module].body if isinstance(n, ast.FunctionDef)]
+    verb = next((n for n in functions if n.lineno <= call.lineno <= (n.end_lineno or 0)), None)
+    told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", (verb and ast.get_docstring(verb)) or "", re.DOTALL)
+    listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
+    return {
+        word.strip(" `.\n")
+        for word in re.split(r"[,:;]|\band\b", listed)
+        if re.fullmatch(r"[\s`]*[a-z_]+[\s`.]*", word)
+    }
+
+
 def reached_outcomes() -> dict[str, set[str]]:
     """The outcomes that the variants of the block reach, by rule."""
     found: dict[str, set[str]] = {}
@@ -269,7 +285,9 @@ def test_every_rule_has_a_phrase_for_each_outcome() -> None:
     missing = {
         (rule, outcome)
         for module, rule, call in establishing_calls()
-        for outcome in written_outcomes(module, call) | reached_outcomes().get(rule, set())
+        for outcome in written_outcomes(module, call)
+        | documented_outcomes(module, call)
+        | reached_outcomes().get(rule, set())
         if outcome not in WORDS.rules.get(rule, {})
     }
     assert missing <= impossible
@@ -279,7 +297,7 @@ def test_every_rule_has_a_phrase_for_each_outcome() -> None:
 def test_no_phrase_is_for_an_outcome_that_cannot_be() -> None:
     possible = {rule: set(outcomes) for rule, outcomes in reached_outcomes().items()}
     for module, rule, call in establishing_calls():
-        possible.setdefault(rule, set()).update(written_outcomes(module, call))
+        possible.setdefault(rule, set()).update(written_outcomes(module, call), documented_outcomes(module, call))
     spare = {(rule, outcome) for rule, told in WORDS.rules.items() for outcome in told if outcome not in possible[rule]}
     assert spare == set()
 
@@ -289,8 +307,10 @@ def test_every_rule_has_words_for_each_second_route() -> None:
         (rule, key.value)
         for _, rule, call in establishing_calls()
         for keyword in call.keywords
-        if keyword.arg == "routes" and isinstance(keyword.value, ast.Dict)
-        for key in keyword.value.keys
+        if keyword.arg == "routes"
+        for table in ast.walk(keyword.value)
+        if isinstance(table, ast.Dict)
+        for key in table.keys
         if isinstance(key, ast.Constant)
     }
     told = {(rule, claim) for rule, routes in WORDS.routes.items() for claim in routes}

@@ -15,6 +15,7 @@ from sympy import Derivative, Expr, Function, MatrixBase, Symbol, diff
 from derive.dimensions import dimension_of_kind, kind_of_dimension
 from derive.errors import Complaint, Rejected
 from derive.expressions import TimeRate, explicit, rate, scalar
+from derive.mechanics.arrangement import by_rates
 from derive.step import Level, Quantity, compared_with, establish
 
 T = Symbol("t", real=True)
@@ -55,9 +56,9 @@ def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
 
 
 def kind_of_rate(kind: str) -> str:
-    """A length changes at a speed, an angle at an angular speed."""
-    if kind in {"angle", "number"}:
-        return "angular speed"
+    """A length changes at a speed, an angle at an angular speed, an angular momentum by a torque."""
+    if kind in {"angle", "number", "angular momentum"}:
+        return "torque" if kind == "angular momentum" else "angular speed"
     faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))
     if faster is None:
         raise Rejected(Complaint("no-such-kind", f"the rate of a quantity of the kind `{kind}` has no name"))
@@ -119,6 +120,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
         law_shown=Level.FULL,
         routes={"functions_of_time": compared_with(by_time)},
         outcome=lambda value: "zero" if value == 0 else "generic",
+        arranged=lambda value: by_rates(value, moving),
         key=key or f"{quantity.key}_rate",
         kind=kind_of_rate(quantity.step.kind or "number"),
     )

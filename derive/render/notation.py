@@ -6,7 +6,6 @@ that depends on the problem, the dimensions of its letters, which decide their o
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -42,6 +41,7 @@ from derive.render.layout import (
     SPACE,
     Applied,
     Array,
+    Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
@@ -56,9 +56,11 @@ from derive.render.layout import (
     Row,
     Word,
     is_enclosed,
+    named,
     row,
 )
 from derive.render.products import (
+    accelerations_first,
     between,
     decimal,
     either_sign,
@@ -66,6 +68,7 @@ from derive.render.products import (
     positive_first,
     rank_of_dimension,
     root_cancelled,
+    roots_together,
     side_by_side,
     sign_and_size,
 )
@@ -130,8 +133,10 @@ class Notation:
             content, rest = expr.primitive()
             if content != 1 and content.q == 1:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-        terms = list(expr.args) if isinstance(expr, ex.Terms) else positive_first(expr.as_ordered_terms())
-        return self._terms(terms)
+        return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
+
+    def _ordered_terms(self, expr: Add) -> list[Expr]:
+        return accelerations_first(positive_first(expr.as_ordered_terms()))
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
@@ -154,6 +159,9 @@ class Notation:
         negative, size = sign_and_size(expr)
         if negative:
             return row(MINUS, self._within_sum(size))
+        under_one_root = roots_together(size)
+        if under_one_root is not None:
+            size = under_one_root
         above, below = fraction(size)
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
@@ -224,7 +232,7 @@ class Notation:
             name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
             return Applied(name, self._argument(base), Number(str(exponent)))
         inner = self.layout(base)
-        atomic = isinstance(inner, Name | Number) and not (isinstance(inner, Name) and inner.dots) or is_enclosed(inner)
+        atomic = isinstance(inner, Name | Number) or is_enclosed(inner)
         return Raised(inner if atomic else Fenced(inner), self.layout(exponent))
 
     def _rational(self, expr: Rational) -> Layout:
@@ -312,6 +320,9 @@ class Notation:
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
         return Lowered(Fenced(self._rate(expr)), "body")
 
+    def _component(self, expr: ex.Component) -> Layout:
+        return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
+
     def _partial(self, expr: ex.Partial) -> Layout:
         return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
 
@@ -319,16 +330,36 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
-        """dL/dt for a name, d/dt of anything longer."""
+        """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer."""
         inner = self.layout(what)
         below = row(Word(sign), by)
-        if isinstance(inner, Name):
+        if isinstance(inner, Name) or isinstance(what.base if isinstance(what, Pow) else what, ex.Norm):
             return Fraction(row(Word(sign), inner), below)
         behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
         return row(Fraction(Word(sign), below), SPACE, behind)
 
+    def _slope(self, expr: ex.Slope) -> Layout:
+        """U'(x) is written dU/dx, and so on."""
+        f, x, order = expr.args
+        times = [] if order == 1 else [Number(str(order))]
+        d = Raised(Word("d"), times[0]) if times else Word("d")
+        by = Raised(self.layout(x), times[0]) if times else self.layout(x)
+        inner = self.layout(f)
+        if isinstance(inner, Name):
+            return Fraction(row(d, inner), row(Word("d"), by))
+        return row(Fraction(d, row(Word("d"), by)), SPACE, Fenced(inner))
+
+    def _at(self, expr: ex.At) -> Layout:
+        f, x, place = expr.args
+        return Evaluated(self.layout(f), row(self.layout(x), Mark("equals"), self.layout(place)))
+
     def _relation(self, expr: ex.Relation) -> Layout:
-        return row(self.layout(expr.left), Mark(expr.word), self.layout(expr.right))
+        left, right = (self.side(side) for side in expr.sides)
+        return row(left, Mark(expr.word), right)
+
+    def side(self, expr: Any) -> Layout:
+        """A side of an equation: a number common to its terms is not put before a bracket."""
+        return self._terms(self._ordered_terms(expr)) if isinstance(expr, Add) else self.layout(expr)
 
     def _identity(self, expr: Identity) -> Layout:
         return Name("1", style="tensor")
@@ -396,8 +427,8 @@ class Notation:
         (Pi, lambda self, _: Name("pi")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),
+        (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add, of which SymPy makes it a kind
         (Add | ex.Terms, _sum),
-        (MatAdd, lambda self, expr: self._terms(list(expr.args))),
         (MatMul, _matrix_product),
         (Mul, _product),
         (Pow, _power),
@@ -414,21 +445,14 @@ class Notation:
         (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
         (ex.CarriedRate, _rate),
         (ex.BodyRate, _body_rate),
+        (ex.Component, _component),
         (ex.MassIntegral, _mass_integral),
         (Integral, _integral),
         (Identity, _identity),
         (ex.Partial, _partial),
         (ex.TimeRate, _time_rate),
+        (ex.Slope, _slope),
+        (ex.At, _at),
+        (ex.Truncated, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
     )
-
-
-def named(name: str) -> Name:
-    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots."""
-    match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
-    if not match:
-        return Name(name)
-    sub, dots = match["sub"] or "", match["dots"]
-    if not dots and re.fullmatch(r"d*dot", sub):
-        sub, dots = "", sub
-    return Name(match["base"], sub, dots.count("d") if dots else 0)

@@ -75,6 +75,23 @@ def positive_first(terms: list[Any]) -> list[Any]:
     return terms
 
 
+def accelerations_first(terms: list[Any]) -> list[Any]:
+    """In an equation of motion the terms with accelerations lead, then those with one rate; others keep their order."""
+
+    def place(term: Any) -> int:
+        rates = [s for s in term.free_symbols if s.name.endswith("_dot")]
+        accelerates = any(s.name.endswith("_ddot") for s in term.free_symbols)
+        return (
+            0
+            if accelerates
+            else 1
+            if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates))
+            else 2
+        )
+
+    return sorted(terms, key=place)
+
+
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
     """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
     factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
@@ -101,16 +118,29 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
-    """12 a^2 + 12 b^2 as 12 and a^2 + b^2."""
-    return factor.primitive() if isinstance(factor, Add) else (factor,)
+    """12 a^2 + 12 b^2 as 12 and a^2 + b^2; a sum with fractions in it was meant so."""
+    if not isinstance(factor, Add):
+        return (factor,)
+    content, rest = factor.primitive()
+    return (content, rest) if content.is_Integer else (factor,)
+
+
+def roots_together(expr: Expr) -> Expr | None:
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction; nothing for a single root, or for roots of numbers."""
+    factors = Mul.make_args(expr)
+    roots = [f for f in factors if isinstance(f, Pow) and abs(f.exp) == Rational(1, 2)]
+    if len(roots) < 2 or not any(root.free_symbols for root in roots):
+        return None
+    inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
+    return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
     """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:
         return 4
-    if dimension.mass and not dimension.length:
-        return 0
+    if dimension.mass and dimension.length >= 0 and not dimension.time:
+        return 0  # a mass, a moment of inertia
     if dimension.mass:
         return 4
     if dimension.length and dimension.time:

@@ -29,7 +29,7 @@ Verbs = SimpleNamespace
 
 BODIES, INERTIA, ROTATION = "mechanics.bodies", "mechanics.inertia", "mechanics.rotation"
 EQUATIONS, INTEGRATION, NUMBERS = "mechanics.equations", "mechanics.integration", "numbers"
-DEFINITIONS = {"any_angular_velocity", "let"}
+DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let"}
 
 
 def block_of(verbs: Verbs) -> Any:
