@@ -35,7 +35,9 @@ LAYERS = (
     (
         "source",
         "units",
+        "terms",
         "reading",
+        "latex",
         "prose",
         "schema",
         "parts",
@@ -43,6 +45,7 @@ LAYERS = (
         "given",
         "problem",
         "stated",
+        "verdicts",
         "errata",
         "reference",
     ),
