@@ -12,11 +12,13 @@ from typing import Any
 
 from sympy import preorder_traversal
 
+from derive.depiction import caption_numbers, depictions
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Evidence, Grade
 from derive.expressions import Amount
+from derive.figures.marks import Recorded
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
@@ -108,7 +110,19 @@ class Answers:
     answers: tuple[Answer, ...]
 
 
-Block = Paragraph | Display | Answers
+@dataclass(frozen=True)
+class Illustration:
+    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+
+    key: str
+    stem: str
+    alt: tuple[Node, ...]
+    number: int | None
+    caption: tuple[Node, ...]
+    at: str
+
+
+Block = Paragraph | Display | Answers | Illustration
 
 
 @dataclass(frozen=True)
@@ -127,6 +141,7 @@ class Document:
     title: tuple[Node, ...]
     points: Fraction | None
     statement: tuple[Node, ...]
+    illustrations: tuple[Illustration, ...]
     parts: tuple[PartPage, ...]
     closing: tuple[Node, ...]
     numbers: Mapping[str, int]
@@ -141,9 +156,10 @@ def document_of(
     words: Phrases,
     level: Level,
     compared: Sequence[Told] = (),
+    drawings: Sequence[Recorded] = (),
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous."""
-    writer = _Writer(problem, derivation, values, words, level)
+    writer = _Writer(problem, derivation, values, words, level, drawings)
     return writer.document([c for c in compared if c.here]), writer.faults
 
 
@@ -151,9 +167,16 @@ class _Writer:
     """Walks the parts once, giving numbers to equations and words to steps."""
 
     def __init__(
-        self, problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases, level: Level
+        self,
+        problem: Problem,
+        derivation: Derivation,
+        values: Mapping[str, Step],
+        words: Phrases,
+        level: Level,
+        drawings: Sequence[Recorded],
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
+        self.drawings = drawings
         self.numbers: dict[str, int] = {}
         every = [*derivation.steps, *values.values()]
         self.dimensions, unlike = dimension_table(problem.dimensions, every)
@@ -168,7 +191,8 @@ class _Writer:
         problem = self.problem
         title = self._told(problem.title.pieces)
         statement = self._told(problem.statement.pieces)
-        parts = tuple(self._part(i, part) for i, part in enumerate(problem.parts))
+        illustrations = self._illustrations()
+        parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
         self._check_keys("wording", problem.wording)
         self._check_keys("show", problem.show)
         return Document(
@@ -176,6 +200,7 @@ class _Writer:
             title=title,
             points=problem.points,
             statement=statement,
+            illustrations=tuple(illustrations),
             parts=parts,
             closing=self._closing(compared),
             numbers=self.numbers,
@@ -192,6 +217,8 @@ class _Writer:
         names: dict[str, Any] = {**AXIS_NAMES, **{step.key: Math(step.symbol) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
+        for key, number in caption_numbers(self.problem, self.drawings, self.derivation).items():
+            names.setdefault(key, Text(f"{self.words.labels['figure']} {number}"))
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
@@ -212,9 +239,18 @@ class _Writer:
                     Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line)
                 )
 
+    # --- drawings ---
+
+    def _illustrations(self) -> list[Illustration]:
+        found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
+        self.faults += faults
+        stem = self.problem.id.rpartition("/")[2]
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at) for d in found]
+
     # --- parts ---
 
-    def _part(self, index: int, part: Part) -> PartPage:
+    def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
+        label = chr(ord("a") + index)
         blocks: list[Block] = []
         for key in self.derivation.parts[index]:
             self._append(blocks, self.derivation.step(key))
@@ -222,7 +258,8 @@ class _Writer:
         for i, value in enumerate(measured):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
-        return PartPage(chr(ord("a") + index), self._told(part.ask.pieces), part.points, _punctuated(blocks))
+        blocks.extend(illustration for illustration in illustrations if illustration.at == label)
+        return PartPage(label, self._told(part.ask.pieces), part.points, _punctuated(blocks))
 
     def _answer(self, key: str) -> Answer:
         step = self.derivation.step(key)

@@ -20,6 +20,7 @@ from derive.errors import Complaint, Misused, Place, Rejected
 from derive.expressions import Amount
 from derive.given import Given, Measured, read_givens, read_measured, symbol_of_kind
 from derive.parts import Part, points_text, read_parts, read_points
+from derive.placement import Placement, read_placements
 from derive.prose import Prose, read_prose
 from derive.reading import RESERVED, Declared
 from derive.schema import (
@@ -60,6 +61,7 @@ class Problem:
     wording: Table[str, Table[str, Prose]]
     show: Table[str, str]
     figures: int
+    drawings: tuple[Placement, ...]
     script: Script = field(repr=False)
     script_path: str
     places: Table[str, Place] = field(repr=False)
@@ -153,6 +155,7 @@ class ProblemReader:
         points = self.points(parts)
         wording, show = self.wording(), self.show()
         figures = read_figures(self.node.get("figures"), self.faults) or DEFAULT_FIGURES
+        drawings = read_placements(self.mapping("drawings"), symbols, len(parts), self.faults)
         source, topic = (read_text(self.node, key, self.faults) for key in ("source", "topic"))
         self.faults.stop()
         assert title is not None
@@ -172,6 +175,7 @@ class ProblemReader:
             wording=wording,
             show=show,
             figures=figures,
+            drawings=drawings,
             script=script,
             script_path=script_path,
             places=self.places,

@@ -15,7 +15,9 @@ from sympy import Integer, Symbol
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
+from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
+from derive.figures.marks import drawings_recorded
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
@@ -47,19 +49,24 @@ class Rendered:
     inputs: tuple[str, ...]
     grades: dict[str, int]
     agreed: bool
+    files: Files = ()
 
 
-def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None) -> Rendered:
+def rendered(
+    root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
 
-    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold.
+    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold;
+    `draws` says whether the files of its drawings are wanted too.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
     words = phrases(template_folder(root))
     solved, failures = _solved(problem, kept)
     derivation, values = solved.derivation, solved.values
-    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), solved.compared)
+    level = Level(detail or "standard")
+    document, faults = document_of(problem, derivation, values, words, level, solved.compared, solved.drawings)
     if faults:
         raise Rejected(faults)
     notation = Notation(document.dimensions)
@@ -76,6 +83,7 @@ def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path 
         inputs=(*problem.inputs, reference_path(problem)),
         grades=_grades(derivation, values),
         agreed=not failures,
+        files=drawing_files(problem, solved.drawings, document, notation, kept) if draws else (),
     )
 
 
@@ -85,10 +93,11 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
     solved = recalled(kept, key) if kept else None
     if solved is not None:
         return solved, ()
-    derivation, values, known = _derived(problem)
+    with drawings_recorded() as drawings:
+        derivation, values, known = _derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.told() for c in compared))
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(drawings))
     if kept and not failures:
         keep(kept, key, solved)
     return solved, failures
@@ -97,6 +106,7 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
 def _check_characters(problem: Problem) -> None:
     """Prose may only have characters that can be printed."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
+    texts += [placement.caption for placement in problem.drawings if placement.caption]
     texts += [prose for by_outcome in problem.wording.values() for prose in by_outcome.values()]
     faults = []
     for prose in texts:

@@ -10,8 +10,9 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from derive.dimensions import Dimension
-from derive.document import Answer, Display, Document, PartPage
+from derive.document import Answer, Display, Document, Illustration, PartPage
 from derive.parts import points_text
+from derive.placement import STATEMENT
 from derive.render.latex import escaped, latex, unit_latex
 from derive.render.layout import Layout
 from derive.render.lines import Printed, printed_lines
@@ -132,6 +133,14 @@ class _Page:
         if answer.rounded is None:
             return f"{left} = {right}"
         return f"{left} = {right} {RELATIONS[answer.relation]} {latex(self.notation.layout(answer.rounded))}"
+
+    def in_statement(self) -> Sequence[Illustration]:
+        return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
+
+    def drawing(self, drawing: Illustration) -> str:
+        """The file, what stands in its place where it is missing, and its caption."""
+        number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
+        return rf"{{{drawing.stem}.pdf}}{{{self.inline(drawing.alt)}}}{{{number}}}{{{self.inline(drawing.caption)}}}"
 
     def margin(self, display: Display) -> str:
         lines = [escaped(self.words.grades[display.grade])]

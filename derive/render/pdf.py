@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -99,14 +100,27 @@ def chosen_engine(name: str | None) -> Engine:
     raise BuildFailed(Complaint("no-tex", message, help=mend))
 
 
-def typeset(tex: str, target: Path, engine: Engine, *, timeout: float = 120, log: Path | None = None) -> bool:
-    """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was."""
+def typeset(
+    tex: str,
+    target: Path,
+    engine: Engine,
+    *,
+    timeout: float = 120,
+    log: Path | None = None,
+    beside: Sequence[tuple[str, bytes]] = (),
+) -> bool:
+    """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
+
+    `beside` are files that the source includes, such as its drawings.
+    """
     kept = (log or target.parent / "log") / target.stem
     with writing(Path(tempfile.gettempdir())):
         workplace = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
     with workplace as name:
         source = Path(name) / f"{target.stem}.tex"
         write(source, tex)
+        for file, content in beside:
+            write(Path(name) / file, content)
         output = _passes(engine, source, timeout)
         pdf = source.with_suffix(".pdf")
         if output is not None or not pdf.is_file():

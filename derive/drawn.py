@@ -1,0 +1,111 @@
+"""The drawings of a page as files, drawn anew only when what they show has changed.
+
+Beside the kept steps each drawing is kept under a digest of everything that decides its bytes: its description, the
+numbers and the size, its words, derive's modules and matplotlib.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from sympy import Symbol
+
+from derive.depiction import placement_of
+from derive.document import Document, Illustration
+from derive.expressions import explicit
+from derive.figures.kept import drawings_to_data
+from derive.figures.marks import Drawing, Recorded
+from derive.manifest import digest, package_version
+from derive.output import write
+from derive.placement import Placement
+from derive.problem import Problem
+from derive.render.notation import Notation
+from derive.render.stance import Numbers, stand_ins
+from derive.render.text_page import inline_text
+
+WIDTH, HEIGHT = 5.2, 4.6  # centimetres, without labels
+
+Files = tuple[tuple[str, bytes], ...]
+
+
+def drawing_files(
+    problem: Problem, drawings: Sequence[Recorded], document: Document, notation: Notation, kept: Path | None
+) -> Files:
+    """A PDF and an SVG of each drawing on the page, by file name."""
+    by_key = {drawing.key: drawing for drawing in drawings}
+    return tuple(
+        (f"{shown.stem}.{suffix}", content)
+        for shown in document.illustrations
+        for suffix, content in _sheet(problem, by_key[shown.key], shown, notation, kept).items()
+    )
+
+
+def _sheet(
+    problem: Problem, drawing: Recorded, shown: Illustration, notation: Notation, kept: Path | None
+) -> dict[str, bytes]:
+    placement = placement_of(problem, drawing.key)
+    values = numbers_of(problem, placement)
+    width = placement.width if placement else None
+    alt = inline_text(shown.alt, notation)
+    key = _key(drawing, values, width, alt)
+    file = kept.with_name(f"{kept.name.partition('.')[0]}.{drawing.key}.drawing.json") if kept else None
+    sheet = _recalled(file, key) if file else None
+    if sheet is None:
+        sheet = _drawn(drawing, values, width, alt, notation)
+        if file:
+            _keep(file, key, sheet)
+    return sheet
+
+
+def _drawn(
+    drawing: Recorded, values: Mapping[Symbol, float], width: float | None, alt: str, notation: Notation
+) -> dict[str, bytes]:
+    from derive.render.picture import picture
+    from derive.render.sketch import sheet_of
+
+    assert isinstance(drawing, Drawing)
+    pieces = picture(drawing, Numbers(values), width or WIDTH, (width or WIDTH) * HEIGHT / WIDTH)
+    sheet = sheet_of(pieces, notation, alt)
+    return {"pdf": sheet.pdf, "svg": sheet.svg}
+
+
+def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, float]:
+    """What each letter is while it is drawn: as the problem says of this drawing, its own number, or a stand-in."""
+    said = dict(placement.values) if placement else {}
+    fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
+    own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}
+    letters = [(declared.symbol, declared.kind) for declared in problem.symbols.values()]
+    found = stand_ins([entry for entry in letters if entry[0] not in said or entry[0] in fixed], {**own, **fixed})
+    for letter, expr in said.items():
+        found[letter] = Numbers(found).of(expr)
+    return found
+
+
+# --- kept between builds ---------------------------------------------------------------------------------------------
+
+
+def _key(drawing: Recorded, values: Mapping[Symbol, float], width: float | None, alt: str) -> str:
+    modules = [p.read_bytes() for p in sorted(Path(__file__).parent.rglob("*.py"))]
+    description = json.dumps(drawings_to_data([drawing]))
+    numbers = repr(sorted((symbol.name, value) for symbol, value in values.items()))
+    return digest(*modules, f"{package_version('matplotlib')}", description, numbers, repr(width), alt)
+
+
+def _recalled(file: Path, key: str) -> dict[str, bytes] | None:
+    """What was kept under this key; nothing if it was kept under another, was altered, or cannot be read."""
+    try:
+        sealed: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        if sealed["key"] != key or sealed["seal"] != digest(key, json.dumps(sealed["files"])):
+            return None
+        return {suffix: base64.b64decode(text) for suffix, text in sealed["files"].items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None
+
+
+def _keep(file: Path, key: str, sheet: Mapping[str, bytes]) -> None:
+    files = {suffix: base64.b64encode(content).decode() for suffix, content in sheet.items()}
+    write(file, json.dumps({"key": key, "seal": digest(key, json.dumps(files)), "files": files}))
