@@ -27,7 +27,7 @@ from derive.render.notation import Notation
 from derive.render.stance import Numbers, stand_ins
 from derive.render.text_page import inline_text
 
-WIDTH, HEIGHT = 5.2, 4.6  # centimetres, without labels
+WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 
 Files = tuple[tuple[str, bytes], ...]
 

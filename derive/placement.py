@@ -1,4 +1,4 @@
-"""`drawings:` of a problem: where each drawing of the script stands, its caption, its width, the numbers it is drawn with."""
+"""`drawings:` of a problem: where each drawing of the script stands, its caption, its width and its numbers."""
 
 from __future__ import annotations
 
@@ -33,9 +33,7 @@ class Placement:
     cases: tuple[tuple[Measured, ...], ...] = ()
 
 
-def read_placements(
-    node: Mapping, symbols: Table[str, Declared], parts: int, faults: Faults
-) -> tuple[Placement, ...]:
+def read_placements(node: Mapping, symbols: Table[str, Declared], parts: int, faults: Faults) -> tuple[Placement, ...]:
     """Every entry of `drawings:`; which drawings there are is known when the script has run."""
     found = []
     for key, entry in node.pairs:

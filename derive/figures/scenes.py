@@ -38,6 +38,7 @@ from derive.mechanics.bodies import Cuboid, Point
 from derive.step import Quantity
 
 ORIGIN = column(0, 0, 0)
+LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
 
 
 def drawing(key: str, *marks: Marks, view: str = SPACE) -> Drawing:
@@ -85,7 +86,7 @@ def plot(
 
 
 def _value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Of a quantity its value and, if it is derived, its key; of a named point its position; of another thing itself."""
+    """Of a quantity its value and, if it is derived, its key; of a point its place; of another thing itself."""
     if isinstance(thing, Quantity):
         return thing.value, (thing.key,) if _is_derived(thing) else ()
     if isinstance(thing, Point):
@@ -108,7 +109,7 @@ def _name_of(thing: Any, label: Any) -> Any:
     return thing.symbol if isinstance(thing, Quantity) else None
 
 
-def arrow(vector: Any, at: Any = ORIGIN, size: Any = Rational(5, 4), label: Any = None, asked: bool = True) -> Mark:
+def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
     """A vector in its true direction from a point; its length is for the eye (`size` times that of the body)."""
     (value, own), (start, others) = _value_and_keys(vector), _value_and_keys(at)
     return Arrow(start, value, size, asked, label=_name_of(vector, label), keys=own + others)
@@ -128,7 +129,7 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
     return AxisOfRotation(place, direction, rate, label=label, keys=first + second)
 
 
-def turn(along: Any, at: Any, label: Any = None, size: Any = Rational(1, 4)) -> Mark:
+def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
     """An arrow round a direction, for an angle that grows or the rate at which it does."""
     (direction, first), (place, second) = _value_and_keys(along), _value_and_keys(at)
     return Turn(place, direction, size, label=label, keys=first + second)

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, TypeAlias
 
-from derive.render.outlines import Bullet, Piece, Spot, Stroke, Tag
+from derive.render.outlines import Bullet, Piece, Stroke, Tag
+from derive.render.stance import Spot
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
@@ -70,7 +72,7 @@ def _dots(piece: Piece) -> list[Spot]:
     if not isinstance(piece, Stroke):
         return []
     found = []
-    for (x, y), (u, v) in zip(piece.spots, piece.spots[1:], strict=False):
+    for (x, y), (u, v) in pairwise(piece.spots):
         steps = max(1, round(hypot(u - x, v - y)))
         found += [(x + (u - x) * i / steps, y + (v - y) * i / steps) for i in range(steps + 1)]
     return found

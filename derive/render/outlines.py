@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from itertools import product
+from itertools import pairwise, product
 from math import atan2, cos, hypot, pi, sin
 from typing import Any
 
@@ -147,7 +147,8 @@ def _box(box: m.Box, paper: Paper) -> list[Piece]:
     """Twelve edges: an edge along one axis lies between two faces, each seen if its normal points to the eye."""
     corners, eye = _corners(box, paper.numbers), paper.stance.eye
     pieces: list[Piece] = [Patch(hull(paper.spots(*corners.values())))]
-    hidden, seen = [], []
+    hidden: list[Piece] = []
+    seen: list[Piece] = []
     for axis in range(3):
         outer: list[tuple[Spot, Spot]] = []
         others = [k for k in range(3) if k != axis]
@@ -189,7 +190,11 @@ def _rim(centre: Any, other: Any, radius: Any, numbers: Numbers) -> list[Vector]
 
 
 def _cone(cone: m.ConeMark, paper: Paper) -> list[Piece]:
-    apex, base, radius = (paper.numbers.vector(cone.apex), paper.numbers.vector(cone.base), paper.numbers.of(cone.radius))
+    apex, base, radius = (
+        paper.numbers.vector(cone.apex),
+        paper.numbers.vector(cone.base),
+        paper.numbers.of(cone.radius),
+    )
     height = size_of(plus(apex, base, -1.0))
     to_apex = unit(plus(apex, base, -1.0))
     rim = _rim(cone.base, cone.apex, cone.radius, paper.numbers)
@@ -219,15 +224,17 @@ def _cylinder(cylinder: m.CylinderMark, paper: Paper) -> list[Piece]:
         return dot(plus(place, start, -1.0), eye)
 
     pieces: list[Piece] = [Patch(hull(paper.spots(*lower, *upper)), "body")]
-    for rim, outward in ((lower, -1.0), (upper, 1.0)):
-        faces = outward * dot(axis, eye) > 0
-        centre = start if rim is lower else end
-        pieces += _drawn_rim(
-            rim, lambda place, faces=faces, centre=centre: faces or dot(plus(place, centre, -1.0), eye) >= 0, paper
-        )
+    for rim, centre, outward in ((lower, start, -1.0), (upper, end, 1.0)):
+        is_seen = _end_or_side(centre, outward * dot(axis, eye) > 0, eye)
+        pieces += _drawn_rim(rim, is_seen, paper)
     along = plus(end, start, -1.0)
     pieces += [Stroke(paper.spots(place, plus(place, along)), "edge") for place in _changes(lower, side_faces)]
     return pieces
+
+
+def _end_or_side(centre: Vector, end_faces: bool, eye: Vector) -> Callable[[Vector], bool]:
+    """Whether a point of a cylinder's rim is seen: with the end that it bounds, or with the side."""
+    return lambda place: end_faces or dot(plus(place, centre, -1.0), eye) >= 0
 
 
 def _drawn_rim(rim: Sequence[Vector], is_seen: Callable[[Vector], bool], paper: Paper) -> list[Stroke]:
@@ -245,7 +252,7 @@ def _drawn_rim(rim: Sequence[Vector], is_seen: Callable[[Vector], bool], paper: 
 def _changes(rim: Sequence[Vector], facing: Callable[[Vector], float]) -> list[Vector]:
     """Where a curved side turns away from the eye: between two points of the rim, in proportion."""
     found = []
-    for a, b in zip(rim, rim[1:], strict=False):
+    for a, b in pairwise(rim):
         at, after = facing(a), facing(b)
         if (at >= 0) != (after >= 0):
             share = at / (at - after)

@@ -1,4 +1,4 @@
-"""A picture as files: matplotlib writes the pieces as a PDF for TeX and an SVG for other pages, the same bytes each time.
+"""A picture as files: matplotlib writes them as a PDF for TeX and an SVG for other pages, always the same bytes.
 
 Lengths are in points and the canvas is as large as what is on it, so that a drawing is included at its own size and its
 letters are those of the page. Letters are paths: no font is needed where a drawing is shown.
@@ -15,8 +15,6 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 import matplotlib
-from matplotlib.backends.backend_pdf import FigureCanvasPdf
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import PathPatch
@@ -27,7 +25,8 @@ from matplotlib.transforms import Affine2D
 from derive.render.labels import Placed, placed
 from derive.render.lettering import Run, runs
 from derive.render.notation import Notation
-from derive.render.outlines import Bullet, Patch, Piece, Spot, Stroke
+from derive.render.outlines import Bullet, Patch, Piece, Stroke
+from derive.render.stance import Spot
 
 INK, QUIET, LINE = "#1F3A5F", "#5B6370", "#22252A"
 MARGIN = 2.0
@@ -58,8 +57,8 @@ PENS = {
     "angle": Pen(INK, 0.7),
     "turn": Pen(INK, 0.8, head=5.0),
 }
-SHADES = {"paper": "#FFFFFF", "body": "#F3F5F8"}
-SETTINGS = {
+SHADES = {"paper": "#FFFFFF", "body": "#FFFFFF"}
+SETTINGS: Any = {
     "mathtext.fontset": "cm",
     "svg.hashsalt": "derive",
     "svg.fonttype": "path",
@@ -86,7 +85,7 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str) -> Sheet:
         labels = placed(pieces, letters.size)
         left, below, right, above = _bounds(pieces, labels)
         width, height = right - left, above - below
-        figure = Figure(figsize=(width / 72, height / 72))
+        figure = Figure(figsize=(width / 72, height / 72), facecolor="none")
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set_axis_off()
         axes.set_xlim(left, right)
@@ -101,8 +100,9 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str) -> Sheet:
 def finished(figure: Figure, alt: str, width: float, height: float) -> Sheet:
     """Both files, without dates or names of programs; the SVG says in words what it shows."""
     pdf, svg = io.BytesIO(), io.BytesIO()
-    FigureCanvasPdf(figure).print_pdf(pdf, metadata={"CreationDate": None, "Producer": None, "Creator": None})
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    nobody: Any = {"Creator": None, "Title": None}
+    figure.savefig(pdf, format="pdf", metadata={**nobody, "CreationDate": None, "Producer": None})
+    figure.savefig(svg, format="svg", metadata={**nobody, "Date": None, "Format": None, "Type": None})
     return Sheet(pdf.getvalue(), _with_words(svg.getvalue().decode(), alt).encode(), width, height)
 
 
@@ -214,5 +214,3 @@ def _headed(spots: list[Spot], pen: Pen) -> tuple[list[Spot], Path]:
     back = [(-pen.head, 0.32 * pen.head), (-0.8 * pen.head, 0.0), (-pen.head, -0.32 * pen.head)]
     corners = [(tip[0] + x * cos(angle) - y * sin(angle), tip[1] + x * sin(angle) + y * cos(angle)) for x, y in back]
     return [*kept, corners[1]], Path([tip, *corners, tip], closed=True)
-
-

@@ -163,5 +163,3 @@ def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[
             seen = angle_of(flat_a, flat_b) if size_of(flat_a) and size_of(flat_b) else 0.0
             widest = min(widest, sin(min(seen, pi / 2)), sin(min(pi - seen, pi / 2)) * 1.2)
     return round(min(longest, 0.8) * min(widest, 0.7), 6)
-
-
