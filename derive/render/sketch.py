@@ -100,7 +100,7 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str) -> Sheet:
 def finished(figure: Figure, alt: str, width: float, height: float) -> Sheet:
     """Both files, without dates or names of programs; the SVG says in words what it shows."""
     pdf, svg = io.BytesIO(), io.BytesIO()
-    nobody: Any = {"Creator": None, "Title": None}
+    nobody: Any = {"Creator": None}
     figure.savefig(pdf, format="pdf", metadata={**nobody, "CreationDate": None, "Producer": None})
     figure.savefig(svg, format="svg", metadata={**nobody, "Date": None, "Format": None, "Type": None})
     return Sheet(pdf.getvalue(), _with_words(svg.getvalue().decode(), alt).encode(), width, height)
