@@ -118,14 +118,19 @@ def _step_to_data(step: Step) -> dict[str, Any]:
         "key": step.key,
         "rule": step.rule,
         "symbol": encoded(step.symbol),
-        "chain": [[encoded(form.expr), form.because, form.level] for form in step.chain],
+        "chain": [_form_to_data(form) for form in step.chain],
         "inputs": step.inputs,
         "roles": [[role, encoded(symbol)] for role, symbol in step.roles],
         "outcome": step.outcome,
         "evidence": [[e.claim, e.grade, e.detail] for e in step.evidence],
         "kind": step.kind,
         "words": step.words,
+        "coordinates": [[encoded(q), kind] for q, kind in step.coordinates],
     }
+
+
+def _form_to_data(form: Form) -> list[Any]:
+    return [encoded(form.expr), form.because, form.level, [encoded(factor) for factor in form.nonzero]]
 
 
 def _step_from_data(data: dict[str, Any]) -> Step:
@@ -133,11 +138,15 @@ def _step_from_data(data: dict[str, Any]) -> Step:
         key=data["key"],
         rule=data["rule"],
         symbol=decoded(data["symbol"]),
-        chain=tuple(Form(decoded(expr), because, Level(level)) for expr, because, level in data["chain"]),
+        chain=tuple(
+            Form(decoded(expr), because, Level(level), tuple(decoded(factor) for factor in nonzero))
+            for expr, because, level, nonzero in data["chain"]
+        ),
         inputs=tuple(data["inputs"]),
         roles=tuple((role, decoded(symbol)) for role, symbol in data["roles"]),
         outcome=data["outcome"],
         evidence=tuple(Evidence(claim, Grade(grade), detail) for claim, grade, detail in data["evidence"]),
         kind=data["kind"],
         words=tuple((name, key) for name, key in data["words"]),
+        coordinates=tuple((decoded(q), kind) for q, kind in data["coordinates"]),
     )

@@ -17,7 +17,7 @@ from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Evidence, Grade
-from derive.expressions import Amount
+from derive.expressions import Amount, Relation
 from derive.figures.marks import Recorded
 from derive.homogeneity import dimension_table
 from derive.parts import Part
@@ -28,7 +28,6 @@ from derive.step import Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
-    Math,
     Node,
     Phrases,
     Ref,
@@ -37,6 +36,7 @@ from derive.wording import (
     filled,
     given_words,
     joined,
+    name_of,
     names_of_step,
     told,
 )
@@ -46,7 +46,7 @@ HOMOGENEITY = "look in the script for one quantity given in another's place"
 
 @dataclass(frozen=True)
 class Line:
-    """`left relation right`, with the reason beside it; a continued line has no left side."""
+    """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
 
     left: Any | None
     relation: str
@@ -214,7 +214,7 @@ class _Writer:
     # --- names ---
 
     def _page_names(self) -> dict[str, Any]:
-        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: Math(step.symbol) for step in self.derivation.steps}}
+        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
         for key, number in caption_numbers(self.problem, self.drawings, self.derivation).items():
@@ -267,8 +267,10 @@ class _Writer:
         rounded = None
         if value is not None:
             rounded = value.chain[-1].expr
+        if isinstance(step.result, Relation):
+            return Answer(key, step.result.left, step.result.right, None, step.result.word)
         relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        return Answer(key, step.symbol, step.result, rounded, relation)
+        return Answer(key, step.symbol, step.result, rounded, relation if rounded is not None else "equals")
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
@@ -316,13 +318,15 @@ class _Writer:
         return tuple(lines)
 
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
-        relation = "approx" if form.because == "rounded" else "equals"
         template = "" if before is None else self.words.reason(step, form.because, before)
+        reason = self._reason(step, template)
+        if isinstance(form.expr, Relation):
+            return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation=relation,
+            relation="approx" if form.because == "rounded" else "equals",
             right=form.expr,
-            reason=self._reason(step, template),
+            reason=reason,
             presented=form.because == "result",
         )
 
@@ -330,7 +334,11 @@ class _Writer:
         if not template:
             return ()
         direct = [symbol for _, symbol in step.roles]
-        refs = [Ref(key) for key in step.inputs if key in self.numbers and self.symbols[key] in direct]
+        refs = [
+            Ref(key)
+            for key in step.inputs
+            if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
+        ]
         if "refs" in template and not refs:
             return ()
         refs.sort(key=lambda ref: self.numbers[ref.key])

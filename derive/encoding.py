@@ -21,7 +21,8 @@ _SYMPY = (
 )
 _NODES = (
     "Dot", "Norm", "Cross", "CarriedRate", "BodyRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket",
-    "Amount", "MatrixAmount", "MassIntegral", "Outer",
+    "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate",
+    "Relation",
 )
 # fmt: on
 _CLASSES: dict[str, Any] = {
@@ -34,6 +35,8 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 
 def encoded(expr: Any) -> list[Any]:
     """A tree of lists, strings and integers."""
+    if expr is None:
+        return ["None"]
     if isinstance(expr, Symbol):
         return ["Symbol", expr.name, _assumptions(expr)]
     if isinstance(expr, Integer):
@@ -66,6 +69,8 @@ def _assumptions(symbol: Symbol) -> dict[str, bool]:
 def decoded(data: list[Any]) -> Any:
     """The expression that `encoded` wrote."""
     name, *args = data
+    if name == "None":
+        return None
     if name == "Symbol":
         return Symbol(args[0], **args[1])
     if name == "Integer":

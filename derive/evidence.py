@@ -1,59 +1,32 @@
-"""Are two expressions equal, and how do we know?
+"""Are two expressions equal, two relations equivalent, and how do we know?
 
-    proved          decided exactly: the difference vanishes as a polynomial, once sines and cosines, roots and
-                    other functions have become generators with the relations they satisfy
+    proved          decided exactly, by `derive.exact`
     sampled         agrees at random exact points, but no exact method decided it
     refuted         differs at a point, which is named
     definition      nothing to compare: the line says what a symbol means
     approximation   a rounded value or a series, itself checked
 
 Points come first: they are cheap and refute at once. A sample never counts as a proof.
-
-Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms modulo relations).
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from sympy import (
-    Abs,
-    Derivative,
-    Dummy,
-    Expr,
-    I,
-    Integer,
-    MatrixBase,
-    Mul,
-    Pow,
-    Rational,
-    S,
-    Symbol,
-    cos,
-    expand_trig,
-    factor_list,
-    igcd,
-    ilcm,
-    nan,
-    oo,
-    sin,
-    tan,
-    together,
-    zoo,
-)
+from sympy import Derivative, Expr, Integer, MatrixBase, Mul, Rational, Symbol, cancel, nan, oo, sin, together, zoo
 from sympy.core.function import AppliedUndef
 from sympy.polys.polyerrors import PolynomialError
-from sympy.polys.rings import sring
+from sympy.simplify.fu import TR5
 
-from derive.expressions import explicit
+from derive.exact import vanishes
+from derive.expressions import PLUS_MINUS, Relation, explicit
 
 POINTS = 8
 DIGITS = 50
-LARGEST = 4000  # operations; beyond this an expression is sampled, not expanded
 
 
 class Grade(StrEnum):
@@ -85,9 +58,15 @@ class Verdict:
         return self.grade is not Grade.REFUTED
 
 
-def equal(left: Any, right: Any) -> Verdict:
-    """Compare two scalars, or two matrices entry by entry; a matrix is as sure as its least sure entry."""
+def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
+    """Compare two scalars, two matrices entry by entry, or two relations.
+
+    A matrix is as sure as its least sure entry. Relations are equal when each follows from the other; `nonzero` are
+    factors that may be divided out because they are known not to vanish (in an inequality, to be positive).
+    """
     left, right = explicit(left), explicit(right)
+    if isinstance(left, Relation) or isinstance(right, Relation):
+        return _equivalent(left, right, nonzero)
     if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
         return _equal_matrices(left, right)
     return _equal_scalars(left, right)
@@ -163,6 +142,8 @@ def _letters(expr: Expr) -> set[Expr]:
 
 def _draw(letter: Expr, source: random.Random) -> Expr:
     size = Rational(source.randint(11, 97), source.randint(23, 61))
+    if letter == PLUS_MINUS:
+        return Integer(source.choice((1, -1)))
     if letter.is_integer:
         return Integer(source.randint(1, 9))
     if letter.is_positive or letter.is_nonnegative:
@@ -195,224 +176,68 @@ def _refutation(left: Expr, right: Expr, point: dict[Expr, Expr]) -> Verdict:
     return Verdict(Grade.REFUTED, f"{a.evalf(6)} against {b.evalf(6)}", where)
 
 
-# --- proofs ----------------------------------------------------------------------------------------------------------
+# --- relations -------------------------------------------------------------------------------------------------------
+
+_TURNED = {"=": "=", "!=": "!=", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
-def vanishes(expr: Expr) -> bool:
-    """Whether the expression is zero, decided exactly; False means "not shown", never "not zero"."""
-    expr = explicit(expr)
-    if expr == 0:
-        return True
-    if expr.has(nan, zoo, oo) or expr.count_ops() > LARGEST:
-        return False
-    if expr.is_rational_function() and expr.expand() == 0:
-        return True
-    try:
-        return _vanishes_as_polynomial(expr)
-    except (PolynomialError, NotImplementedError, ZeroDivisionError, ValueError):
-        return False
+def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
+    """Whether two equations, or two inequalities, say the same: their residuals differ by a factor of known sign."""
+    if not (isinstance(left, Relation) and isinstance(right, Relation)):
+        return Verdict(Grade.REFUTED, "a relation against a value")
+    if left == right:
+        return Verdict(Grade.PROVED, "identical")
+    if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
+        return Verdict(Grade.PROVED, "both sides squared, neither negative")
+    if left.residual == 0 or right.residual == 0:
+        return _equal_scalars(left.residual, right.residual)
+    if left.mark == right.mark and vanishes(left.residual - right.residual):
+        return Verdict(Grade.PROVED, "polynomial normal form")
+    factor = _ratio(left.residual, right.residual)
+    for known in nonzero:
+        factor = _without_factor(factor, known)
+    if not _same_mark(left.mark, right.mark, 1 if factor.is_positive else -1 if factor.is_negative else 0):
+        return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
+    if not factor.is_nonzero:
+        return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
+    whole = _ratio(left.residual, right.residual)
+    verdict = _equal_scalars(left.residual, whole * right.residual)
+    return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
 
 
-def _vanishes_as_polynomial(expr: Expr) -> bool:
-    tower = _Tower()
-    numerator = together(tower.polynomial_in_generators(expr)).as_numer_denom()[0]
-    return tower.reduces_to_zero(numerator)
+def _short(factor: Expr) -> str:
+    text = str(factor)
+    return text if len(text) <= 80 else text[:80] + " ..."
 
 
-class _Tower:
-    """Generators that stand for functions and roots, with the relation each one satisfies.
+def _same_mark(left: str, right: str, sign: int) -> bool:
+    """An equation bears any factor, an inequality keeps its mark under a positive one and is turned by a negative."""
+    if left in {"=", "!="} or right in {"=", "!="}:
+        return left == right
+    return bool(sign) and left == (right if sign > 0 else _TURNED[right])
 
-    A relation is stored as (generator, power, what that power equals), later ones possibly in terms of earlier ones:
-    s^2 = 1 - c^2 for a sine, r^q = p for a root. Reducing from the last to the first gives a normal form.
-    """
 
-    def __init__(self) -> None:
-        self._known: dict[Expr, Expr] = {}
-        self._relations: list[tuple[Symbol, int, Expr]] = []
-
-    def polynomial_in_generators(self, expr: Expr) -> Expr:
-        expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))
-        return self._walk(_with_common_angles(expr))
-
-    def _walk(self, expr: Expr) -> Expr:
-        if expr in self._known:
-            return self._known[expr]
-        if expr.is_Rational or isinstance(expr, Symbol):
-            return expr
-        if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
-            return self._root(expr.base, expr.exp)
-        if isinstance(expr, Pow) and expr.exp.is_Integer:
-            return self._walk(expr.base) ** expr.exp
-        if expr.is_Add or expr.is_Mul:
-            return expr.func(*(self._walk(arg) for arg in expr.args))
-        if expr is I or expr is S.ImaginaryUnit:
-            return self._generator(expr, 2, Integer(-1))
-        if isinstance(expr, sin | cos):
-            return self._circular(expr)
-        if isinstance(expr, Abs) and expr.args[0].is_real:
-            return self._absolute(expr.args[0])
-        return self._opaque(expr)
-
-    def _generator(self, expr: Expr, power: int = 0, equals: Expr = S.Zero) -> Symbol:
-        generator = Dummy(f"g{len(self._known)}")
-        self._known[expr] = generator
-        if power:
-            self._relations.append((generator, power, equals))
-        return generator
-
-    def _circular(self, expr: Expr) -> Expr:
-        angle = expr.args[0]
-        cosine = self._known.get(cos(angle)) or self._generator(cos(angle))
-        if sin(angle) not in self._known:
-            self._generator(sin(angle), 2, 1 - cosine**2)
-        return self._known[expr]
-
-    def _absolute(self, inside: Expr) -> Expr:
-        """|p| as a product over irreducible factors f: f itself where its sign is known, else g with g^2 = f^2."""
-        result: Expr = Integer(1)
-        numerator, denominator = together(inside).as_numer_denom()
-        for part, sign in ((numerator, 1), (denominator, -1)):
-            for factor, power in _irreducible(part):
-                factor = -factor if factor.could_extract_minus_sign() else factor
-                if factor.is_nonnegative:
-                    result *= self._walk(factor) ** (sign * power)
-                    continue
-                key = Abs(factor, evaluate=False)
-                generator = self._known.get(key)
-                if generator is None:
-                    square = self._walk(factor) ** 2
-                    generator = self._generator(key, 2, square)
-                result *= generator ** (sign * power)
-        return result
-
-    def _opaque(self, expr: Expr) -> Expr:
-        """A function we know nothing of: equal arguments give equal values, and that is all."""
-        for known, generator in self._known.items():
-            same_kind = known.func == expr.func and len(known.args) == len(expr.args) and known.args
-            if same_kind and not isinstance(expr, AppliedUndef | Derivative):
-                if all(vanishes(a - b) for a, b in zip(known.args, expr.args, strict=True)):
-                    return generator
-        return self._generator(expr)
-
-    def _root(self, base: Expr, exponent: Rational) -> Expr:
-        """p^(n/q) as a product of roots of irreducible factors, so that sqrt(6) is sqrt(2) sqrt(3)."""
-        q = exponent.q
-        result: Expr = Integer(1)
-        for factor, power in _factors_under_a_root(base, q):
-            whole, rest = divmod(power * exponent.p, q)
-            result *= self._walk(factor) ** whole
-            if rest:
-                key = Pow(factor, Rational(1, q), evaluate=False)
-                generator = self._known.get(key)
-                if generator is None:
-                    inner = self._walk(factor)
-                    generator = self._generator(key, q, inner)
-                result *= generator**rest
-        return result
-
-    def reduces_to_zero(self, numerator: Expr) -> bool:
-        """Reduce modulo the relations, last generator first."""
-        for generator, power, equals in reversed(self._relations):
-            numerator = _power_replaced(numerator, generator, power, equals)
-            if numerator == 0:
+def _both_squared(left: Relation, right: Relation) -> bool:
+    """x^2 > y^2 says the same as x > y when neither x nor y is negative."""
+    for squares, roots in ((left, right), (right, left)):
+        if all(side.is_nonnegative for side in roots.sides):
+            if all(vanishes(root**2 - square) for root, square in zip(roots.sides, squares.sides, strict=True)):
                 return True
-            numerator = together(numerator).as_numer_denom()[0]
-        ring_element = sring(numerator)[1]
-        return bool(ring_element == 0)
+    return False
 
 
-def _power_replaced(expr: Expr, generator: Symbol, power: int, equals: Expr) -> Expr:
-    """A polynomial with g^power replaced by what it equals, wherever it occurs."""
-    ring, element = sring(expr)
-    if generator not in ring.symbols:
-        return Integer(0) if element == 0 else expr
-    index = ring.symbols.index(generator)
-    total: dict[int, Any] = {}
-    for monomial, coefficient in element.terms():
-        whole, rest = divmod(monomial[index], power)
-        lowered = monomial[:index] + (rest,) + monomial[index + 1 :]
-        total.setdefault(whole, ring.zero)
-        total[whole] += ring({lowered: coefficient})
-    return sum((part.as_expr() * equals**whole for whole, part in total.items()), Integer(0))
+def _ratio(above: Expr, below: Expr) -> Expr:
+    try:
+        return cancel(together(_by_cosines(above) / _by_cosines(below)))
+    except PolynomialError:
+        return above / below
 
 
-def _factors_under_a_root(base: Expr, q: int) -> list[tuple[Expr, int]]:
-    """Irreducible factors of the radicand with their powers.
-
-    Only factors that are known to be non-negative may leave a common root; the others stay together.
-    """
-    numerator, denominator = together(base).as_numer_denom()
-    found: list[tuple[Expr, int]] = []
-    unsure: Expr = Integer(1)
-    for part, sign in ((numerator, 1), (denominator, -1)):
-        for factor, power in _irreducible(part):
-            if factor.is_nonnegative:
-                found.append((factor, sign * power))
-            elif q == 2 and factor.is_real and power > 1:
-                found.append((Abs(factor), sign * (power - power % 2)))
-                unsure *= factor ** (sign * (power % 2))
-            else:
-                unsure *= factor ** (sign * power)
-    if unsure != 1:
-        found.append((unsure, 1))
-    return found
+def _by_cosines(expr: Expr) -> Expr:
+    """Multiplied out, with the squares of sines written by those of cosines, so that common factors show."""
+    return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 
 
-def _irreducible(part: Expr) -> list[tuple[Expr, int]]:
-    if part.is_Integer:
-        return _prime_factors(part)
-    if part.is_number:
-        return [(part, 1)]
-    content, factors = factor_list(part)
-    found = [(factor, int(power)) for factor, power in factors]
-    return _prime_factors(content) + found
-
-
-def _prime_factors(number: Expr) -> list[tuple[Expr, int]]:
-    if not number.is_Rational:
-        return [(number, 1)]
-    from sympy import factorint
-
-    sign: list[tuple[Expr, int]] = [(Integer(-1), 1)] if number < 0 else []
-    primes = {**factorint(abs(number.p)), **{p: -e for p, e in factorint(number.q).items()}}
-    return sign + [(Integer(p), e) for p, e in primes.items() if p != 1]
-
-
-def _with_common_angles(expr: Expr) -> Expr:
-    """Sines and cosines of sums and multiples, written in those of the smallest angles that occur."""
-    functions = expr.atoms(sin, cos)
-    if not functions:
-        return expr
-    units = _smallest_angles(functions)
-    replaced = {}
-    for function in functions:
-        terms = [_as_multiple(term, units) for term in _angle_terms(function.args[0])]
-        inner = sum((n * unit for n, unit in terms), Integer(0))
-        replaced[function] = expand_trig(function.func(inner))
-    expanded = expr.xreplace(replaced)
-    return expanded.xreplace({dummy: angle for angle, dummy in units.values()})
-
-
-def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
-    return [term.as_coeff_Mul(rational=True) for term in angle.expand().as_ordered_terms()]
-
-
-def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each angle up to a rational factor, the largest angle of which all that occur are whole multiples."""
-    found: dict[Expr, list[Rational]] = {}
-    for function in functions:
-        for coefficient, rest in _angle_terms(function.args[0]):
-            found.setdefault(rest, []).append(coefficient)
-    units = {}
-    for rest, coefficients in found.items():
-        denominator = ilcm(1, *(c.q for c in coefficients))
-        numerator = igcd(0, *(c.p * (denominator // c.q) for c in coefficients)) or 1
-        units[rest] = (Mul(Rational(numerator, denominator), rest), Dummy("angle", real=True))
-    return units
-
-
-def _as_multiple(term: tuple[Rational, Expr], units: dict[Expr, tuple[Expr, Symbol]]) -> tuple[Integer, Expr]:
-    coefficient, rest = term
-    angle, dummy = units[rest]
-    unit_coefficient = angle.as_coeff_Mul(rational=True)[0]
-    return Integer(coefficient / unit_coefficient), dummy
+def _without_factor(expr: Expr, known: Expr) -> Expr:
+    """The expression without a factor, in whatever power, that is known to be positive or not to vanish."""
+    return Mul(*(f for f in Mul.make_args(together(expr)) if (f.as_base_exp()[0]) not in {known, -known}))

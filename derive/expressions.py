@@ -41,6 +41,18 @@ def scalar(name: str, **assumptions: bool) -> Symbol:
     return Symbol(name, **{"real": True, **assumptions})
 
 
+PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign that is either: its square is 1, so b + PLUS_MINUS*c is b +- c
+
+RATES = ("", "_dot", "_ddot", "_dddot")
+
+
+def rate(coordinate: Symbol, order: int = 1) -> Symbol:
+    """The name of a coordinate's rate of change: theta -> theta_dot, theta_dot -> theta_ddot."""
+    name = coordinate.name
+    now = next(n for n in (3, 2, 1, 0) if name.endswith(RATES[n]))
+    return scalar(name.removesuffix(RATES[now]) + RATES[now + order])
+
+
 def vector(name: str) -> MatrixSymbol:
     return MatrixSymbol(name, 3, 1)
 
@@ -243,6 +255,76 @@ class MatrixAmount(Node, MatrixExpr):
 
     def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
         return explicit(self)[i, j]
+
+
+class Partial(ScalarNode):
+    """The partial derivative of f by a coordinate or by a rate, all others held fixed. Arguments: f, the variable."""
+
+    def doit(self, **hints: Any) -> Expr:
+        f, variable = self.args
+        return diff(explicit(f), variable)
+
+
+class TimeRate(ScalarNode):
+    """df/dt along a motion. Arguments: f, then the coordinates that move.
+
+    Evaluated by the chain rule: each coordinate, and each of its rates, contributes its partial derivative times the
+    next rate.
+    """
+
+    def doit(self, **hints: Any) -> Expr:
+        f, *coordinates = self.args
+        value = explicit(f)
+        moving = [rate(q, n) if n else q for q in coordinates for n in range(3)]
+        return Add(*(diff(value, s) * rate(s) for s in moving if s in value.free_symbols))
+
+
+MARKS = {"=": "equals", "!=": "unequal", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least"}
+
+
+class Relation(Node):
+    """An equation or an inequality. Arguments: the left side, the mark as text, the right side."""
+
+    def __new__(cls, left: Any, mark: str | Str, right: Any) -> Relation:
+        mark = Str(mark) if isinstance(mark, str) else mark
+        return super().__new__(cls, sympify_number(left), mark, sympify_number(right))  # type: ignore[no-any-return]
+
+    @property
+    def left(self) -> Any:
+        return self.args[0]
+
+    @property
+    def mark(self) -> str:
+        return str(self.args[1].name)
+
+    @property
+    def right(self) -> Any:
+        return self.args[2]
+
+    @property
+    def sides(self) -> tuple[Any, Any]:
+        return self.args[0], self.args[2]
+
+    @property
+    def word(self) -> str:
+        """The mark as a page's tree names it."""
+        return MARKS[self.mark]
+
+    @property
+    def residual(self) -> Expr:
+        """Left minus right: what vanishes, or has the sign that the mark says."""
+        return self.left - self.right
+
+    def doit(self, **hints: Any) -> Relation:
+        return Relation(explicit(self.left), self.args[1], explicit(self.right))
+
+    def __str__(self) -> str:
+        return f"{self.left} {self.mark} {self.right}"
+
+
+def sympify_number(value: Any) -> Any:
+    """A plain whole number as a SymPy one; anything else as it is."""
+    return Integer(value) if isinstance(value, int) else value
 
 
 class MassIntegral(Node, MatrixExpr):

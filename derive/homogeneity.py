@@ -61,6 +61,14 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
         return None if ex.explicit(expr) == 0 else NUMBER
     if isinstance(expr, Add | MatAdd | ex.Terms):
         return _common(expr.args, table)
+    if isinstance(expr, ex.Relation):
+        return _common(expr.sides, table)
+    if isinstance(expr, ex.Partial):
+        above, below = (dimension_of(arg, table) for arg in expr.args)
+        return None if above is None or below is None else above / below
+    if isinstance(expr, ex.TimeRate):
+        moving = dimension_of(expr.args[0], table)
+        return None if moving is None else moving / dimension_of_kind("time")
     if isinstance(expr, ex.BodyRate):
         vector = dimension_of(expr.args[0], table)
         return None if vector is None else vector / dimension_of_kind("time")
@@ -135,9 +143,10 @@ def _of_numbers(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension |
 
 def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[Step]) -> tuple[Table, list[Complaint]]:
     """Every name's dimension, step by step, and a complaint for each line that is not homogeneous."""
-    table: Table = dict(declared)
+    table: Table = {**declared, ex.PLUS_MINUS: NUMBER}
     complaints: list[Complaint] = []
     for step in steps:
+        table.update(_moving_names(step))
         local = {**table, **_opened_names(step, table)}
         try:
             dimension = _of_chain(step, local)
@@ -150,6 +159,14 @@ def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[St
         table.update(local)
         table.update(_names_of(step, dimension))
     return table, complaints
+
+
+def _moving_names(step: Step) -> Table:
+    """The coordinates that a step brings in, and their rates."""
+    time = dimension_of_kind("time")
+    return {
+        (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n for q, kind in step.coordinates for n in range(4)
+    }
 
 
 def _opened_names(step: Step, table: Table) -> Table:
@@ -177,7 +194,7 @@ def _of_chain(step: Step, table: Table) -> Dimension | None:
 def _names_of(step: Step, dimension: Dimension | None) -> Table:
     if dimension is None and step.kind:
         dimension = dimension_of_kind(step.kind)
-    names: Table = {step.symbol: dimension}
+    names: Table = {} if step.symbol is None else {step.symbol: dimension}
     if isinstance(step.symbol, MatrixSymbol) and step.symbol.shape == (3, 1):
         names.update(dict.fromkeys(ex.component_names(step.symbol.name), dimension))
     return names

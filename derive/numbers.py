@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, lambdify, preorder_traversal
 
-from derive.expressions import Amount, Factors, MatrixAmount, bound, explicit, scaled
+from derive.expressions import Amount, Factors, MatrixAmount, Relation, bound, explicit, scaled
 from derive.rounding import rounded_form
 from derive.step import Form, Level, Quantity, establish
 from derive.tidy import factored_matrix
@@ -28,6 +28,8 @@ def value_of(
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
     letters = _free(answer.value)
+    if isinstance(answer.value, Relation):
+        return None
     if not letters <= set(amounts):
         return None
     if not letters and all(entry.is_Integer for entry in _entries(answer.value)):
@@ -67,7 +69,11 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
     Outcomes: exact.
     Source: as `value_of`.
     """
-    if isinstance(answer.value, MatrixBase) or not answer.value.free_symbols or isinstance(answer.value, Add):
+    if (
+        isinstance(answer.value, MatrixBase | Relation)
+        or not answer.value.free_symbols
+        or isinstance(answer.value, Add)
+    ):
         return None
     number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
     if number.is_Rational:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, NoReturn
 
@@ -22,8 +22,9 @@ from sympy import Expr, MatrixSymbol, Symbol
 
 from derive.dimensions import kind_with_article
 from derive.errors import Complaint, Rejected, Unverified
-from derive.evidence import Evidence, Grade, Verdict, equal, vanishes
-from derive.expressions import AXES, bound, component_names, explicit
+from derive.evidence import Evidence, Grade, Verdict, equal
+from derive.exact import vanishes
+from derive.expressions import AXES, Relation, bound, component_names, explicit
 from derive.tidy import tidied
 
 
@@ -44,16 +45,23 @@ class Form:
     """One line of a chain: an expression and why it equals the line before it.
 
     `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal.
+    A form may be a `Relation`; then it says the same as the relation before it, once both are divided by `nonzero`
+    factors: those that do not vanish in the case considered, or in an inequality are positive.
     """
 
     expr: Any
     because: str
     level: Level = Level.BRIEF
+    nonzero: tuple[Any, ...] = ()
 
 
 @dataclass(frozen=True)
 class Step:
-    """What was established: the symbol, the chain that leads to its value, and how we know."""
+    """What was established: the symbol, the chain that leads to its value, and how we know.
+
+    The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
+    that the step brings in, with their kinds.
+    """
 
     key: str
     rule: str
@@ -65,6 +73,7 @@ class Step:
     evidence: tuple[Evidence, ...]
     kind: str | None = None
     words: tuple[tuple[str, str], ...] = ()
+    coordinates: tuple[tuple[Symbol, str], ...] = ()
 
     @property
     def result(self) -> Any:
@@ -90,6 +99,12 @@ class Quantity:
     @property
     def key(self) -> str:
         return self.step.key
+
+    @property
+    def coordinates(self) -> dict[Symbol, str]:
+        """The coordinates that it may depend on, with their kinds: its own and those of what it rests on."""
+        own = dict(self.step.coordinates)
+        return {**own, **{q: kind for parent in self.parents for q, kind in parent.coordinates.items()}}
 
     def __repr__(self) -> str:
         return f"Quantity({self.key}: {self.symbol} = {self.value})"
@@ -136,6 +151,8 @@ def establish(
     parents: Sequence[Quantity] = (),
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
+    coordinates: Mapping[Symbol, str] | None = None,
+    arranged: Callable[[Any], Any] = tidied,
 ) -> Quantity:
     """Make a step, or refuse.
 
@@ -147,6 +164,7 @@ def establish(
     routes    claim -> function of the result, giving two values that must be equal
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
+    arranged  how the result is written; it changes no value
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
@@ -158,7 +176,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = tidied(bound(explicit(substituted), bindings))
+    result = arranged(bound(explicit(substituted), bindings))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
@@ -187,6 +205,7 @@ def establish(
         evidence=tuple(evidence),
         kind=kind,
         words=tuple((words or {}).items()),
+        coordinates=tuple((coordinates or {}).items()),
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {})
     record = _established.get()
@@ -221,6 +240,8 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
     """Two different things of one name cannot stand in one formula."""
     named: dict[Any, Quantity] = {}
     for quantity in quantities:
+        if quantity.symbol is None:
+            continue
         other = named.setdefault(quantity.symbol, quantity)
         if other.step != quantity.step:
             message = f"`{key}` needs `{other.key}` and `{quantity.key}`, but both are called {quantity.symbol}"
@@ -247,7 +268,7 @@ def _without_repeats(forms: Sequence[Form]) -> list[Form]:
     for form in forms:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
             level = min(kept[-1].level, form.level, key=list(Level).index)
-            kept[-1] = Form(kept[-1].expr, kept[-1].because, level)
+            kept[-1] = replace(kept[-1], level=level)
         else:
             kept.append(form)
     return kept
@@ -257,6 +278,8 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
     """What the names in a formula stand for: a vector's name brings its components' names along."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
+        if quantity.symbol is None:
+            continue
         values[quantity.symbol] = quantity.value
         if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
             names = component_names(quantity.symbol.name)
@@ -270,7 +293,7 @@ def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[An
     claim = f"line {i + 1} equals line {i}"
     if chain[i].because == "rounded":
         return _rounding_evidence(key, claim, left, chain[i].expr)
-    verdict = equal(left, right)
+    verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in chain[i].nonzero])
     if not verdict:
         raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)
     return Evidence(claim, verdict.grade, verdict.detail)
@@ -331,5 +354,7 @@ def entry_name(name: str, i: int, j: int) -> Symbol:
 
 def is_zero(value: Any) -> bool:
     value = explicit(value)
+    if isinstance(value, Relation):
+        return False
     entries: list[Expr] = list(value) if hasattr(value, "shape") else [value]
     return all(vanishes(entry) for entry in entries)

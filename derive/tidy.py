@@ -19,6 +19,7 @@ from sympy import (
     Pow,
     Rational,
     cancel,
+    cos,
     expand,
     factor,
     factor_list,
@@ -26,17 +27,21 @@ from sympy import (
     gcd,
     lcm,
     radsimp,
+    sin,
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR5, TR6
 
-from derive.evidence import vanishes
-from derive.expressions import explicit
+from derive.exact import vanishes
+from derive.expressions import Relation, explicit
 
 
 def tidied(value: Any) -> Any:
     """The explicit value in its tidy form, entry by entry for a matrix."""
     value = explicit(value)
+    if isinstance(value, Relation):
+        return Relation(tidied(value.left), value.mark, tidied(value.right))
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(_tidied_scalar))
     return _tidied_scalar(value)
@@ -52,10 +57,21 @@ def _tidied_scalar(value: Expr) -> Expr:
             return Integer(0)
         value = _roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value))))
         return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
+    return min((_as_one_fraction(form) for form in (value, *_by_one_square(value))), key=_length)
+
+
+def _as_one_fraction(value: Expr) -> Expr:
     try:
         return min((_in_front(cancel(value)), _in_front(value)), key=_length)
     except PolynomialError:
         return _in_front(value)
+
+
+def _by_one_square(value: Expr) -> list[Expr]:
+    """The value multiplied out, with sin^2 written by cos^2, and with cos^2 by sin^2."""
+    if not value.atoms(sin) or not value.atoms(cos):
+        return []
+    return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
 
 
 def _length(value: Expr) -> tuple[int, str]:

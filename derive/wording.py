@@ -196,11 +196,16 @@ def joined(items: Iterable[tuple[Node, ...] | Node], last: str = "and") -> tuple
     return tuple(nodes)
 
 
+def name_of(step: Step) -> Node:
+    """What prose calls the result of a step: its symbol, or the number of a relation that has none."""
+    return Ref(step.key) if step.symbol is None else Math(step.symbol)
+
+
 def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:
     """What a step's phrase may mention besides the page's keys."""
     names: dict[str, Any] = {
         "chain": Chain(),
-        "symbol": Math(step.symbol),
+        "symbol": name_of(step),
         "result": Math(step.result),
     }
     names.update({role: Math(symbol) for role, symbol in step.roles})

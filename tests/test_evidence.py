@@ -39,7 +39,8 @@ from sympy import (
     zoo,
 )
 
-from derive.evidence import Grade, Verdict, equal, vanishes
+from derive.evidence import Grade, Verdict, equal
+from derive.exact import vanishes
 from derive.expressions import Cross, Dot, column
 
 x, y, t = symbols("x y t", real=True)

@@ -29,7 +29,7 @@ TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MOD
 # Imports point downwards, or sideways without a circle. A package stands for its modules.
 LAYERS = (
     ("errors", "dimensions"),
-    ("expressions", "evidence", "tidy", "rounding"),
+    ("expressions", "exact", "evidence", "tidy", "rounding"),
     ("step", "derivation", "encoding", "homogeneity", "numbers"),
     ("mechanics", "figures"),
     (

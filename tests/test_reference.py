@@ -235,7 +235,7 @@ def test_a_pinned_given_that_cannot_be_derived_says_where_it_is_pinned(
     compared: Compared, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     refused = HEAD.replace("[a, 2*a, 3*a]", "[a, a, a]") + "    - {answer: torque, states: 0}\n"
-    monkeypatch.setattr("derive.step.equal", lambda left, right: Verdict(Grade.REFUTED, "0 against 1"))
+    monkeypatch.setattr("derive.step.equal", lambda *_: Verdict(Grade.REFUTED, "0 against 1"))
     with pytest.raises(Unverified) as caught:
         compared(whole=refused)
     assert "= this is for what is given at problems/hw9/reference.yaml:4" in str(caught.value)

@@ -14,7 +14,8 @@ from derive.solution import rendered
 from tests.course import course_in
 
 FOLDER = Path(__file__).parent / "transcripts"
-PAGES = {
+# page -> edits of the pinned problem that its name begins with, and the detail
+PAGES: dict[str, tuple[dict[str, str], str | None]] = {
     "block": ({}, None),
     "block-brief": ({}, "brief"),
     "block-full": ({}, "full"),
@@ -28,7 +29,8 @@ PAGES = {
 
 def page(name: str, folder: Path) -> str:
     edits, detail = PAGES[name]
-    return rendered(course_in(folder, edits), "hw9/block", detail).text
+    problem = name.partition("-")[0]
+    return rendered(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).text
 
 
 @pytest.mark.parametrize("name", PAGES)

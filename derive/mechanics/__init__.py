@@ -1,6 +1,7 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
+from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.direction import Direction
 from derive.mechanics.equations import at, let, magnitude
 from derive.mechanics.inertia import inertia_tensor, moved_to
@@ -15,6 +16,7 @@ from derive.mechanics.rotation import (
 )
 
 __all__ = [
+    "Coordinate",
     "Cuboid",
     "Direction",
     "angle_between",
@@ -22,6 +24,7 @@ __all__ = [
     "any_angular_velocity",
     "at",
     "centre_of_mass",
+    "coordinate",
     "cosine_between",
     "density",
     "inertia_tensor",
@@ -29,6 +32,7 @@ __all__ = [
     "let",
     "magnitude",
     "moved_to",
+    "rate_of",
     "spin",
     "torque",
 ]

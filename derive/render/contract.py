@@ -87,6 +87,16 @@ class _PlainSymPy(StrPrinter):
     def _print_BodyRate(self, expr: Any) -> str:
         return "zeros(3, 1)"
 
+    def _print_Partial(self, expr: Any) -> str:
+        return f"Derivative({', '.join(self._print(arg) for arg in expr.args)})"
+
+    def _print_TimeRate(self, expr: Any) -> str:
+        return f"Derivative({self._print(expr.args[0])}, t)"
+
+    def _print_Relation(self, expr: Any) -> str:
+        mark = "==" if expr.mark == "=" else expr.mark
+        return f"Rel({self._print(expr.left)}, {self._print(expr.right)}, '{mark}')"
+
     def _print_Bracket(self, expr: Any) -> str:
         return f"({self._print(expr.doit())})"
 
@@ -174,12 +184,17 @@ def _given(given: Any) -> Any:
 
 def _answer(step: Step, value: Step | None, notation: Notation) -> dict[str, Any]:
     return {
-        "symbol": latex(notation.layout(step.symbol)),
+        "symbol": _symbol(step, notation),
         "sympy": sympy_text(step.result),
         "latex": latex(notation.result(step.result)),
         "unit": unit_of_kind(step.kind) if step.kind else "",
         "number": _number(value),
     }
+
+
+def _symbol(step: Step, notation: Notation) -> str:
+    """What the page calls the result; a relation has no name."""
+    return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
 def _number(value: Step | None) -> dict[str, Any] | None:
@@ -206,7 +221,7 @@ def _step(step: Step, notation: Notation) -> dict[str, Any]:
     return {
         "key": step.key,
         "rule": step.rule,
-        "symbol": latex(notation.layout(step.symbol)),
+        "symbol": _symbol(step, notation),
         "outcome": step.outcome,
         "inputs": list(step.inputs),
         "chain": [_form(form, notation) for form in step.chain],

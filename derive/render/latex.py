@@ -37,6 +37,12 @@ MARKS = {
     "minus": "-",
     "equals": "=",
     "approx": r"\approx ",
+    "unequal": r"\ne ",
+    "less": "<",
+    "greater": ">",
+    "at_most": r"\le ",
+    "at_least": r"\ge ",
+    "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",
 }
@@ -58,6 +64,8 @@ class _Printer:
             case Name():
                 return _name(layout)
             case Word(text):
+                if text == "partial":
+                    return r"\partial "
                 return text if text == "d" else rf"\mathrm{{{_unit(text)}}}"
             case Mark(kind):
                 return MARKS[kind]

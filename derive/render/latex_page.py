@@ -13,14 +13,13 @@ from derive.dimensions import Dimension
 from derive.document import Answer, Display, Document, Illustration, PartPage
 from derive.parts import points_text
 from derive.placement import STATEMENT
-from derive.render.latex import escaped, latex, unit_latex
+from derive.render.latex import MARKS, escaped, latex, unit_latex
 from derive.render.layout import Layout
 from derive.render.lines import Printed, printed_lines
 from derive.render.notation import Notation
 from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
 
 WIDTH = 60.0
-RELATIONS = {"equals": "=", "approx": r"\approx"}
 
 
 def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> str:
@@ -119,7 +118,7 @@ class _Page:
     def _row(self, printed: Printed, stop: str) -> str:
         left = latex(printed.left) if printed.left else ""
         fitted = r"\fit{%s}" if printed.width > WIDTH else "%s"
-        sides = " ".join(f"{RELATIONS[relation]} {fitted % latex(side)}" for relation, side in printed.sides)
+        sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
         body = f"{left} &{sides}{stop}"
         reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
         if printed.number is None:
@@ -131,8 +130,8 @@ class _Page:
         left = latex(self.notation.layout(answer.symbol))
         right = latex(self.notation.result(answer.value))
         if answer.rounded is None:
-            return f"{left} = {right}"
-        return f"{left} = {right} {RELATIONS[answer.relation]} {latex(self.notation.layout(answer.rounded))}"
+            return f"{left} {MARKS[answer.relation].strip()} {right}"
+        return f"{left} = {right} {MARKS[answer.relation].strip()} {latex(self.notation.layout(answer.rounded))}"
 
     def in_statement(self) -> Sequence[Illustration]:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]

@@ -46,6 +46,9 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
     for line in equations.lines:
         side = (line.relation, right_side(line, notation))
         last = packed[-1] if packed else None
+        if line.left is not None and packed:
+            packed.append(Printed(notation.layout(line.left), (side,), line.reason))
+            continue
         if last and last.sides[-1][1] == side[1] and line.relation == "equals":
             continue  # what is laid out alike is one line to the reader
         room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit

@@ -55,19 +55,19 @@ from derive.render.layout import (
     RootSign,
     Row,
     Word,
-    begins_with_number,
-    first_of,
     is_enclosed,
-    is_number,
-    last_of,
     row,
 )
 from derive.render.products import (
+    accelerations_first,
+    between,
     decimal,
+    either_sign,
     number_and_letters,
     positive_first,
     rank_of_dimension,
     root_cancelled,
+    side_by_side,
     sign_and_size,
 )
 from derive.rounding import Rounded, decimal_text
@@ -131,12 +131,20 @@ class Notation:
             content, rest = expr.primitive()
             if content != 1 and content.q == 1:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-        terms = list(expr.args) if isinstance(expr, ex.Terms) else positive_first(expr.as_ordered_terms())
+        terms = (
+            list(expr.args)
+            if isinstance(expr, ex.Terms)
+            else accelerations_first(positive_first(expr.as_ordered_terms()))
+        )
         return self._terms(terms)
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
         for term in terms:
+            behind = either_sign(term)
+            if behind is not None:
+                items += [Mark("plus_minus"), self._within_sum(behind)]
+                continue
             negative, size = sign_and_size(term)
             if items or negative:
                 items.append(MINUS if negative else PLUS)
@@ -185,7 +193,7 @@ class Notation:
         if not factors:
             return Number("1")
         alone = len(factors) == 1
-        return _side_by_side([self.layout(f) if alone else self._as_factor(f) for f in factors])
+        return side_by_side([self.layout(f) if alone else self._as_factor(f) for f in factors])
 
     def _as_factor(self, expr: Any) -> Layout:
         inner = self.layout(expr)
@@ -204,7 +212,7 @@ class Notation:
         for i, factor in enumerate(factors):
             leads = i == 0
             inner = self.layout(factor) if leads and not isinstance(factor, Add | ex.Terms) else self._as_factor(factor)
-            mark = _between(items[-1], inner) if items else None
+            mark = between(items[-1], inner) if items else None
             items += [mark] if mark else []
             items.append(inner)
         return row(*items)
@@ -307,6 +315,24 @@ class Notation:
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
         return Lowered(Fenced(self._rate(expr)), "body")
 
+    def _partial(self, expr: ex.Partial) -> Layout:
+        return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
+
+    def _time_rate(self, expr: ex.TimeRate) -> Layout:
+        return self._differentiated("d", expr.args[0], Name("t"))
+
+    def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
+        """dL/dt for a name, d/dt of anything longer."""
+        inner = self.layout(what)
+        below = row(Word(sign), by)
+        if isinstance(inner, Name):
+            return Fraction(row(Word(sign), inner), below)
+        behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
+        return row(Fraction(Word(sign), below), SPACE, behind)
+
+    def _relation(self, expr: ex.Relation) -> Layout:
+        return row(self.layout(expr.left), Mark(expr.word), self.layout(expr.right))
+
     def _identity(self, expr: Identity) -> Layout:
         return Name("1", style="tensor")
 
@@ -394,6 +420,9 @@ class Notation:
         (ex.MassIntegral, _mass_integral),
         (Integral, _integral),
         (Identity, _identity),
+        (ex.Partial, _partial),
+        (ex.TimeRate, _time_rate),
+        (ex.Relation, _relation),
     )
 
 
@@ -406,39 +435,3 @@ def named(name: str) -> Name:
     if not dots and re.fullmatch(r"d*dot", sub):
         sub, dots = "", sub
     return Name(match["base"], sub, dots.count("d") if dots else 0)
-
-
-def _side_by_side(items: list[Layout]) -> Layout:
-    placed: list[Layout] = []
-    for item in items:
-        if placed and begins_with_number(item) and not (is_enclosed(placed[-1]) and is_enclosed(item)):
-            placed.append(DOT)
-        placed.append(item)
-    return row(*placed)
-
-
-def _between(before: Layout, after: Layout) -> Layout | None:
-    """What stands between two factors as written: nothing between different letters, a dot where they run together."""
-    if begins_with_number(after):
-        return DOT
-    last = last_of(before)
-    if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
-        return SPACE
-    if _is_letter(before) and _is_letter(after):
-        return None if before != after else DOT
-    starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
-    return SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
-
-
-def _is_letter(layout: Layout) -> bool:
-    return isinstance(layout, Name) or isinstance(layout, Raised) and isinstance(layout.base, Name)
-
-
-def _ends_in_differential(layout: Layout) -> bool:
-    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
-
-
-def _begins_with_vector(layout: Layout) -> bool:
-    """A scalar product, before which no dot may stand."""
-    first = first_of(layout)
-    return isinstance(first, Array) or (isinstance(first, Name) and first.style != "scalar")

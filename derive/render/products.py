@@ -9,7 +9,26 @@ from sympy import Add, Expr, MatMul, Mul, Pow, Rational, factorint
 
 from derive import expressions as ex
 from derive.dimensions import Dimension
-from derive.render.layout import MINUS, Fraction, Layout, Number, row
+from derive.render.layout import (
+    DOT,
+    MINUS,
+    SPACE,
+    Array,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Name,
+    Number,
+    Raised,
+    Row,
+    Word,
+    begins_with_number,
+    first_of,
+    is_enclosed,
+    is_number,
+    last_of,
+    row,
+)
 
 
 def decimal(number: Rational) -> Layout:
@@ -23,6 +42,8 @@ def decimal(number: Rational) -> Layout:
 
 def sign_and_size(term: Any) -> tuple[bool, Any]:
     """Whether a term is printed with a minus sign, and the term without it."""
+    if isinstance(term, ex.Factors) and term.args[0] == -1:
+        return True, ex.Factors(*term.args[1:]) if len(term.args) > 2 else term.args[1]
     if isinstance(term, MatMul):
         coefficient = Mul(*(arg for arg in term.args if not ex.is_matrix(arg)))
         if coefficient.could_extract_minus_sign():
@@ -36,6 +57,15 @@ def sign_and_size(term: Any) -> tuple[bool, Any]:
     return False, term
 
 
+def either_sign(term: Any) -> Any | None:
+    """What stands behind a plus-or-minus sign, if the term has one."""
+    factors = list(term.args) if isinstance(term, ex.Factors) else list(Mul.make_args(term))
+    if ex.PLUS_MINUS not in factors:
+        return None
+    factors.remove(ex.PLUS_MINUS)
+    return ex.Factors(*factors) if isinstance(term, ex.Factors) and len(factors) > 1 else Mul(*factors)
+
+
 def positive_first(terms: list[Any]) -> list[Any]:
     """c^2 - a^2, not -a^2 + c^2."""
     if terms and sign_and_size(terms[0])[0]:
@@ -43,6 +73,11 @@ def positive_first(terms: list[Any]) -> list[Any]:
         if first is not None:
             return [first, *(term for term in terms if term is not first)]
     return terms
+
+
+def accelerations_first(terms: list[Any]) -> list[Any]:
+    """In an equation of motion the terms with accelerations lead; all others keep their order."""
+    return sorted(terms, key=lambda term: not any(s.name.endswith("_ddot") for s in term.free_symbols))
 
 
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
@@ -71,8 +106,11 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
-    """12 a^2 + 12 b^2 as 12 and a^2 + b^2."""
-    return factor.primitive() if isinstance(factor, Add) else (factor,)
+    """12 a^2 + 12 b^2 as 12 and a^2 + b^2; a sum with fractions in it was meant so."""
+    if not isinstance(factor, Add):
+        return (factor,)
+    content, rest = factor.primitive()
+    return (content, rest) if content.is_Integer else (factor,)
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
@@ -86,3 +124,39 @@ def rank_of_dimension(dimension: Dimension | None) -> int:
     if dimension.length and dimension.time:
         return 1
     return 2 if dimension.length else 5
+
+
+def side_by_side(items: list[Layout]) -> Layout:
+    placed: list[Layout] = []
+    for item in items:
+        if placed and begins_with_number(item) and not (is_enclosed(placed[-1]) and is_enclosed(item)):
+            placed.append(DOT)
+        placed.append(item)
+    return row(*placed)
+
+
+def between(before: Layout, after: Layout) -> Layout | None:
+    """What stands between two factors as written: nothing between different letters, a dot where they run together."""
+    if begins_with_number(after):
+        return DOT
+    last = last_of(before)
+    if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
+        return SPACE
+    if _is_letter(before) and _is_letter(after):
+        return None if before != after else DOT
+    starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
+    return SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
+
+
+def _is_letter(layout: Layout) -> bool:
+    return isinstance(layout, Name) or isinstance(layout, Raised) and isinstance(layout.base, Name)
+
+
+def _ends_in_differential(layout: Layout) -> bool:
+    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
+
+
+def _begins_with_vector(layout: Layout) -> bool:
+    """A scalar product, before which no dot may stand."""
+    first = first_of(layout)
+    return isinstance(first, Array) or (isinstance(first, Name) and first.style != "scalar")

@@ -32,6 +32,12 @@ MARKS = {
     "minus": " - ",
     "equals": " = ",
     "approx": " ≈ ",
+    "unequal": " ≠ ",
+    "less": " < ",
+    "greater": " > ",
+    "at_most": " ≤ ",
+    "at_least": " ≥ ",
+    "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",
 }

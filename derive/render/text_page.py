@@ -13,11 +13,12 @@ from derive.placement import STATEMENT
 from derive.render.layout import Layout, Mark, row
 from derive.render.lines import Printed, printed_lines
 from derive.render.notation import Notation
-from derive.render.text import plain
+from derive.render.text import MARKS, plain
 from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
 
 COLUMNS = 88
 WIDTH = 60.0
+STARTS = tuple(MARKS[kind] for kind in ("equals", "approx", "unequal", "less", "greater", "at_most", "at_least"))
 
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
@@ -109,7 +110,7 @@ class _Page:
         items: list[Layout] = [item for relation, side in line.sides for item in (Mark(relation), side)]
         body = plain(row(*items)).split("\n")
         left = plain(line.left) if line.left else ""
-        middle = next((i for i, text in enumerate(body) if text.startswith((" = ", " ≈ "))), 0)
+        middle = next((i for i, text in enumerate(body) if text.startswith(STARTS)), 0)
         lines = ["    " + (left.rjust(indent) if i == middle else " " * indent) + text for i, text in enumerate(body)]
         reason = f"[{self._inline(line.reason)}]" if line.reason else ""
         if reason and len(lines[middle]) + len(reason) + 10 <= COLUMNS:
@@ -124,7 +125,8 @@ class _Page:
         return lines
 
     def _answer(self, answer: Answer) -> str:
-        items: list[Layout] = [self.notation.layout(answer.symbol), Mark("equals"), self.notation.result(answer.value)]
+        relation = "equals" if answer.rounded is not None else answer.relation
+        items: list[Layout] = [self.notation.layout(answer.symbol), Mark(relation), self.notation.result(answer.value)]
         if answer.rounded is not None:
             items += [Mark(answer.relation), self.notation.layout(answer.rounded)]
         body = plain(row(*items)).split("\n")

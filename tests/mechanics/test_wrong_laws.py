@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -239,6 +241,12 @@ ROUTES = [
         "magnitude_value",
     ),
 ]
+
+for topic in sorted(Path(__file__).parent.glob("laws_of_*.py")):  # the tables of the other topics
+    module = import_module(f"tests.mechanics.{topic.stem}")
+    RUNS.update(module.RUNS)
+    LAWS += module.LAWS
+    ROUTES += module.ROUTES
 
 
 def named(row: tuple[str, ...]) -> str:

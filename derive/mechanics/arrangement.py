@@ -1,0 +1,54 @@
+"""How a line about a motion is written: the highest rates first, each with what multiplies it in one bracket."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Add, Expr, Mul, Rational, Symbol
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.expressions import rate
+from derive.tidy import tidied
+
+
+def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Accelerations first, then squares and products of rates, then what has neither; each with one factor in front."""
+    return by_rates(value, moving, 2)
+
+
+def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1) -> Expr:
+    """The terms gathered by the rates that they contain, highest rates first."""
+    orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
+    present = [s for s in orders if value.has(s)]
+    value = value.expand()
+    if value == 0 or not present:
+        return tidied(value)
+    try:
+        gathered = value.as_poly(*present)
+    except PolynomialError:
+        return tidied(value)
+    if gathered is None:
+        return tidied(value)
+    terms = sorted(gathered.terms(), key=lambda term: term[0], reverse=True)
+    parts = [_with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n]) for powers, c in terms]
+    return Add(*parts, evaluate=len(parts) < 2)
+
+
+def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]]) -> Expr:
+    """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
+    if any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
+        return Mul(Rational(1, 2), spread(2 * coefficient), *(s**n for s, n in rates), evaluate=False)
+    return Mul(spread(coefficient), *(s**n for s, n in rates))
+
+
+def spread(value: Expr) -> Expr:
+    """I + M a^2/4, not (4 I + M a^2)/4: a number below a sum is put into it where that makes a term simpler."""
+    value = tidied(value)
+    number, letters = value.as_coeff_Mul()
+    sums = [f for f in Mul.make_args(letters) if f.is_Add]
+    if number.q == 1 or len(sums) != 1:
+        return value
+    terms = [term * Rational(1, number.q) for term in sums[0].args]
+    if all(term.as_coeff_Mul()[0].q == number.q for term in terms):
+        return value
+    return Mul(number.p, *(f for f in Mul.make_args(letters) if f is not sums[0]), Add(*terms))
