@@ -14,9 +14,11 @@ from typing import Any
 
 from sympy import Integer, MatrixBase
 
+from derive.curves import curves_of
 from derive.derivation import Derivation
-from derive.errors import Complaint
-from derive.expressions import Dot, Norm, explicit
+from derive.dimensions import unit_of_kind
+from derive.errors import Complaint, Rejected
+from derive.expressions import Amount, Dot, Norm, explicit
 from derive.figures import marks as m
 from derive.placement import HIDDEN, STATEMENT, Placement
 from derive.problem import Problem
@@ -71,7 +73,11 @@ def depictions(
         elif index is not None:
             caption = told(placement.caption.pieces) if placement and placement.caption else ()
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
-            alt = alternative(drawing, placement, words)
+            try:
+                alt = alternative(problem, drawing, placement, words)
+            except Rejected as error:
+                faults += error.complaints
+                continue
             found.append((index, Depicted(drawing, placement, at, alt, numbers.get(drawing.key), caption)))
     return [depicted for _, depicted in sorted(found, key=lambda entry: entry[0])], faults
 
@@ -143,17 +149,50 @@ def _given_away(
 # --- what it shows ---------------------------------------------------------------------------------------------------
 
 
-def alternative(drawing: m.Recorded, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
+def alternative(problem: Problem, drawing: m.Recorded, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
     """What is drawn, in words."""
     if isinstance(drawing, m.Plot):
-        names: dict[str, Any] = {"quantity": _named(drawing.label), "variable": _named(drawing.variable)}
-        return filled(words.drawings["plot"], names)
+        return _curves(problem, drawing, placement, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in drawing.marks) if nodes]
     axes = [_named(mark.label) for mark in drawing.marks if isinstance(mark, m.Axis) and mark.label is not None]
     if axes:
         told.append(filled(words.drawings["axes"], {"names": joined(axes, words.labels["and"])}))
     items = joined(told, words.labels["and"])
     return filled(words.drawings[drawing.view], {"marks": items})
+
+
+def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
+    """The range, and for each curve its numbers and where it turns."""
+    curves = curves_of(problem, plot, placement)
+    first = curves.curves[0]
+    names = {
+        "quantity": _named(plot.label),
+        "variable": _named(plot.variable),
+        "lower": _with_unit(first.lower * curves.per_unit, curves.unit),
+        "upper": _with_unit(first.upper * curves.per_unit, curves.unit),
+    }
+    told = [filled(words.drawings["plot"], names)]
+    for curve in curves.curves:
+        turns = [
+            filled(
+                words.drawings["extremum"],
+                {
+                    "kind": words.drawings[extremum.kind],
+                    "at": _with_unit(extremum.at * curves.per_unit, curves.unit),
+                    "value": _with_unit(extremum.value, unit_of_kind(plot.kind)),
+                },
+            )
+            for extremum in curve.extrema
+        ]
+        numbers = [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in curve.numbers]
+        last = words.labels["and"]
+        told.append(filled(words.drawings["curve"], {"numbers": joined(numbers, last), "turns": joined(turns, last)}))
+    return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
+
+
+def _with_unit(value: float, unit: str) -> str:
+    gap = "" if unit == "\u00b0" else " "
+    return f"{value:.4g}{gap}{unit}".replace("-", "\u2212").strip()
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Node, ...]:

@@ -10,15 +10,16 @@ import base64
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sympy import Symbol
 
+from derive.curves import Curves, curves_of
 from derive.depiction import placement_of
 from derive.document import Document, Illustration
 from derive.expressions import explicit
 from derive.figures.kept import drawings_to_data
-from derive.figures.marks import Drawing, Recorded
+from derive.figures.marks import Plot, Recorded
 from derive.manifest import digest, package_version
 from derive.output import write
 from derive.placement import Placement
@@ -26,6 +27,10 @@ from derive.problem import Problem
 from derive.render.notation import Notation
 from derive.render.stance import Numbers, stand_ins
 from derive.render.text_page import inline_text
+from derive.wording import Phrases
+
+if TYPE_CHECKING:
+    from derive.render.sketch import Sheet
 
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 
@@ -33,44 +38,54 @@ Files = tuple[tuple[str, bytes], ...]
 
 
 def drawing_files(
-    problem: Problem, drawings: Sequence[Recorded], document: Document, notation: Notation, kept: Path | None
+    problem: Problem,
+    drawings: Sequence[Recorded],
+    document: Document,
+    words: Phrases,
+    notation: Notation,
+    kept: Path | None,
 ) -> Files:
     """A PDF and an SVG of each drawing on the page, by file name."""
     by_key = {drawing.key: drawing for drawing in drawings}
     return tuple(
         (f"{shown.stem}.{suffix}", content)
         for shown in document.illustrations
-        for suffix, content in _sheet(problem, by_key[shown.key], shown, notation, kept).items()
+        for suffix, content in _sheet(problem, by_key[shown.key], shown, words, notation, kept).items()
     )
 
 
 def _sheet(
-    problem: Problem, drawing: Recorded, shown: Illustration, notation: Notation, kept: Path | None
+    problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, kept: Path | None
 ) -> dict[str, bytes]:
     placement = placement_of(problem, drawing.key)
     values = numbers_of(problem, placement)
+    curves = curves_of(problem, drawing, placement) if isinstance(drawing, Plot) else None
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
-    key = _key(drawing, values, width, alt)
+    key = _key(drawing, repr((sorted(values.items(), key=str), curves, width, alt, words.drawings)))
     file = kept.with_name(f"{kept.name.partition('.')[0]}.{drawing.key}.drawing.json") if kept else None
     sheet = _recalled(file, key) if file else None
     if sheet is None:
-        sheet = _drawn(drawing, values, width, alt, notation)
+        drawn = _plot(drawing, curves, notation, words, width, alt) if curves else None
+        drawn = drawn or _scene(drawing, values, notation, width, alt)
+        sheet = {"pdf": drawn.pdf, "svg": drawn.svg}
         if file:
             _keep(file, key, sheet)
     return sheet
 
 
-def _drawn(
-    drawing: Recorded, values: Mapping[Symbol, float], width: float | None, alt: str, notation: Notation
-) -> dict[str, bytes]:
+def _scene(drawing: Any, values: Mapping[Symbol, float], notation: Notation, width: float | None, alt: str) -> Sheet:
     from derive.render.picture import picture
     from derive.render.sketch import sheet_of
 
-    assert isinstance(drawing, Drawing)
     pieces = picture(drawing, Numbers(values), width or WIDTH, (width or WIDTH) * HEIGHT / WIDTH)
-    sheet = sheet_of(pieces, notation, alt)
-    return {"pdf": sheet.pdf, "svg": sheet.svg}
+    return sheet_of(pieces, notation, alt)
+
+
+def _plot(plot: Any, curves: Curves, notation: Notation, words: Phrases, width: float | None, alt: str) -> Sheet:
+    from derive.render.plotting import plot_sheet
+
+    return plot_sheet(plot, curves, notation, words, width, alt)
 
 
 def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, float]:
@@ -88,11 +103,10 @@ def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, fl
 # --- kept between builds ---------------------------------------------------------------------------------------------
 
 
-def _key(drawing: Recorded, values: Mapping[Symbol, float], width: float | None, alt: str) -> str:
+def _key(drawing: Recorded, facts: str) -> str:
     modules = [p.read_bytes() for p in sorted(Path(__file__).parent.rglob("*.py"))]
     description = json.dumps(drawings_to_data([drawing]))
-    numbers = repr(sorted((symbol.name, value) for symbol, value in values.items()))
-    return digest(*modules, f"{package_version('matplotlib')}", description, numbers, repr(width), alt)
+    return digest(*modules, f"{package_version('matplotlib')}", description, facts)
 
 
 def _recalled(file: Path, key: str) -> dict[str, bytes] | None:

@@ -83,7 +83,7 @@ def rendered(
         inputs=(*problem.inputs, reference_path(problem)),
         grades=_grades(derivation, values),
         agreed=not failures,
-        files=drawing_files(problem, solved.drawings, document, notation, kept) if draws else (),
+        files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
     )
 
 

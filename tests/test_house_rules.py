@@ -46,7 +46,7 @@ LAYERS = (
         "stated",
         "reference",
     ),
-    ("wording", "depiction", "document"),
+    ("wording", "curves", "depiction", "document"),
     ("output", "render"),
     (
         "solution",

@@ -1,5 +1,6 @@
 """Drawings as a script describes them: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
 
+from derive.figures.machines import cone, slab_on_cylinder, top
 from derive.figures.scenes import (
     angle,
     arrow,
@@ -18,10 +19,13 @@ __all__ = [
     "arrow",
     "axes",
     "axis_of_rotation",
+    "cone",
     "drawing",
     "length",
     "outline",
     "plot",
     "point",
+    "slab_on_cylinder",
+    "top",
     "turn",
 ]

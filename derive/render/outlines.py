@@ -15,6 +15,7 @@ from derive.figures import marks as m
 from derive.render.stance import Numbers, Spot, Stance, Vector, across, dot, plus, size_of, unit
 
 STEPS = 96  # of a whole circle
+FLAT = 0.25  # a disc that is flatter, in terms of its radius, hides too little to be dashed
 
 
 @dataclass(frozen=True)
@@ -219,6 +220,7 @@ def _cylinder(cylinder: m.CylinderMark, paper: Paper) -> list[Piece]:
     lower = _circle(start, axis, paper.numbers.of(cylinder.radius))
     upper = [plus(place, plus(end, start, -1.0)) for place in lower]
     eye = paper.stance.eye
+    flat = size_of(plus(end, start, -1.0)) < FLAT * paper.numbers.of(cylinder.radius)
 
     def side_faces(place: Vector) -> float:
         return dot(plus(place, start, -1.0), eye)
@@ -226,7 +228,7 @@ def _cylinder(cylinder: m.CylinderMark, paper: Paper) -> list[Piece]:
     pieces: list[Piece] = [Patch(hull(paper.spots(*lower, *upper)), "body")]
     for rim, centre, outward in ((lower, start, -1.0), (upper, end, 1.0)):
         is_seen = _end_or_side(centre, outward * dot(axis, eye) > 0, eye)
-        pieces += _drawn_rim(rim, is_seen, paper)
+        pieces += [s for s in _drawn_rim(rim, is_seen, paper) if s.pen != "hidden" or not flat]
     along = plus(end, start, -1.0)
     pieces += [Stroke(paper.spots(place, plus(place, along)), "edge") for place in _changes(lower, side_faces)]
     return pieces

@@ -203,8 +203,10 @@ def _length(mark: m.Length, paper: Paper) -> list[Piece]:
 
 
 def _support(spot: Spot, label: Any) -> list[Piece]:
-    """Hatched ground, as wide as it must be to be seen."""
+    """A pointed stand on hatched ground, as large as it must be to be seen."""
     x, y = spot
-    ground = Stroke(((x - 14, y), (x + 14, y)), "edge")
-    hatches = [Stroke(((x + k, y), (x + k - 4, y - 4)), "thin") for k in range(-10, 15, 4)]
-    return [ground, *hatches, Tag(label, spot, (-0.7, 0.7), 4.0)]
+    foot = y - 16
+    stand = Stroke(((x - 5, foot), (x, y), (x + 5, foot)), "edge")
+    ground = Stroke(((x - 13, foot), (x + 13, foot)), "edge")
+    hatches = [Stroke(((x + k, foot), (x + k - 4, foot - 4)), "thin") for k in range(-9, 14, 4)]
+    return [stand, ground, *hatches, Tag(label, spot, (-0.9, 0.4), 4.0)]
