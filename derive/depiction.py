@@ -61,7 +61,7 @@ def depictions(
     told: Callable[[Any], tuple[Node, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
     """The drawings in the order of the page, and what is wrong with where the problem puts them."""
-    faults = _unknown(problem, drawings)
+    faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
     for drawing in drawings:
@@ -102,6 +102,18 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
         for placement in problem.drawings
         if placement.key not in names
     ]
+
+
+def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
+    """Letters to which the problem gives a value for a drawing that does not have them."""
+    placement = placement_of(problem, drawing.key)
+    letters = {symbol.name for symbol in drawing.letters}
+    return [
+        Complaint("unknown-letter", f"the drawing `{drawing.key}` has no letter `{name}`", place,
+                  help=did_you_mean(name, letters) or "its letters are " + ", ".join(f"`{x}`" for x in sorted(letters)))
+        for name, place in (placement.names.items() if placement else ())
+        if name not in letters
+    ]  # fmt: skip
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from sympy import Expr, Symbol
 
 from derive.errors import Place
+from derive.expressions import scalar
 from derive.given import Measured, read_measured, read_value
 from derive.prose import Prose, read_prose
 from derive.reading import Declared
@@ -29,6 +30,7 @@ class Placement:
     caption: Prose | None = None
     width: float | None = None
     values: tuple[tuple[Symbol, Expr], ...] = ()
+    names: Table[str, Place] = field(default_factory=dict, repr=False)
     ends: tuple[Node, Node] | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
 
@@ -51,6 +53,7 @@ def read_placements(node: Mapping, symbols: Table[str, Declared], parts: int, fa
                 caption=read_prose(caption, "caption", faults) if caption else None,
                 width=_width(entry.get("width"), faults),
                 values=_values(entry.get("values"), symbols, faults),
+                names={name.text: name.place for name, _ in _pairs(entry.get("values"), "values", Faults())},
                 ends=_ends(entry.get("range"), symbols, faults),
                 cases=_cases(entry.get("cases"), symbols, faults),
             )
@@ -84,10 +87,8 @@ def _values(node: Node | None, symbols: Table[str, Declared], faults: Faults) ->
     """Numbers or proportions of letters, in the order written; a proportion is in terms of other letters."""
     found: list[tuple[Symbol, Expr]] = []
     for key, value in _pairs(node, "values", faults):
-        declared = symbols.get(key.text)
-        if declared is None:
-            _undeclared(key, symbols, faults)
-            continue
+        # A coordinate of the script is not declared; whether the drawing has it is known when the script has run.
+        declared = symbols.get(key.text) or Declared(key.text, scalar(key.text), "angle")
         with faults:
             expr = read_value(key.text, value, declared.kind, symbols)
             if declared.symbol in expr.free_symbols:
@@ -127,8 +128,3 @@ def _pairs(node: Node | None, what: str, faults: Faults) -> tuple[tuple[Scalar, 
         return node.pairs if node else ()
     wrong_type(faults, f"`{what}`" if " " not in what else what, "a mapping such as `{R: 20 cm, a: 5 cm}`", node)
     return ()
-
-
-def _undeclared(key: Scalar, symbols: Table[str, Declared], faults: Faults) -> None:
-    help_line = did_you_mean(key.text, symbols) or "declare it under `symbols:`"
-    faults.error("undeclared-symbol", f"`{key.text}` is not declared", key.place, help=help_line)

@@ -11,8 +11,10 @@ import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, TypeAlias
+
+from sympy import Symbol
 
 from derive.errors import Complaint, Rejected
 
@@ -182,6 +184,10 @@ class Drawing:
         """The steps that it rests on."""
         return tuple(dict.fromkeys(key for mark in self.marks for key in mark.keys))
 
+    @property
+    def letters(self) -> set[Symbol]:
+        return letters_in(self.marks)
+
 
 @dataclass(frozen=True)
 class Plot:
@@ -201,6 +207,19 @@ class Plot:
     kind: str
     of: str
     keys: tuple[str, ...] = ()
+
+    @property
+    def letters(self) -> set[Symbol]:
+        return letters_in((self.expr, self.lower, self.upper))
+
+
+def letters_in(thing: Any) -> set[Symbol]:
+    """Every letter in the places and directions of marks, however deep; the names beside them are not among them."""
+    if isinstance(thing, tuple | list):
+        return {letter for each in thing for letter in letters_in(each)}
+    if isinstance(thing, Mark):
+        return letters_in([getattr(thing, f.name) for f in fields(thing) if f.name not in {"label", "edges"}])
+    return {s for s in getattr(thing, "free_symbols", ()) if isinstance(s, Symbol)}
 
 
 Recorded: TypeAlias = Drawing | Plot

@@ -8,7 +8,6 @@ from __future__ import annotations
 from math import ceil, floor, log10
 from typing import Any
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from derive.curves import DEGREES, Curve, Curves
@@ -19,12 +18,12 @@ from derive.figures.marks import Plot
 from derive.render.latex import unit_latex
 from derive.render.lettering import runs
 from derive.render.notation import Notation
-from derive.render.sketch import INK, LETTERS, LINE, QUIET, SETTINGS, Sheet, finished
+from derive.render.sketch import INK, LETTERS, LINE, QUIET, Sheet, finished, our_settings
 from derive.wording import Phrases
 
 STEPS = 240
-MOST = 5  # intervals between ticks
-ROOM = 0.3  # above and below a curve, in terms of its height
+MOST = 6  # intervals between ticks
+ROOM = 0.36  # above and below a curve, in terms of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 CM = 72 / 2.54
 
@@ -33,11 +32,11 @@ def plot_sheet(plot: Plot, curves: Curves, notation: Notation, words: Phrases, w
     """The panels side by side; `width` is that of one of them."""
     panel, tall = (width or PANEL), (width or PANEL) * TALL / PANEL
     settings: Any = {
-        **SETTINGS, "font.size": LETTERS - 1, "axes.linewidth": 0.5, "axes.edgecolor": QUIET, "xtick.color": QUIET,
+        "font.size": LETTERS - 1, "axes.linewidth": 0.5, "axes.edgecolor": QUIET, "xtick.color": QUIET,
         "ytick.color": QUIET, "xtick.major.width": 0.4, "ytick.major.width": 0.4, "xtick.direction": "in",
         "ytick.direction": "in", "xtick.labelcolor": LINE, "ytick.labelcolor": LINE,
     }  # fmt: skip
-    with matplotlib.rc_context(settings):
+    with our_settings(**settings):
         wide, high = panel * len(curves.curves) * CM, tall * CM
         figure = Figure(figsize=(wide / 72, high / 72), facecolor="none", layout="constrained")
         panels = figure.subplots(1, len(curves.curves), squeeze=False)[0]

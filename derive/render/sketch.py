@@ -7,7 +7,8 @@ letters are those of the page. Letters are paths: no font is needed where a draw
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from math import atan2, cos, hypot, sin
@@ -80,7 +81,7 @@ class Sheet:
 
 def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str) -> Sheet:
     """The pieces with their labels on a canvas of their size."""
-    with matplotlib.rc_context(SETTINGS):
+    with our_settings():
         letters = _Letters(notation)
         labels = placed(pieces, letters.size)
         left, below, right, above = _bounds(pieces, labels)
@@ -95,6 +96,16 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str) -> Sheet:
             patch.set_clip_on(False)
             axes.add_patch(patch)
         return finished(figure, alt, width, height)
+
+
+@contextmanager
+def our_settings(**more: Any) -> Iterator[None]:
+    """matplotlib as it comes, with our settings: those of whoever builds the page must not show on it."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        settings: Any = {**SETTINGS, **more}
+        matplotlib.rcParams.update(settings)
+        yield
 
 
 def finished(figure: Figure, alt: str, width: float, height: float) -> Sheet:
