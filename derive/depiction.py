@@ -271,7 +271,7 @@ def _names(mark: m.Mark) -> dict[str, Any] | None:
                 return None
             names.update(size=size)
         case m.Turn() | m.Length() | m.Dot():
-            if mark.label is None:
+            if mark.label is None or mark.label == 0:
                 return None
         case m.Axis() | m.Line():
             return None

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ from sympy import Symbol
 from derive.curves import Curves, curves_of
 from derive.depiction import placement_of
 from derive.document import Document, Illustration
+from derive.errors import Rejected
 from derive.expressions import explicit
 from derive.figures.kept import drawings_to_data
 from derive.figures.marks import Plot, Recorded
@@ -66,8 +68,12 @@ def _sheet(
     file = kept.with_name(f"{kept.name.partition('.')[0]}.{drawing.key}.drawing.json") if kept else None
     sheet = _recalled(file, key) if file else None
     if sheet is None:
-        drawn = _plot(drawing, curves, notation, words, width, alt) if curves else None
-        drawn = drawn or _scene(drawing, values, notation, width, alt)
+        try:
+            drawn = _plot(drawing, curves, notation, words, width, alt) if curves else None
+            drawn = drawn or _scene(drawing, values, notation, width, alt)
+        except Rejected as error:  # a mark knows no file
+            place = placement.place if placement else problem.place_of("solve")
+            raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
         sheet = {"pdf": drawn.pdf, "svg": drawn.svg}
         if file:
             _keep(file, key, sheet)

@@ -33,7 +33,7 @@ def _to_data(value: Any) -> Any:
         return [_to_data(each) for each in value]
     if type(value).__name__ in _CLASSES:
         return {"is": type(value).__name__, **{f.name: _to_data(getattr(value, f.name)) for f in fields(value)}}
-    if value is None or isinstance(value, str | bool | int):
+    if value is None or isinstance(value, str | bool | int | float):
         return value
     raise TypeError(f"a drawing cannot hold a {type(value).__name__}")
 

@@ -94,7 +94,7 @@ def top(
             Line(length * e, Rational(5, 4) * length * e, "construction"),
             Turn(Rational(9, 8) * length * e, e, Rational(1, 9), label=spin),
         ]
-    if precession is not None:
+    if precession is not None and tilt != 0:  # upright, one cannot tell the two turns apart
         marks.append(Turn(Rational(11, 10) * length * Z, Z, Rational(1, 7), label=precession))
     if weight is not None:
         marks.append(Arrow(disc_at * e, -Z, Rational(1, 2), False, label=weight))

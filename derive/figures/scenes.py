@@ -85,6 +85,96 @@ def plot(
 # --- marks -----------------------------------------------------------------------------------------------------------
 
 
+def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
+    """A vector in its true direction; its length is for the eye, since vectors of two kinds have no common scale.
+
+    vector   vector (3), in the axes of the drawing; none is drawn if it vanishes
+    at       the place where it begins
+    size     its length in terms of the size of the body
+    label    its name, if it is not the quantity's own
+    asked    whether it is what the problem asks for, and so drawn strongly
+    """
+    (value, own), (start, others) = _vector(vector), _vector(at)
+    return Arrow(start, value, size, asked, label=_name_of(vector, label), keys=own + others)
+
+
+def angle(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
+    """The arc from one direction to another; none where they are parallel.
+
+    a, b     vectors (3)
+    label    its name, or the quantity that the angle is
+    at       the vertex
+    radius   length; without one the arc is as large as the eye needs
+    """
+    (u, first), (v, second), (vertex, third) = (_vector(thing) for thing in (a, b, at))
+    _, own = _value_and_keys(label)
+    return AngleMark(vertex, u, v, radius, label=_name_of(None, label), keys=first + second + third + own)
+
+
+def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
+    """The axis of a rotation, past the body on both sides; with the rate, the sense in which it turns.
+
+    along     vector (3)
+    through   a place on the axis
+    rate      angular speed, 1/s: positive is right-handed about `along`
+    """
+    (direction, first), (place, second) = _vector(along), _vector(through)
+    label = -rate if rate is not None and rate.could_extract_minus_sign() else rate
+    return AxisOfRotation(place, direction, rate, label=label, keys=first + second)
+
+
+def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
+    """An arrow round a direction, right-handed, for an angle that grows or the rate at which it does.
+
+    along   vector (3)
+    at      the middle of the turn
+    size    its radius in terms of the size of the body
+    """
+    (direction, first), (place, second) = _vector(along), _vector(at)
+    return Turn(place, direction, size, label=label, keys=first + second)
+
+
+def point(at: Any, label: Any = None) -> Mark:
+    """A point; a derived place brings its name along.
+
+    at   a place: a column of lengths, a body's point, or a quantity
+    """
+    place, keys = _vector(at)
+    return Dot(place, label=_name_of(at, label), keys=keys)
+
+
+def length(start: Any, end: Any, label: Any, aside: Any) -> Mark:
+    """A dimension line from one place to another.
+
+    aside   vector (3): the direction in which the line is set off, so that it stands clear of the body
+    """
+    (a, first), (b, second) = _vector(start), _vector(end)
+    return Length(a, b, _vector(aside)[0], label=label, keys=first + second)
+
+
+def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
+    """The coordinate axes from their origin.
+
+    reach   how long they are: one length, or one each
+    """
+    place, keys = _vector(at)
+    lengths = tuple(reach) if isinstance(reach, tuple | list) else (reach,) * len(names)
+    ends = [column(*(far if i == k else 0 for k in range(3))) for i, far in enumerate(lengths)]
+    return [Axis(place, place + end, label=scalar(name), keys=keys) for name, end in zip(names, ends, strict=True)]
+
+
+# --- what a script hands over ----------------------------------------------------------------------------------------
+
+
+def _vector(thing: Any) -> tuple[Any, tuple[str, ...]]:
+    """The components of a vector or a place, and the keys behind it; anything else is refused."""
+    value, keys = _value_and_keys(thing)
+    if not isinstance(value, MatrixBase) or value.shape != (3, 1):
+        got = f"`{thing.key}` is none" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
+        raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
+    return value, keys
+
+
 def _value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
     """Of a quantity its value and, if it is derived, its key; of a point its place; of another thing itself."""
     if isinstance(thing, Quantity):
@@ -107,52 +197,6 @@ def _name_of(thing: Any, label: Any) -> Any:
     if label is not None:
         return label
     return thing.symbol if isinstance(thing, Quantity) else None
-
-
-def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
-    """A vector in its true direction from a point; its length is for the eye (`size` times that of the body)."""
-    (value, own), (start, others) = _value_and_keys(vector), _value_and_keys(at)
-    return Arrow(start, value, size, asked, label=_name_of(vector, label), keys=own + others)
-
-
-def angle(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
-    """The arc from one direction to another; the label may be the quantity that the angle is."""
-    (u, first), (v, second), (vertex, third) = (_value_and_keys(thing) for thing in (a, b, at))
-    _, own = _value_and_keys(label)
-    return AngleMark(vertex, u, v, radius, label=_name_of(None, label), keys=first + second + third + own)
-
-
-def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
-    """The axis of a rotation, through a point; with the rate, also the sense in which the body turns."""
-    (direction, first), (place, second) = _value_and_keys(along), _value_and_keys(through)
-    label = -rate if rate is not None and rate.could_extract_minus_sign() else rate
-    return AxisOfRotation(place, direction, rate, label=label, keys=first + second)
-
-
-def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
-    """An arrow round a direction, for an angle that grows or the rate at which it does."""
-    (direction, first), (place, second) = _value_and_keys(along), _value_and_keys(at)
-    return Turn(place, direction, size, label=label, keys=first + second)
-
-
-def point(at: Any, label: Any = None) -> Mark:
-    """A point; a derived place brings its name along."""
-    place, keys = _value_and_keys(at)
-    return Dot(place, label=_name_of(at, label), keys=keys)
-
-
-def length(start: Any, end: Any, label: Any, aside: Any) -> Mark:
-    """A dimension line from one point to another, set off in the direction `aside`."""
-    (a, first), (b, second) = _value_and_keys(start), _value_and_keys(end)
-    return Length(a, b, aside, label=label, keys=first + second)
-
-
-def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
-    """The coordinate axes from their origin: one expression for all lengths, or one each."""
-    place, keys = _value_and_keys(at)
-    lengths = tuple(reach) if isinstance(reach, tuple | list) else (reach,) * len(names)
-    ends = [column(*(far if i == k else 0 for k in range(3))) for i, far in enumerate(lengths)]
-    return [Axis(place, place + end, label=scalar(name), keys=keys) for name, end in zip(names, ends, strict=True)]
 
 
 # --- bodies ----------------------------------------------------------------------------------------------------------

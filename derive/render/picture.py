@@ -188,7 +188,11 @@ def _round(u: Vector, v: Vector, degree: float) -> Vector:
 
 
 def _length(mark: m.Length, paper: Paper) -> list[Piece]:
-    a, b = paper.spots(paper.numbers.vector(mark.start), paper.numbers.vector(mark.end))
+    """Set off by the same distance on paper whatever the scale; nothing for a length that is zero."""
+    start, end = paper.numbers.vector(mark.start), paper.numbers.vector(mark.end)
+    if size_of(plus(end, start, -1.0)) < 1e-9 * paper.reach:
+        return []
+    a, b = paper.spots(start, end)
     x, y = paper.stance.spot(paper.numbers.vector(mark.aside))
     size = hypot(x, y) or 1.0
     off = (x / size * ASIDE, y / size * ASIDE)

@@ -51,6 +51,8 @@ class Numbers:
         self._values = {symbol.name: value for symbol, value in values.items()}
 
     def of(self, expr: Any) -> float:
+        if isinstance(expr, float):
+            return expr
         value = explicit(expr)
         letters = {*value.free_symbols, *value.atoms(AppliedUndef)} - {Symbol("t"), Symbol("t", real=True)}
         put_in = {letter: Float(self._values.get(_name(letter), ANGLE)) for letter in letters}
