@@ -43,7 +43,7 @@ def _from_data(data: Any) -> Any:
         return tuple(_from_data(each) for each in data)
     if not isinstance(data, dict):
         return data
-    if "expr" in data:
+    if "is" not in data:
         return decoded(data["expr"])
     made_of = {name: _from_data(value) for name, value in data.items() if name != "is"}
     return _CLASSES[data["is"]](**made_of)

@@ -151,7 +151,7 @@ def best_stance(drawing: Drawing, numbers: Numbers) -> Stance:
     pairs += [pair for pair in combinations(vectors, 2) if pair not in pairs]
     if not vectors and not pairs:
         return USUAL
-    tried = [stance_from(azimuth, elevation) for elevation in (18, 24, 30) for azimuth in range(15, 76, 6)]
+    tried = [stance_from(azimuth, elevation) for elevation in (18, 24, 30, 38) for azimuth in range(15, 76, 6)]
     return max(tried, key=lambda stance: _clearness(stance, vectors, pairs))
 
 
