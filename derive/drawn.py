@@ -100,7 +100,7 @@ def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, fl
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}
     letters = [(declared.symbol, declared.kind) for declared in problem.symbols.values()]
-    found = stand_ins([entry for entry in letters if entry[0] not in said or entry[0] in fixed], {**own, **fixed})
+    found = stand_ins(letters, {**own, **fixed})
     for letter, expr in said.items():
         found[letter] = Numbers(found).of(expr)
     return found

@@ -67,7 +67,7 @@ def _at(node: Node | None, parts: int, faults: Faults) -> str | None:
     if node is None or (isinstance(node, Scalar) and node.text in known):
         return node.text if node else None
     help_line = did_you_mean(node.text, (STATEMENT, HIDDEN)) if isinstance(node, Scalar) else None
-    last = f"a part from a to {letters[-1]}" if letters else "a part"
+    last = f"part a to {letters[-1]}" if parts > 1 else "part a"
     wrong_type(faults, "`at`", f"statement, {last}, or hidden", node, help_line)
     return None
 
