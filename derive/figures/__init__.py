@@ -2,7 +2,7 @@
 
 from derive.figures.machines import cone, slab_on_cylinder, top
 from derive.figures.scenes import (
-    angle,
+    arc,
     arrow,
     axes,
     axis_of_rotation,
@@ -12,10 +12,11 @@ from derive.figures.scenes import (
     plot,
     point,
     turn,
+    vectors_in,
 )
 
 __all__ = [
-    "angle",
+    "arc",
     "arrow",
     "axes",
     "axis_of_rotation",
@@ -28,4 +29,5 @@ __all__ = [
     "slab_on_cylinder",
     "top",
     "turn",
+    "vectors_in",
 ]

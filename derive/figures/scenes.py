@@ -98,7 +98,7 @@ def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, as
     return Arrow(start, value, size, asked, label=_name_of(vector, label), keys=own + others)
 
 
-def angle(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
+def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
     """The arc from one direction to another; none where they are parallel.
 
     a, b     vectors (3)
@@ -161,6 +161,20 @@ def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[
     lengths = tuple(reach) if isinstance(reach, tuple | list) else (reach,) * len(names)
     ends = [column(*(far if i == k else 0 for k in range(3))) for i, far in enumerate(lengths)]
     return [Axis(place, place + end, label=scalar(name), keys=keys) for name, end in zip(names, ends, strict=True)]
+
+
+def vectors_in(body: Any, *vectors: Quantity, angle: Any = None, at: Any = None) -> list[Mark]:
+    """A body with vectors in their true directions, the first of them along the axis of its rotation.
+
+    body      a body, for its outline
+    vectors   quantities, vectors (3) in the body's axes; each arrow is a little shorter than the one before
+    angle     the angle between the first two: a quantity or a name; without it no arc is drawn
+    at        the place where they begin, otherwise the middle of the body
+    """
+    start = body.middle if at is None else at
+    marks = [*outline(body, named=False), axis_of_rotation(vectors[0], start)]
+    marks += [arrow(vector, start, LONG * Rational(4, 5) ** i) for i, vector in enumerate(vectors)]
+    return marks if angle is None else [*marks, arc(vectors[0], vectors[1], angle, start)]
 
 
 # --- what a script hands over ----------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import Any
 
 from sympy import Symbol, symbols
 
-from derive.figures import angle, arrow, axis_of_rotation, drawing, outline
+from derive.figures import arc, arrow, axis_of_rotation, drawing, outline
 from derive.figures.marks import Drawing, Mark
 from derive.mechanics import Cuboid
 from derive.render.outlines import Piece, Stroke
@@ -29,7 +29,7 @@ def vectors_of_block(sides: Any = (a, 2 * a, 3 * a), axis: Any = "diagonal", **v
     middle = block.middle
     return drawing(
         "vectors", outline(block, named=False), axis_of_rotation(known["axis_vector"], middle),
-        arrow(omega, middle), arrow(L, middle, size=1), angle(omega, L, size, at=middle),
+        arrow(omega, middle), arrow(L, middle, size=1), arc(omega, L, size, at=middle),
     )  # fmt: skip
 
 

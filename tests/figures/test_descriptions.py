@@ -9,7 +9,7 @@ from sympy import Matrix, cos, sin
 
 from derive.errors import Rejected
 from derive.expressions import column
-from derive.figures import angle, arrow, cone, drawing, outline, plot, point, slab_on_cylinder, top
+from derive.figures import arc, arrow, cone, drawing, outline, plot, point, slab_on_cylinder, top
 from derive.figures.kept import drawings_from_data, drawings_to_data
 from derive.figures.marks import AngleMark, Arrow, Box, Dot, Polygon, RodMark, drawings_recorded
 from derive.mechanics import Cuboid
@@ -131,7 +131,7 @@ def test_the_point_of_contact_is_on_the_cylinder_and_on_the_face_of_the_slab() -
 
 def test_an_angle_may_be_named_by_the_quantity_that_it_is() -> None:
     known = known_block()
-    found = angle(known["spin"], known["angular_momentum"], known["angle_between"])
+    found = arc(known["spin"], known["angular_momentum"], known["angle_between"])
     assert isinstance(found, AngleMark)
     assert found.label == known["angle_between"].symbol
     assert set(found.keys) == {"spin", "angular_momentum", "angle_between"}

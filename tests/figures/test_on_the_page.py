@@ -16,7 +16,7 @@ from derive.solution import Rendered, rendered
 from tests.course import ROOT, course_in
 from tests.test_stored import forbid_deriving
 
-PLACED = "    at: c\n"
+CAPTION = "  vectors:\n"
 CUBE = {"[a, 2*a, 3*a]": "[a, a, a]"}
 FILES = ["block-axes.pdf", "block-axes.svg", "block-vectors.pdf", "block-vectors.svg"]
 
@@ -94,19 +94,21 @@ def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
 
 
 def test_a_drawing_stands_where_all_that_it_shows_is_derived(tmp_path: Path) -> None:
-    assert drawings(rendered(course_in(tmp_path, {PLACED: ""}), "hw9/block"))["vectors"]["at"] == "c"
+    assert drawings(rendered(course_in(tmp_path), "hw9/block"))["vectors"]["at"] == "c"
 
 
 def test_a_drawing_may_stand_later_or_not_at_all(tmp_path: Path) -> None:
     for where, keys in (("d", ["axes", "vectors"]), ("hidden", ["axes"])):
         folder = tmp_path / where
         folder.mkdir()
-        assert list(drawings(rendered(course_in(folder, {"at: c": f"at: {where}"}), "hw9/block"))) == keys
+        assert (
+            list(drawings(rendered(course_in(folder, {CAPTION: CAPTION + f"    at: {where}\n"}), "hw9/block"))) == keys
+        )
 
 
 @pytest.mark.parametrize(("where", "told"), [("statement", "in the statement"), ("b", "in part b")])
 def test_a_drawing_does_not_give_an_answer_away(tmp_path: Path, where: str, told: str) -> None:
-    (fault,) = faults(tmp_path, {"at: c": f"at: {where}"})
+    (fault,) = faults(tmp_path, {CAPTION: CAPTION + f"    at: {where}\n"})
     assert fault.startswith("problems/hw9/block.yaml:35:9: error[drawing]: ")
     assert told in fault
     assert "would show `" in fault
@@ -126,7 +128,9 @@ def test_a_drawing_of_what_no_part_asks_for_is_told(tmp_path: Path) -> None:
 
 
 def test_faults_of_a_placement_are_told_together(tmp_path: Path) -> None:
-    found = faults(tmp_path, {PLACED: "    at: e\n    width: 40 cm\n    colour: red\n    values: {a: 1 s}\n"})
+    found = faults(
+        tmp_path, {CAPTION: CAPTION + "    at: e\n    width: 40 cm\n    colour: red\n    values: {a: 1 s}\n"}
+    )
     assert ["error[unknown-key]" in f or "error[wrong-type]" in f for f in found].count(True) == 2
     assert any("`width` must be from 1 to 15 cm" in fault for fault in found)
     assert any("`a` must be a length" in fault for fault in found)
@@ -140,12 +144,12 @@ def test_a_name_that_the_script_does_not_draw_is_told_with_the_nearest(tmp_path:
 
 
 def test_a_letter_that_the_drawing_lacks_is_told(tmp_path: Path) -> None:
-    (fault,) = faults(tmp_path, {PLACED: "    at: c\n    values: {theta: 40 deg}\n"})
+    (fault,) = faults(tmp_path, {CAPTION: CAPTION + "    values: {theta: 40 deg}\n"})
     assert "error[unknown-letter]: the drawing `vectors` has no letter `theta`" in fault
 
 
 def test_what_cannot_be_drawn_is_told_at_the_line_of_the_script(tmp_path: Path) -> None:
-    (fault,) = faults(tmp_path, script={"arrow(omega, middle)": "arrow(T, middle)"})
+    (fault,) = faults(tmp_path, script={"vectors_in(block, omega, L, ": "vectors_in(block, T, L, "})
     assert fault.startswith("problems/hw9/block.py:")
     assert "a drawing needs a vector or a place here, but `kinetic_energy` is none" in fault
 
@@ -200,7 +204,7 @@ def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: R
 
 
 def test_a_width_and_numbers_of_its_own_change_only_that_drawing(tmp_path: Path, block: Rendered) -> None:
-    edits = {PLACED: "    at: c\n    width: 3 cm\n"}
+    edits = {CAPTION: CAPTION + "    width: 3 cm\n"}
     changed = dict(rendered(course_in(tmp_path, edits), "hw9/block", draws=True).files)
     same = {name for name, content in block.files if changed[name] == content}
     assert same == {"block-axes.pdf", "block-axes.svg"}

@@ -9,7 +9,7 @@ import pytest
 from sympy import Rational, Symbol, sqrt
 
 from derive.expressions import column
-from derive.figures import angle, arrow, axis_of_rotation, cone, drawing, length, outline, point, slab_on_cylinder, top
+from derive.figures import arc, arrow, axis_of_rotation, cone, drawing, length, outline, point, slab_on_cylinder, top
 from derive.figures.marks import AngleMark, ConeMark, CylinderMark, Drawing, Polygon, Turn
 from derive.mechanics import Cuboid
 from derive.render.labels import placed
@@ -286,7 +286,7 @@ def test_the_settings_of_whoever_draws_do_not_show(monkeypatch: pytest.MonkeyPat
 
 
 def test_an_angle_needs_two_directions() -> None:
-    flat = angle(UP, column(0, 0, 0), theta)
+    flat = arc(UP, column(0, 0, 0), theta)
     assert isinstance(flat, AngleMark)
     assert strokes(pieces_of(plane(point(RIGHT), point(UP), flat)), "angle") == []
     assert NUMBERS[a] == 1
