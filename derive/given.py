@@ -73,9 +73,11 @@ Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
 SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
 Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
 
+MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I", "I_1", "I_2"))]
+
 _DIRECTION = Kind("Direction", "direction", (), 3)
 _MEASURES = (Mass, Length, Lengths, Time, Angle, AngularSpeed, Speed, Acceleration, Density, Force)
-_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, SpringConstant, Number)), _DIRECTION)
+_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, SpringConstant, MomentOfInertia, Number)), _DIRECTION)
 KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
 
 

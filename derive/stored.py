@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.derivation import Derivation, from_json, to_json
+from derive.errata import Erratum
 from derive.figures.kept import drawings_from_data, drawings_to_data
 from derive.figures.marks import Recorded
 from derive.manifest import digest, package_version
@@ -53,7 +54,7 @@ def recalled(file: Path, key: str) -> Solved | None:
             return None
         kept = json.loads(sealed["steps"])
         values = from_json(kept["values"])
-        told = tuple(Told(facts, here) for facts, here in kept["compared"])
+        told = tuple(Told(f, here, Erratum.decoded(e) if e else None) for f, here, e in kept["compared"])
         answers = dict(zip(kept["answers"], values.steps, strict=True))
         return Solved(from_json(kept["derivation"]), answers, told, drawings_from_data(kept["drawings"]))
     except (OSError, ValueError, KeyError, TypeError):
@@ -65,7 +66,7 @@ def keep(file: Path, key: str, solved: Solved) -> None:
         "derivation": to_json(solved.derivation),
         "answers": list(solved.values),
         "values": to_json(Derivation(tuple(solved.values.values()), ())),
-        "compared": [[told.facts, told.here] for told in solved.compared],
+        "compared": [[t.facts, t.here, t.erratum and t.erratum.encoded()] for t in solved.compared],
         "drawings": drawings_to_data(solved.drawings),
     }
     steps = json.dumps(kept)
