@@ -13,11 +13,13 @@ from typing import Any
 from sympy import preorder_traversal
 
 from derive.checks import Checks, checks_of
+from derive.depiction import caption_numbers, depictions
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Grade
 from derive.expressions import Amount, Relation, Truncated
+from derive.figures.marks import Recorded
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
@@ -116,7 +118,19 @@ class Answers:
     answers: tuple[Answer, ...]
 
 
-Block = Paragraph | Display | Answers
+@dataclass(frozen=True)
+class Illustration:
+    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+
+    key: str
+    stem: str
+    alt: tuple[Node, ...]
+    number: int | None
+    caption: tuple[Node, ...]
+    at: str
+
+
+Block = Paragraph | Display | Answers | Illustration
 
 
 @dataclass(frozen=True)
@@ -135,6 +149,7 @@ class Document:
     title: tuple[Node, ...]
     points: Fraction | None
     statement: tuple[Node, ...]
+    illustrations: tuple[Illustration, ...]
     parts: tuple[PartPage, ...]
     checks: Checks
     closing: tuple[Node, ...]
@@ -153,12 +168,13 @@ def document_of(
     level: Level,
     compared: Sequence[Told] = (),
     others: Mapping[str, int] | None = None,
+    drawings: Sequence[Recorded] = (),
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
 
     `others` are the numbers of the set's problems, to which prose may refer.
     """
-    writer = _Writer(problem, derivation, values, words, level, others or {})
+    writer = _Writer(problem, derivation, values, words, level, others or {}, drawings)
     return writer.document([c for c in compared if c.here]), writer.faults
 
 
@@ -173,8 +189,10 @@ class _Writer:
         words: Phrases,
         level: Level,
         others: Mapping[str, int],
+        drawings: Sequence[Recorded],
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
+        self.drawings = drawings
         self.numbers: dict[str, int] = {}
         self.shown_in: dict[str, str] = {}
         every = [*derivation.steps, *values.values()]
@@ -194,7 +212,8 @@ class _Writer:
         title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)
         statement = self._told(problem.statement.pieces)
-        parts = tuple(self._part(i, part) for i, part in enumerate(problem.parts))
+        illustrations = self._illustrations()
+        parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
         self.references.check(self.numbers, self.symbols)
         checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
         self._check_keys("wording", problem.wording)
@@ -204,6 +223,7 @@ class _Writer:
             title=title,
             points=problem.points,
             statement=statement,
+            illustrations=tuple(illustrations),
             parts=parts,
             checks=checks,
             closing=checks.closing(self.words),
@@ -223,6 +243,8 @@ class _Writer:
         names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
+        for key, number in caption_numbers(self.problem, self.drawings, self.derivation).items():
+            names.setdefault(key, Text(f"{self.words.labels['figure']} {number}"))
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
@@ -245,9 +267,17 @@ class _Writer:
                     Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line)
                 )
 
+    # --- drawings ---
+
+    def _illustrations(self) -> list[Illustration]:
+        found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
+        self.faults += faults
+        stem = self.problem.id.rpartition("/")[2]
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at) for d in found]
+
     # --- parts ---
 
-    def _part(self, index: int, part: Part) -> PartPage:
+    def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
         blocks: list[Block] = self._found_before(part)
         for key in self.derivation.parts[index]:
@@ -257,6 +287,7 @@ class _Writer:
         for i, value in enumerate(v for v in values if v.outcome == "measured"):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
+        blocks.extend(illustration for illustration in illustrations if illustration.at == label)
         return PartPage(label, self._told(part.ask.pieces), part.points, _punctuated(blocks))
 
     def _found_before(self, part: Part) -> list[Block]:

@@ -221,6 +221,13 @@ def read_measured(key: Scalar, node: Node, symbols: Mapping[str, Declared]) -> M
     return Measured(declared.symbol, value.number, value.unit, value.si)
 
 
+def read_value(name: str, node: Node, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
+    """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
+    wanted = _Wanted(name, kind, notes)
+    value = _value(_scalar(node, wanted), wanted, symbols)
+    return value.si if isinstance(value, _Number) else value
+
+
 def _read_one(
     name: str, node: Node, kind: Kind, symbols: Mapping[str, Declared], faults: Faults, notes: tuple[str, ...]
 ) -> tuple[Expr | _Number, ...] | Direction:

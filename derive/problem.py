@@ -21,6 +21,7 @@ from derive.expressions import Amount, explicit
 from derive.given import Given, Measured, read_givens, read_measured, symbol_of_kind
 from derive.measured import numbers_known
 from derive.parts import Part, points_text, read_parts, read_points
+from derive.placement import Placement, read_placements
 from derive.prose import Prose, read_prose
 from derive.reading import RESERVED, Declared
 from derive.schema import (
@@ -62,6 +63,7 @@ class Problem:
     wording: Table[str, Table[str, Prose]]
     show: Table[str, str]
     figures: int
+    drawings: tuple[Placement, ...]
     script: Script = field(repr=False)
     script_path: str
     places: Table[str, Place] = field(repr=False)
@@ -97,7 +99,8 @@ class Problem:
     def texts(self) -> tuple[Prose, ...]:
         """All prose that is printed."""
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
-        return (self.title, self.statement, *(part.ask for part in self.parts), *wording)
+        captions = (placement.caption for placement in self.drawings if placement.caption)
+        return (self.title, self.statement, *(part.ask for part in self.parts), *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
@@ -162,6 +165,7 @@ class ProblemReader:
         points = self.points(parts)
         wording, show = self.wording(), self.show()
         figures = read_figures(self.node.get("figures"), self.faults) or DEFAULT_FIGURES
+        drawings = read_placements(self.mapping("drawings"), symbols, len(parts), self.faults)
         source, topic = (read_text(self.node, key, self.faults) for key in ("source", "topic"))
         self.faults.stop()
         assert title is not None
@@ -181,6 +185,7 @@ class ProblemReader:
             wording=wording,
             show=show,
             figures=figures,
+            drawings=drawings,
             script=script,
             script_path=script_path,
             places=self.places,

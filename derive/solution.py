@@ -15,8 +15,10 @@ from sympy import Expr, Integer, Symbol
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
+from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
 from derive.expressions import Relation
+from derive.figures.marks import drawings_recorded
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
@@ -57,12 +59,16 @@ class Rendered:
     grades: dict[str, int]
     counts: dict[str, int]
     agreed: bool
+    files: Files = ()
 
 
-def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None) -> Rendered:
+def rendered(
+    root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
 
-    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold.
+    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold;
+    `draws` says whether the files of its drawings are wanted too.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
@@ -73,7 +79,7 @@ def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path 
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
     level = Level(detail or "standard")
-    document, faults = document_of(problem, derivation, values, words, level, solved.compared, others)
+    document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
     if faults:
         raise Rejected(faults)
     notation = Notation(document.dimensions)
@@ -95,6 +101,7 @@ def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path 
         grades=_grades(derivation, values),
         counts=document.checks.counts(),
         agreed=not failures,
+        files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
     )
 
 
@@ -104,10 +111,11 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
     solved = recalled(kept, key) if kept else None
     if solved is not None:
         return solved, ()
-    derivation, values, known = _derived(problem)
+    with drawings_recorded() as drawings:
+        derivation, values, known = _derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.told() for c in compared))
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(drawings))
     if kept and not failures:
         keep(kept, key, solved)
     return solved, failures

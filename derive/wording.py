@@ -86,6 +86,7 @@ class Phrases:
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]
+    drawings: Mapping[str, str]
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
 
