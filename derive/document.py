@@ -22,7 +22,7 @@ from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
 from derive.reference import Told
 from derive.source import did_you_mean
-from derive.step import Form, Level, Step
+from derive.step import BY_MOTION, Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
@@ -328,6 +328,7 @@ class _Writer:
             "lines_by_grade": self._by_grade(lines),
             "routes": len(routes),
             "routes_by_grade": self._by_grade(routes),
+            "by_motion": sum(e.claim.endswith(BY_MOTION) for e in lines),
             "definitions": sum(e.grade is Grade.DEFINITION for e in evidence),
             "compared": len(compared),
             "agree": sum(c.outcome.startswith("agrees") for c in compared),

@@ -28,6 +28,9 @@ from derive.expressions import AXES, Relation, bound, component_names, explicit
 from derive.tidy import tidied
 
 
+BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
+
+
 class Level(StrEnum):
     """How much algebra a reader wants; a form is shown at its own level and at every higher one."""
 
@@ -302,6 +305,7 @@ def _line_evidence(
     if chain[i].because == "rounded":
         return _rounding_evidence(key, claim, left, chain[i].expr)
     if chain[i].because == "motion":
+        claim = f"{claim} {BY_MOTION}"
         left, right = bound(left, motion), bound(right, motion)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in chain[i].nonzero])
     if not verdict:
