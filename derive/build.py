@@ -17,15 +17,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive.errors import Complaint, DeriveError
-from derive.manifest import Manifest, digest, engine_digest, file_digest, outputs_of
+from derive.manifest import DOCUMENTS, SHEET, SOLUTIONS, Manifest, digest, engine_digest, file_digest, outputs_of
 from derive.output import folder, write, writing
 from derive.render.pdf import Engine, chosen_engine, chosen_name, typeset
 from derive.workers import TIME_LIMIT, Bug, Crew, Job, Outcome
 
 if TYPE_CHECKING:
     from derive.solution import Rendered
-
-WHOLE = "solutions"
 
 
 @dataclass(frozen=True)
@@ -199,22 +197,24 @@ class _Build:
         return "edited during the build" if edited else file_digest(file)
 
     def _document(self, name: str) -> None:
-        from derive.solution import problem_document
+        from derive.set_document import problem_document
 
         derived = self.derived[name]
         texts = {f"{name}.txt": derived.text, f"{name}.json": derived.json}
         self._typeset(name, lambda: problem_document(self.root, derived, self.set_id), texts)
 
     def _whole(self) -> None:
-        """The document of the set, as soon as its last problem is derived."""
+        """The documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.solution import set_document
+        from derive.set_document import set_document, sheet_document
 
         parts = [self.derived[name] for name in self.names]
-        self._typeset(WHOLE, lambda: set_document(self.root, self.set_id, parts), {})
+        aux = self.outputs / ".derived" / f"{SOLUTIONS}.aux"  # the page numbers, so that one run is enough next time
+        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.set_id, parts), {}, aux)
+        self._typeset(SHEET, lambda: sheet_document(self.root, self.set_id, parts), {})
 
-    def _typeset(self, name: str, document: Callable[[], str], texts: dict[str, str]) -> None:
+    def _typeset(self, name: str, document: Callable[[], str], texts: dict[str, str], aux: Path | None = None) -> None:
         pdf = f"{name}.pdf"
         try:
             tex = document()
@@ -228,13 +228,13 @@ class _Build:
             self._record(texts)
             return
         limit = self.options.limit
-        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit)
+        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit, aux=aux)
         job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
         """The text and the source follow their PDF, so that what lies side by side belongs together."""
-        if pdf == f"{WHOLE}.pdf" and outcome.error:
+        if pdf.removesuffix(".pdf") in DOCUMENTS and outcome.error:
             self.whole_failed = outcome
             return
         if not self._took(outcome):
@@ -256,7 +256,7 @@ class _Build:
 
     def _stamp(self) -> None:
         """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
-        outputs = " ".join(f"build/{self.set_id}/{o}" for name in [*self.names, WHOLE] for o in outputs_of(name))
+        outputs = " ".join(f"build/{self.set_id}/{o}" for name in [*self.names, *DOCUMENTS] for o in outputs_of(name))
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         facts = f"outputs_of_{self.set_id} := {outputs}\noptions_of_{self.set_id} := {options}\n"
         write(self.outputs / ".outputs.mk", facts)

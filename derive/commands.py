@@ -104,20 +104,21 @@ def _list(arguments: argparse.Namespace) -> int:
 
 
 def _solve(arguments: argparse.Namespace) -> int:
-    from derive import solution
+    from derive.set_document import problem_document
+    from derive.solution import rendered
     from derive.workers import Job, done
 
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     with _waiting(f"deriving {problem_id}"):
-        work = partial(solution.rendered, root, problem_id, arguments.detail)
-        rendered: Rendered = done(Job(f"`{problem_id}`", work, limit))
-    complain(rendered.warnings)
+        work = partial(rendered, root, problem_id, arguments.detail)
+        solved: Rendered = done(Job(f"`{problem_id}`", work, limit))
+    complain(solved.warnings)
     set_id = problem_id.partition("/")[0]
     if arguments.format == "pdf":
-        return _solve_pdf(arguments, root, problem_id, solution.problem_document(root, rendered, set_id))
-    text = rendered.text if arguments.format == "text" else rendered.json
+        return _solve_pdf(arguments, root, problem_id, problem_document(root, solved, set_id))
+    text = solved.text if arguments.format == "text" else solved.json
     if arguments.format == "latex":
-        text = solution.problem_document(root, rendered, set_id)
+        text = problem_document(root, solved, set_id)
     _deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
     return 0
 

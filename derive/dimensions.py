@@ -53,6 +53,7 @@ _KINDS: dict[str, tuple[Dimension, str, str]] = {
     "acceleration": (_dimension(0, 1, -2), "m/s^2", "an acceleration"),
     "angular speed": (_dimension(0, 0, -1), "rad/s", "an angular speed"),
     "angular acceleration": (_dimension(0, 0, -2), "rad/s^2", "an angular acceleration"),
+    "squared angular speed": (_dimension(0, 0, -2), "1/s^2", "a squared angular speed"),
     "force": (_dimension(1, 1, -2), "N", "a force"),
     "energy": (_dimension(1, 2, -2), "J", "an energy"),
     "power": (_dimension(1, 2, -3), "W", "a power"),

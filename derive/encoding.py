@@ -21,7 +21,8 @@ _SYMPY = (
 )
 _NODES = (
     "Dot", "Norm", "Cross", "CarriedRate", "BodyRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket",
-    "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate",
+    "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate", "Slope", "At",
+    "Truncated",
     "Relation", "Component",
 )
 # fmt: on

@@ -291,6 +291,29 @@ class TimeRate(ScalarNode):
         return Add(*(diff(value, s) * rate(s) for s in moving if s in value.free_symbols))
 
 
+class Slope(ScalarNode):
+    """The n-th derivative of a function of one variable. Arguments: f, the variable, n."""
+
+    def doit(self, **hints: Any) -> Expr:
+        f, x, order = self.args
+        return diff(explicit(f), x, order)
+
+
+class At(ScalarNode):
+    """The value of a function at one place. Arguments: f, the variable, its value."""
+
+    def doit(self, **hints: Any) -> Expr:
+        f, x, place = self.args
+        return explicit(f).subs(x, place)
+
+
+class Truncated(ScalarNode):
+    """A series that breaks off: the polynomial, its variable, the place it is about, the order up to which it holds."""
+
+    def doit(self, **hints: Any) -> Expr:
+        return explicit(self.args[0])
+
+
 MARKS = {"=": "equals", "!=": "unequal", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least"}
 
 

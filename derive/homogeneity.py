@@ -66,6 +66,11 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, ex.Partial):
         above, below = (dimension_of(arg, table) for arg in expr.args)
         return None if above is None or below is None else above / below
+    if isinstance(expr, ex.Slope):
+        f, x = (dimension_of(arg, table) for arg in expr.args[:2])
+        return None if f is None or x is None else f / x ** int(expr.args[2])
+    if isinstance(expr, ex.At | ex.Truncated):
+        return dimension_of(expr.args[0], table)
     if isinstance(expr, ex.TimeRate):
         moving = dimension_of(expr.args[0], table)
         return None if moving is None else moving / dimension_of_kind("time")
@@ -186,7 +191,7 @@ def _of_chain(step: Step, table: Table) -> Dimension | None:
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)
-        if dimension is None:
+        if dimension is None or isinstance(form.expr, ex.Relation):  # a relation may be divided by what it pleases
             continue
         if first is None:
             first = (form.expr, dimension)

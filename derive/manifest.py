@@ -17,6 +17,7 @@ from typing import Any
 from derive.output import write
 
 PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc")
+SOLUTIONS, SHEET = DOCUMENTS = ("solutions", "problems")  # of a whole set: with the solutions, and for students
 _PACKAGE = Path(__file__).parent
 
 
@@ -89,7 +90,7 @@ class Manifest:
             self.complete
             and self._unchanged(self.set_inputs, root)
             and all(self.is_derived(name, recipe, root) for name in self.problems)
-            and all(self.holds(name) for problem in [*self.problems, "solutions"] for name in outputs_of(problem))
+            and all(self.holds(name) for problem in [*self.problems, *DOCUMENTS] for name in outputs_of(problem))
         )
 
     def holds(self, output: str) -> bool:
@@ -116,6 +117,6 @@ class Manifest:
 
 
 def outputs_of(name: str) -> list[str]:
-    """The outputs of a problem, or of the whole set as `solutions`."""
-    suffixes = ("pdf", "tex") if name == "solutions" else ("pdf", "tex", "txt", "json")
+    """The outputs of a problem, or of a document of the whole set."""
+    suffixes = ("pdf", "tex") if name in DOCUMENTS else ("pdf", "tex", "txt", "json")
     return [f"{name}.{suffix}" for suffix in suffixes]

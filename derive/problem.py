@@ -40,6 +40,7 @@ ANY_OUTCOME = ""
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 _SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
 _SCRIPT = re.compile(r"[A-Za-z0-9_-]{1,64}\.py")
+DOCUMENTS = ("solutions", "problems")  # what a build calls the documents of the whole set
 _NOT_PROBLEMS = ("set", "reference")
 
 
@@ -90,6 +91,12 @@ class Problem:
         """The number behind each letter that has one, in the coherent SI unit."""
         units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in self.measured}
         return {m.symbol: Amount(m.si, units[m.symbol], Integer(1)) for m in self.measured}
+
+    @property
+    def texts(self) -> tuple[Prose, ...]:
+        """All prose that is printed."""
+        wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
+        return (self.title, self.statement, *(part.ask for part in self.parts), *wording)
 
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
@@ -320,6 +327,11 @@ class ProblemSet:
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
 
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The number of each problem in the set, by its name."""
+        return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
+
 
 def set_ids(root: Path) -> list[str]:
     """Every folder below `problems/` that says it is a set."""
@@ -358,9 +370,15 @@ def _listed(node: Node | None, set_id: str, known: list[str], faults: Faults) ->
     for item in node.items:
         if not isinstance(item, Scalar) or item.empty:
             wrong_type(faults, "a problem of the set", "a name", item)
+        elif item.text in DOCUMENTS:
+            message = f"a problem cannot be called `{item.text}`, for a document of the set has that name"
+            faults.error("reserved-name", message, item.place, help="rename its files")
         elif item.text not in names:
             help_line = did_you_mean(item.text, names)
             message = f"there is no problem `{item.text}` in this set"
+            if item.text in known and not item.text.startswith(f"{set_id}/"):
+                message = f"`{item.text}` is a problem of another set"
+                help_line = f"copy its files to `problems/{set_id}/` and list it by its name alone"
             faults.error("no-such-problem", message, item.place, help=help_line)
         elif f"{set_id}/{item.text}" in found:
             faults.error("duplicate-problem", f"`{item.text}` is listed twice", item.place)

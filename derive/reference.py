@@ -23,6 +23,7 @@ from sympy import Add, Expr, Integer, MatrixSymbol, Rational, Symbol
 
 from derive.derivation import returned_quantities, with_ancestors
 from derive.dimensions import Dimension, dimension_of_kind, kind_with_article, named
+from derive.errata import Erratum, erratum_of
 from derive.errors import Complaint, DeriveError, Place
 from derive.evidence import Grade, Verdict, equal
 from derive.expressions import AXES, Relation, component_names, explicit
@@ -40,6 +41,7 @@ class Told:
 
     facts: dict[str, Any]
     here: bool
+    erratum: Erratum | None = None
 
     @property
     def outcome(self) -> str:
@@ -59,7 +61,7 @@ class Comparison:
     here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
 
     def told(self) -> Told:
-        return Told(self.facts(), self.here)
+        return Told(self.facts(), self.here, erratum_of(self.entry) if self.outcome == "erratum" else None)
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.dimensions import KINDS
-from derive.source import Faults, Mapping, Node, Scalar, abridged, nearest, shape_of
+from derive.source import Faults, Mapping, Node, Scalar, Sequence, abridged, nearest, shape_of
 from derive.units import UNIT_NAMES
 
 SHOWN = ("full", "result", "hidden")
@@ -118,7 +118,7 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
 
 def wrong_type(faults: Faults, what: str, wanted: str, node: Node, help: str | None = None) -> None:
     """The complaint that something is of another shape than its key asks for."""
-    if isinstance(node, Scalar) and node.empty:
+    if isinstance(node, Scalar) and node.empty or isinstance(node, Sequence) and not node.items:
         faults.error("missing-value", f"{what} must be {wanted}, but it is empty", node.place, help=help)
     else:
         faults.error("wrong-type", f"{what} must be {wanted}, but it is {shape_of(node)}", node.place, help=help)

@@ -18,13 +18,14 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, NoReturn
 
-from sympy import Expr, MatrixSymbol, Symbol
+from sympy import Expr, MatrixSymbol, Symbol, diff
+from sympy.core.symbol import Str
 
 from derive.dimensions import kind_with_article
 from derive.errors import Complaint, Rejected, Unverified
 from derive.evidence import Evidence, Grade, Verdict, equal
 from derive.exact import vanishes
-from derive.expressions import AXES, Relation, bound, component_names, explicit
+from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
 
 
@@ -206,7 +207,7 @@ def establish(
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple(zip(inputs, names, strict=True)),
+        roles=tuple((role, _called(q)) for role, q in inputs.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
@@ -218,6 +219,13 @@ def establish(
     if record is not None:
         record.append(quantity)
     return quantity
+
+
+def _called(value: Any) -> Any:
+    """What a phrase calls an input: its symbol, or the key of a relation, which has none."""
+    if isinstance(value, Quantity):
+        return Str(value.key) if value.symbol is None else value.symbol
+    return value
 
 
 _established: ContextVar[list[Quantity] | None] = ContextVar("established", default=None)
@@ -304,6 +312,8 @@ def _line_evidence(
     claim = f"line {i + 1} equals line {i}"
     if chain[i].because == "rounded":
         return _rounding_evidence(key, claim, left, chain[i].expr)
+    if isinstance(chain[i].expr, Truncated):
+        return _series_evidence(key, claim, left, chain[i].expr)
     if chain[i].because == "motion":
         claim = f"{claim} {BY_MOTION}"
         left, right = bound(left, motion), bound(right, motion)
@@ -311,6 +321,16 @@ def _line_evidence(
     if not verdict:
         raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)
     return Evidence(claim, verdict.grade, verdict.detail)
+
+
+def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
+    """A series that breaks off has, at its place, the value and the derivatives of the whole up to its order."""
+    polynomial, x, place, order = series.args
+    rest = whole - explicit(polynomial)
+    for n in range(int(order) + 1):
+        if not vanishes(diff(rest, x, n).subs(x, place)):
+            raise Unverified(Complaint("unverified", f"`{key}`: the series is wrong at order {n} in {x}"))
+    return Evidence(claim, Grade.APPROXIMATION, f"to order {order} in {x}")
 
 
 def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.derivation import Derivation, from_json, to_json
+from derive.errata import Erratum
 from derive.manifest import digest, package_version
 from derive.output import write
 from derive.problem import Problem
@@ -50,7 +51,7 @@ def recalled(file: Path, key: str) -> Solved | None:
             return None
         kept = json.loads(sealed["steps"])
         values = from_json(kept["values"])
-        told = tuple(Told(facts, here) for facts, here in kept["compared"])
+        told = tuple(Told(f, here, Erratum.decoded(e) if e else None) for f, here, e in kept["compared"])
         return Solved(from_json(kept["derivation"]), dict(zip(kept["answers"], values.steps, strict=True)), told)
     except (OSError, ValueError, KeyError, TypeError):
         return None
@@ -61,7 +62,7 @@ def keep(file: Path, key: str, solved: Solved) -> None:
         "derivation": to_json(solved.derivation),
         "answers": list(solved.values),
         "values": to_json(Derivation(tuple(solved.values.values()), ())),
-        "compared": [[told.facts, told.here] for told in solved.compared],
+        "compared": [[t.facts, t.here, t.erratum and t.erratum.encoded()] for t in solved.compared],
     }
     steps = json.dumps(kept)
     write(file, json.dumps({"key": key, "seal": digest(key, steps), "steps": steps}))

@@ -87,6 +87,10 @@ def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
     return "".join(problem_document(root, problem, set_id) for problem in problems)
 
 
+def sheet_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
+    return "".join(f"questions of {problem.id}\n" for problem in problems)
+
+
 class Course:
     """A root with one set `hw1` of problems `one` and `two`."""
 
@@ -141,9 +145,11 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 
 def replace_derivation(monkeypatch: Any) -> None:
-    """Put the stand-in where `derive.solution` is imported from."""
-    fake = ModuleType("derive.solution")
-    for function in (rendered, headline, problem_document, set_document):
-        setattr(fake, function.__name__, function)
-    monkeypatch.setitem(sys.modules, "derive.solution", fake)
-    monkeypatch.setattr(derive, "solution", fake, raising=False)
+    """Put the stand-ins where `derive.solution` and `derive.set_document` are imported from."""
+    modules = {"solution": (rendered, headline), "set_document": (problem_document, set_document, sheet_document)}
+    for name, functions in modules.items():
+        fake = ModuleType(f"derive.{name}")
+        for function in functions:
+            setattr(fake, function.__name__, function)
+        monkeypatch.setitem(sys.modules, fake.__name__, fake)
+        monkeypatch.setattr(derive, name, fake, raising=False)

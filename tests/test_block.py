@@ -226,7 +226,7 @@ def test_a_reworded_sentence_is_used_and_its_names_are_filled(tmp_path: Path) ->
     solution = solved(tmp_path, {"parts:\n": wording})
     assert "The shaft must turn L⃗ round, so" in solution.text
     assert "Take torques about the centre" not in solution.text
-    assert "τ⃗ = dL⃗/(dt)" in solution.text
+    assert "τ⃗ = dL⃗/dt" in solution.text
 
 
 def test_wording_can_speak_to_one_outcome_only(tmp_path: Path) -> None:

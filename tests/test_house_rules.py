@@ -32,11 +32,25 @@ LAYERS = (
     ("expressions", "exact", "evidence", "tidy", "rounding"),
     ("step", "derivation", "encoding", "homogeneity", "numbers"),
     ("mechanics",),
-    ("source", "units", "reading", "prose", "schema", "parts", "script", "given", "problem", "stated", "reference"),
-    ("wording", "document"),
+    (
+        "source",
+        "units",
+        "reading",
+        "prose",
+        "schema",
+        "parts",
+        "script",
+        "given",
+        "problem",
+        "stated",
+        "errata",
+        "reference",
+    ),
+    ("wording", "references", "checks", "document"),
     ("output", "render"),
     (
         "solution",
+        "set_document",
         "stored",
         "manifest",
         "workers",
@@ -240,6 +254,19 @@ def written_outcomes(module: str, call: ast.Call) -> set[str]:
     return found
 
 
+def documented_outcomes(module: str, call: ast.Call) -> set[str]:
+    """The outcomes that the docstring of the verb names, without what it says of them in brackets."""
+    functions = [n for n in TREES[module].body if isinstance(n, ast.FunctionDef)]
+    verb = next((n for n in functions if n.lineno <= call.lineno <= (n.end_lineno or 0)), None)
+    told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", (verb and ast.get_docstring(verb)) or "", re.DOTALL)
+    listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
+    return {
+        word.strip(" `.\n")
+        for word in re.split(r"[,:;]|\band\b", listed)
+        if re.fullmatch(r"[\s`]*[a-z_]+[\s`.]*", word)
+    }
+
+
 def reached_outcomes() -> dict[str, set[str]]:
     """The outcomes that the variants of the block reach, by rule."""
     found: dict[str, set[str]] = {}
@@ -255,7 +282,9 @@ def test_every_rule_has_a_phrase_for_each_outcome() -> None:
     missing = {
         (rule, outcome)
         for module, rule, call in establishing_calls()
-        for outcome in written_outcomes(module, call) | reached_outcomes().get(rule, set())
+        for outcome in written_outcomes(module, call)
+        | documented_outcomes(module, call)
+        | reached_outcomes().get(rule, set())
         if outcome not in WORDS.rules.get(rule, {})
     }
     assert missing <= impossible
@@ -265,7 +294,7 @@ def test_every_rule_has_a_phrase_for_each_outcome() -> None:
 def test_no_phrase_is_for_an_outcome_that_cannot_be() -> None:
     possible = {rule: set(outcomes) for rule, outcomes in reached_outcomes().items()}
     for module, rule, call in establishing_calls():
-        possible.setdefault(rule, set()).update(written_outcomes(module, call))
+        possible.setdefault(rule, set()).update(written_outcomes(module, call), documented_outcomes(module, call))
     spare = {(rule, outcome) for rule, told in WORDS.rules.items() for outcome in told if outcome not in possible[rule]}
     assert spare == set()
 

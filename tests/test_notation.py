@@ -116,7 +116,7 @@ PINNED = [
     (ex.Dot(w, ex.applied(I, w)), r"\bm{\omega}\cdot \mathbf{I}\bm{\omega}", "ω⃗·I ω⃗"),
     (ex.Cross(w, L), r"\bm{\omega}\times \bm{L}", "ω⃗ × L⃗"),
     (ex.Norm(L), r"\lvert \bm{L}\rvert ", "|L⃗|"),
-    (ex.CarriedRate(L, w), r"\frac{d\bm{L}}{dt}", "dL⃗/(dt)"),
+    (ex.CarriedRate(L, w), r"\frac{d\bm{L}}{dt}", "dL⃗/dt"),
     (ex.column(0, 0, 0), r"\bm{0}", "0"),
     # as written
     (ex.Factors(a, 3 * a), r"a\cdot 3a", "a·3a"),

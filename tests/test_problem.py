@@ -233,7 +233,7 @@ def test_a_fault_of_the_script_is_told_with_those_of_the_problem(tmp_path: Path)
     [
         (("parts:\n", "parts: none\nparty:\n"), "unknown-key"),
         (("  - ask: Find the inertia tensor about the centre.\n", "  - \n"), "missing-key"),
-        (("answer: angle_between", "answer: []"), "wrong-type"),
+        (("answer: angle_between", "answer: []"), "missing-value"),
         (("answer: [torque, magnitude]", "answer: [magnitude, magnitude]"), "duplicate-answer"),
         (("form: {magnitude: {unit: N m}}", "form: {torq: {unit: N m}}"), "unknown-key"),
         (("form: {magnitude: {unit: N m}}", "form: {magnitude: {}, torque: N m}"), "wrong-type"),

@@ -16,8 +16,8 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
     return by_rates(value, moving, 2)
 
 
-def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1) -> Expr:
-    """The terms gathered by the rates that they contain, highest rates first."""
+def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
+    """The terms gathered by the rates that they contain, highest rates first; `halves` writes (1/2)(...) q_dot^2."""
     orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
     present = [s for s in orders if value.has(s)]
     value = value.expand()
@@ -30,7 +30,9 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1) -> Expr:
     if gathered is None:
         return tidied(value)
     terms = sorted(gathered.terms(), key=lambda term: term[0], reverse=True)
-    parts = [_with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n]) for powers, c in terms]
+    parts = [
+        _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves) for powers, c in terms
+    ]
     return Add(*parts, evaluate=len(parts) < 2)
 
 
@@ -55,9 +57,9 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
     return Add(*parts)
 
 
-def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]]) -> Expr:
+def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
-    if any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
+    if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
         return Mul(Rational(1, 2), spread(2 * coefficient), *(s**n for s, n in rates), evaluate=False)
     return Mul(spread(coefficient), *(s**n for s, n in rates))
 

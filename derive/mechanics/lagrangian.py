@@ -61,7 +61,7 @@ def plane_kinetic_energy(
         inputs,
         put_in=Level.STANDARD,
         routes={"mass_points": compared_with(matter.kinetic_energy)},
-        arranged=lambda value: by_rates(value, list(coordinates)),
+        arranged=lambda value: by_rates(value, list(coordinates), halves=True),
         outcome="turning" if turning else "particle",
         key=key,
         kind="energy",

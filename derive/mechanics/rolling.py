@@ -47,8 +47,8 @@ def rolled_centre(
         return establish(
             "rolling.rolled_centre",
             scalar(name),
-            lambda: values[name],
-            {},
+            lambda *_: values[name],
+            {"angle": q, "arc": radius * q, "above": explicit(above)},
             put_in=None,
             law_shown=Level.BRIEF,
             show_result=False,
@@ -58,6 +58,7 @@ def rolled_centre(
             },
             outcome="across" if name == name_x else "up",
             arranged=explicit,
+            context={"contact": tuple(contact.values())},
             key=name,
             kind="length",
             coordinates=angle.letters,

@@ -90,6 +90,17 @@ class _PlainSymPy(StrPrinter):
     def _print_Partial(self, expr: Any) -> str:
         return f"Derivative({', '.join(self._print(arg) for arg in expr.args)})"
 
+    def _print_Slope(self, expr: Any) -> str:
+        f, x, order = (self._print(arg) for arg in expr.args)
+        return f"Derivative({f}, ({x}, {order}))"
+
+    def _print_At(self, expr: Any) -> str:
+        f, x, place = (self._print(arg) for arg in expr.args)
+        return f"Subs({f}, {x}, {place})"
+
+    def _print_Truncated(self, expr: Any) -> str:
+        return str(self._print(expr.args[0]))
+
     def _print_TimeRate(self, expr: Any) -> str:
         return f"Derivative({self._print(expr.args[0])}, t)"
 

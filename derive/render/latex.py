@@ -12,6 +12,7 @@ from derive.render.layout import (
     GREEK,
     Applied,
     Array,
+    Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
@@ -45,6 +46,10 @@ MARKS = {
     "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",
+    "open": r"\Bigl(",
+    "close": r"\Bigr)",
+    "start": "",
+    "on": r"\qquad ",
 }
 
 
@@ -87,6 +92,8 @@ class _Printer:
             case Limits(inside, lower, upper):
                 bounds = f"_{{{self.show(lower)}}}^{{{self.show(upper)}}}"
                 return rf"\mathopen{{}}\left[{self.show(inside)}\right]{bounds}"
+            case Evaluated(inside, where):
+                return rf"\left.{self.show(inside)}\right|_{{{self.show(where)}}}"
             case IntegralSign(lower, upper):
                 if lower is None or upper is None:
                     return r"\int "
@@ -143,7 +150,7 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
     match layout:
         case Fraction():
             return not inline
-        case Array() | Limits():
+        case Array() | Limits() | Evaluated():
             return True
         case IntegralSign():
             return not inline

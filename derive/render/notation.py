@@ -6,7 +6,6 @@ that depends on the problem, the dimensions of its letters, which decide their o
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -42,6 +41,7 @@ from derive.render.layout import (
     SPACE,
     Applied,
     Array,
+    Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
@@ -56,6 +56,7 @@ from derive.render.layout import (
     Row,
     Word,
     is_enclosed,
+    named,
     row,
 )
 from derive.render.products import (
@@ -67,6 +68,7 @@ from derive.render.products import (
     positive_first,
     rank_of_dimension,
     root_cancelled,
+    roots_together,
     side_by_side,
     sign_and_size,
 )
@@ -157,6 +159,9 @@ class Notation:
         negative, size = sign_and_size(expr)
         if negative:
             return row(MINUS, self._within_sum(size))
+        under_one_root = roots_together(size)
+        if under_one_root is not None:
+            size = under_one_root
         above, below = fraction(size)
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
@@ -225,7 +230,7 @@ class Notation:
             name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
             return Applied(name, self._argument(base), Number(str(exponent)))
         inner = self.layout(base)
-        atomic = isinstance(inner, Name | Number) and not (isinstance(inner, Name) and inner.dots) or is_enclosed(inner)
+        atomic = isinstance(inner, Name | Number) or is_enclosed(inner)
         return Raised(inner if atomic else Fenced(inner), self.layout(exponent))
 
     def _rational(self, expr: Rational) -> Layout:
@@ -331,6 +336,21 @@ class Notation:
         behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
         return row(Fraction(Word(sign), below), SPACE, behind)
 
+    def _slope(self, expr: ex.Slope) -> Layout:
+        """U'(x) is written dU/dx, and so on."""
+        f, x, order = expr.args
+        times = [] if order == 1 else [Number(str(order))]
+        d = Raised(Word("d"), times[0]) if times else Word("d")
+        by = Raised(self.layout(x), times[0]) if times else self.layout(x)
+        inner = self.layout(f)
+        if isinstance(inner, Name):
+            return Fraction(row(d, inner), row(Word("d"), by))
+        return row(Fraction(d, row(Word("d"), by)), SPACE, Fenced(inner))
+
+    def _at(self, expr: ex.At) -> Layout:
+        f, x, place = expr.args
+        return Evaluated(self.layout(f), row(self.layout(x), Mark("equals"), self.layout(place)))
+
     def _relation(self, expr: ex.Relation) -> Layout:
         left, right = (self.side(side) for side in expr.sides)
         return row(left, Mark(expr.word), right)
@@ -429,16 +449,8 @@ class Notation:
         (Identity, _identity),
         (ex.Partial, _partial),
         (ex.TimeRate, _time_rate),
+        (ex.Slope, _slope),
+        (ex.At, _at),
+        (ex.Truncated, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
     )
-
-
-def named(name: str) -> Name:
-    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots."""
-    match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
-    if not match:
-        return Name(name)
-    sub, dots = match["sub"] or "", match["dots"]
-    if not dots and re.fullmatch(r"d*dot", sub):
-        sub, dots = "", sub
-    return Name(match["base"], sub, dots.count("d") if dots else 0)

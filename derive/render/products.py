@@ -125,6 +125,16 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
     return (content, rest) if content.is_Integer else (factor,)
 
 
+def roots_together(expr: Expr) -> Expr | None:
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction; nothing for a single root, or for roots of numbers."""
+    factors = Mul.make_args(expr)
+    roots = [f for f in factors if isinstance(f, Pow) and abs(f.exp) == Rational(1, 2)]
+    if len(roots) < 2 or not any(root.free_symbols for root in roots):
+        return None
+    inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
+    return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
+
+
 def rank_of_dimension(dimension: Dimension | None) -> int:
     """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:

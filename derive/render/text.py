@@ -8,6 +8,7 @@ from derive.render.layout import (
     GREEK,
     Applied,
     Array,
+    Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
@@ -40,8 +41,12 @@ MARKS = {
     "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",
+    "open": "(",
+    "close": ")",
+    "start": "",
+    "on": "    ",
 }
-UNITS = {"degree": "°", "deg": "°"}
+UNITS = {"degree": "°", "deg": "°", "partial": "∂"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
 
@@ -104,7 +109,8 @@ def _line(layout: Layout) -> str:
         case Raised(base, power):
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
-            return _line(base) + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+            letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
+            return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
         case Lowered(base, word):
             return f"{plain(base)}_{word}"
         case RootSign(inside):
@@ -112,6 +118,8 @@ def _line(layout: Layout) -> str:
             return f"√{inner}" if isinstance(inside, Number | Name) else f"√({inner})"
         case Limits(inside, lower, upper):
             return f"[{plain(inside)}]({plain(lower)}..{plain(upper)})"
+        case Evaluated(inside, where):
+            return f"{plain(inside)}|({plain(where)})"
         case IntegralSign(lower, upper):
             return "∫ " if lower is None or upper is None else f"∫({plain(lower)}..{plain(upper)}) "
         case Applied(name, argument, power):
@@ -127,12 +135,6 @@ def _tight(layout: Layout, *, is_above: bool = False) -> str:
     simple = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied) or _is_differential(layout)
     product = is_above and isinstance(layout, Row) and not any(isinstance(item, Mark) for item in layout.items)
     return text if simple or product else f"({text})"
-
-
-def _is_differential(layout: Layout) -> bool:
-    """The d of d/dt, and the dt."""
-    first = layout.items[0] if isinstance(layout, Row) else layout
-    return first in (Word("d"), Word("partial"))
 
 
 def _row(items: tuple[Layout, ...]) -> Box:
@@ -154,11 +156,23 @@ def _needs_space(before: Layout, item: Layout) -> bool:
         return False
     if item in (Word("degree"), Word("deg")):
         return False
-    if before == Word("d"):
+    if _is_sign_of_change(before):
         return False
     if isinstance(before, Number):
         return isinstance(item, Word | Array) or begins_with_number(item)
     return True
+
+
+def _is_sign_of_change(layout: Layout) -> bool:
+    """d, d^2 or a curly d."""
+    sign = layout.base if isinstance(layout, Raised) else layout
+    return sign in (Word("d"), Word("partial"))
+
+
+def _is_differential(layout: Layout) -> bool:
+    """d or dx, which need no brackets above or below a stroke."""
+    first = layout.items[0] if isinstance(layout, Row) else layout
+    return _is_sign_of_change(first)
 
 
 def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:
