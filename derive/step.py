@@ -28,7 +28,6 @@ from derive.exact import vanishes
 from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
 
-
 BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
 
 
