@@ -410,7 +410,7 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         if isinstance(block, Display) and isinstance(following, Paragraph):
             first = following.nodes[0]
-            if isinstance(first, Text) and first.text[:1].islower():
+            if isinstance(first, Text) and first.text.lstrip()[:1].islower():
                 block = replace(block, end=",")
         result.append(block)
     return tuple(result)

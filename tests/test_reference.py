@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -425,13 +426,17 @@ def test_a_problem_without_references_agrees(tmp_path: Path) -> None:
     assert "problems/hw9/reference.yaml" in solution.inputs
 
 
-def test_the_homework_agrees_but_for_its_erratum(tmp_path: Path) -> None:
-    """The document's own file, with the problem as the tests know it."""
-    root = course_in(tmp_path)
+@pytest.mark.parametrize(("problem", "errata", "at_least"), [("block", 1, 60), ("euler", 2, 15)])
+def test_the_homework_agrees_but_for_its_errata(problem: str, errata: int, at_least: int, tmp_path: Path) -> None:
+    """What the document's own file states about a problem, with the problem as the tests know it."""
+    root = course_in(tmp_path, problem=problem)
     document = (ROOT / "problems" / "hw9" / "reference.yaml").read_text(encoding="utf-8")
-    (root / "problems" / "hw9" / "reference.yaml").write_text(document, encoding="utf-8")
-    found = json.loads(rendered(root, "hw9/block").json)["reference"]
+    own = [
+        group for group in re.split(r"(?m)^(?=- problem: )", document) if group.startswith(f"- problem: {problem}\n")
+    ]
+    (root / "problems" / "hw9" / "reference.yaml").write_text("".join(own), encoding="utf-8")
+    found = json.loads(rendered(root, f"hw9/{problem}").json)["reference"]
     outcomes = [entry["outcome"] for entry in found]
-    assert outcomes.count("erratum") == 1
+    assert outcomes.count("erratum") == errata
     assert {outcome.split(" to ")[0] for outcome in outcomes} == {"agrees", "erratum"}
-    assert len(found) > 90
+    assert len(found) > at_least
