@@ -53,7 +53,7 @@ LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 ENGINE = {name for name in MODULES if LAYER[name.partition(".")[0]] <= 3}
 PRINTING = {"cli", "commands", "terminal", "doctor", "bootstrap"}
 DEFINITIONS = {"any_angular_velocity", "let", "axis_vector"}
-VERB_MODULES = ("bodies", "composed", "equations", "inertia", "principal", "rotation", "solids")
+VERB_MODULES = ("bodies", "composed", "equations", "inertia", "principal", "rotation", "solids", "special_cases")
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
 

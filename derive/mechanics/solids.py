@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, pi, sin, sqrt
 
-from derive.expressions import Factors, Group, Ratio, Terms, column
+from derive.expressions import Factors, column
 from derive.mechanics.bodies import Body, Particles
 from derive.mechanics.integration import worked_integral
 from derive.mechanics.regions import COORDINATES, Point, Region, solid_of_revolution
@@ -219,9 +219,9 @@ def _section_radius(body: Cone, point: Point, region: Region) -> Quantity:
     return establish(
         "bodies.section_radius",
         symbol,
-        lambda R, h, along: Ratio(Factors(R, _from_tip(tip, along, direction)), h),
+        lambda R, h, along: R * _from_tip(tip, along, direction) / h,
         {"radius": body.radius, "height": body.height, "coordinate": z},
-        routes={"limits": lambda r: (r, value), "straight": lambda r: _on_one_line(body, point, z, r)},
+        routes={"straight": lambda r: _on_one_line(body, point, z, r), "limits": lambda r: (r, value)},
         kind="length",
         put_in=None,
         coordinates={z: "length"},
@@ -231,10 +231,8 @@ def _section_radius(body: Cone, point: Point, region: Region) -> Quantity:
 
 
 def _from_tip(tip: Expr, z: Expr, direction: Expr) -> Expr:
-    """The distance from the tip along the axis, as it is written: h - z."""
-    if tip == 0:
-        return z
-    return Group(Terms(tip, -z)) if direction == -1 else Group(Terms(z, -tip))
+    """The distance from the tip along the axis: h - z seen from the base."""
+    return direction * (z - tip)
 
 
 def _on_one_line(body: Cone, point: Point, z: Expr, r: Expr) -> tuple[Expr, Expr]:
