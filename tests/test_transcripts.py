@@ -24,6 +24,10 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         {"[a, 2*a, 3*a]": "[2 cm, 4 cm, 6 cm]", "mass: M\n": "mass: 1.5 kg\n", "rate: omega": "rate: 900 rpm"},
         None,
     ),
+    "cone": ({}, None),
+    "cone-brief": ({}, "brief"),
+    "cone-isotropic": ({"height: h": "height: 2*R"}, None),
+    "cone-numbers": ({"radius: R": "radius: 4 cm", "height: h": "height: 10 cm", "mass: M": "mass: 300 g"}, "brief"),
 }
 
 

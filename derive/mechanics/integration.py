@@ -214,7 +214,9 @@ def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
         Form(Factors(front, Integral(_sum(discs), z_limit)), "discs", Level.STANDARD),
         _line(front, split, Nested.written, "section", Level.STANDARD),
         _line(front, split, _with_power_bracket, "antiderivative", Level.STANDARD),
-        Form(_times(front, [Mul(*(_one_further(part) for part in term)) for term in split]), "multiplied"),
+        Form(
+            _times(front, [Mul(*(_one_further(part) for part in term)) for term in split]), "multiplied", Level.STANDARD
+        ),
     ]
 
 

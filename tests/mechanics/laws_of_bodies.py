@@ -73,7 +73,13 @@ LAWS: list[tuple[str, str, str, str, str]] = [
     ("inertia_tensor of a cone", INERTIA, "(1, 1): at[(0, 0)]", "(1, 1): at[(2, 2)]", "apex_tensor"),
     ("inertia_tensor of a cone", REGIONS, "chord = sqrt(r**2", "chord = sqrt(4 * r**2", "base_tensor_xx"),
     ("inertia_tensor of a cone", REGIONS, "(y, -r - b, r - b)", "(y, -b, r - b)", "base_tensor_xx"),
-    ("inertia_tensor of a cone", REGIONS, "[2] + self.axes[2, 2] * z", "[2] - self.axes[2, 2] * z", "section_radius"),
+    (
+        "inertia_tensor of a cone",
+        REGIONS,
+        "[2] + self.axes[2, 2] * z",
+        "[2] - self.axes[2, 2] * z",
+        "inertia_tensor_xx",
+    ),
     (
         "inertia_tensor of a cone",
         INTEGRATION,
@@ -220,7 +226,7 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         "isotropic_where",
         CASES,
         "moments.value[k] / _letters_only(plain)",
-        "moments.value[k] ** 2 / _letters_only(plain)",
+        "(k + 1) * moments.value[k] / _letters_only(plain)",
         "special_case",
     ),
     (
