@@ -28,6 +28,11 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
     "cone-brief": ({}, "brief"),
     "cone-isotropic": ({"height: h": "height: 2*R"}, None),
     "cone-numbers": ({"radius: R": "radius: 4 cm", "height: h": "height: 10 cm", "mass: M": "mass: 300 g"}, "brief"),
+    "euler": ({}, None),
+    "euler-full": ({}, "full"),
+    "euler-symmetric": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_z]"}, None),
+    "euler-isotropic": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_x]"}, None),
+    "euler-numbers": ({"moments: [I_x, I_y, I_z]": "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"}, None),
 }
 
 

@@ -11,6 +11,7 @@ from derive.mechanics.composed import (
     transverse_moment,
 )
 from derive.mechanics.conditions import boundary_case, positive_where
+from derive.mechanics.conservation import rate_under
 from derive.mechanics.constraints import (
     Tie,
     contact_forces,
@@ -21,8 +22,17 @@ from derive.mechanics.constraints import (
     tie,
 )
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
+from derive.mechanics.cyclic import conserved_momentum
 from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude
+from derive.mechanics.equations import at, let, magnitude, squared_magnitude
+from derive.mechanics.free_rotation import (
+    RigidBody,
+    changing_angular_velocity,
+    euler_equations,
+    principal_tensor,
+    rate_in_body,
+    rate_in_space,
+)
 from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
@@ -35,7 +45,15 @@ from derive.mechanics.lagrangian import (
 )
 from derive.mechanics.oscillations import frequency, frequency_squared, linearised
 from derive.mechanics.potentials import curvature_at, leading_order, slope
+from derive.mechanics.precession import (
+    no_steady_precession,
+    precession_condition,
+    precession_rates,
+    steady_precession,
+    steady_rates,
+)
 from derive.mechanics.principal import principal_axes, principal_moments
+from derive.mechanics.quadratics import discriminant, roots_of
 from derive.mechanics.rolling import rolled_centre
 from derive.mechanics.rotation import (
     angle_between,
@@ -49,6 +67,16 @@ from derive.mechanics.rotation import (
 from derive.mechanics.solids import Ball, Cone, Cylinder, volume
 from derive.mechanics.special_cases import isotropic_where
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
+from derive.mechanics.tops import (
+    EulerAngles,
+    Top,
+    centre_height,
+    constant_spin,
+    euler_angles,
+    tilt_equation,
+    top_kinetic_energy,
+    turning_rate,
+)
 
 __all__ = [
     "Ball",
@@ -59,11 +87,14 @@ __all__ = [
     "Cylinder",
     "Direction",
     "Disc",
+    "EulerAngles",
     "Hoop",
     "Part",
     "Plate",
+    "RigidBody",
     "Rod",
     "Tie",
+    "Top",
     "agreement",
     "angle_between",
     "angular_momentum",
@@ -72,14 +103,21 @@ __all__ = [
     "axial_moment",
     "boundary_case",
     "centre_distance",
+    "centre_height",
     "centre_of_mass",
+    "changing_angular_velocity",
+    "conserved_momentum",
+    "constant_spin",
     "contact_forces",
     "coordinate",
     "cosine_between",
     "curvature_at",
     "density",
+    "discriminant",
     "equation_of_motion",
     "equation_with_multipliers",
+    "euler_angles",
+    "euler_equations",
     "force_of_constraint",
     "free_lagrangian",
     "frequency",
@@ -97,19 +135,33 @@ __all__ = [
     "momentum_rate",
     "moved_to",
     "multipliers_eliminated",
+    "no_steady_precession",
     "part_moment",
     "plane_kinetic_energy",
     "positive_where",
+    "precession_condition",
+    "precession_rates",
     "principal_axes",
     "principal_moments",
+    "principal_tensor",
+    "rate_in_body",
+    "rate_in_space",
     "rate_of",
+    "rate_under",
     "rolled_centre",
+    "roots_of",
     "slope",
     "spin",
+    "squared_magnitude",
+    "steady_precession",
+    "steady_rates",
     "tie",
+    "tilt_equation",
+    "top_kinetic_energy",
     "torque",
     "total_mass",
     "transverse_moment",
+    "turning_rate",
     "volume",
     "weight_energy",
 ]

@@ -30,7 +30,7 @@ Verbs = SimpleNamespace
 BODIES, INERTIA, ROTATION = "mechanics.bodies", "mechanics.inertia", "mechanics.rotation"
 EQUATIONS, INTEGRATION, NUMBERS = "mechanics.equations", "mechanics.integration", "numbers"
 REGIONS = "mechanics.regions"
-DEFINITIONS = {"any_angular_velocity", "let"}
+DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let"}
 
 
 def block_of(verbs: Verbs) -> Any:
@@ -205,7 +205,7 @@ LAWS = [
     ("magnitude", EQUATIONS, "squares = [entry**2 for", "squares = [entry**4 for", "magnitude"),
     ("magnitude", EQUATIONS, "Factors(size, Root", "Factors(size**2, Root", "magnitude"),
     # numbers
-    ("value_of", NUMBERS, "lambda: substituted,", "lambda: substituted**2,", "magnitude_value"),
+    ("value_of", NUMBERS, "lambda: within(substituted),", "lambda: within(substituted**2),", "magnitude_value"),
     ("value_of", NUMBERS, "{letter: amounts[letter] for", "{letter: amounts[letter].args[0] for", "magnitude_value"),
     (
         "value_of",
@@ -268,7 +268,7 @@ ROUTES = [
         "kinetic_energy_at_spin",
     ),
     ("magnitude", EQUATIONS, "length_by_turning(of.value)", "length_by_turning(2 * of.value)", "magnitude"),
-    ("value_of", NUMBERS, "_by_floats(answer.value, letters", "_by_floats(answer.value**2, letters", "magnitude_value"),
+    ("value_of", NUMBERS, "_by_floats(value, letters", "_by_floats(value**2, letters", "magnitude_value"),
     (
         "coefficient_of",
         NUMBERS,
