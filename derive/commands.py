@@ -20,6 +20,7 @@ from derive.terminal import complain, table, tell
 
 if TYPE_CHECKING:
     from derive.build import Report
+    from derive.drawn import Files
     from derive.solution import Rendered
     from derive.workers import Outcome
 
@@ -110,12 +111,13 @@ def _solve(arguments: argparse.Namespace) -> int:
 
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     with _waiting(f"deriving {problem_id}"):
-        work = partial(rendered, root, problem_id, arguments.detail)
+        draws = arguments.format == "pdf"
+        work = partial(rendered, root, problem_id, arguments.detail, draws=draws)
         solved: Rendered = done(Job(f"`{problem_id}`", work, limit))
     complain(solved.warnings)
     set_id = problem_id.partition("/")[0]
     if arguments.format == "pdf":
-        return _solve_pdf(arguments, root, problem_id, problem_document(root, solved, set_id))
+        return _solve_pdf(arguments, root, problem_id, problem_document(root, solved, set_id), solved.files)
     text = solved.text if arguments.format == "text" else solved.json
     if arguments.format == "latex":
         text = problem_document(root, solved, set_id)
@@ -123,7 +125,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str) -> int:
+def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
     from tempfile import TemporaryDirectory
 
     from derive.build import set_folder
@@ -137,7 +139,7 @@ def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: 
     outputs = set_folder(root, set_id)
     with _waiting(f"typesetting {problem_id}"), TemporaryDirectory() as folder:
         target = Path(folder) / f"{name}.pdf"
-        work = partial(typeset, tex, target, engine, timeout=limit, log=outputs / "log")
+        work = partial(typeset, tex, target, engine, timeout=limit, log=outputs / "log", beside=files)
         done(Job(f"the pages of `{problem_id}`", work, limit + 10))
         pdf = target.read_bytes()
     output = arguments.output or str(outputs / f"{name}{suffix}.pdf")

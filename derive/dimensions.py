@@ -49,6 +49,8 @@ _KINDS: dict[str, tuple[Dimension, str, str]] = {
     "area": (_dimension(0, 2, 0), "m^2", "an area"),
     "volume": (_dimension(0, 3, 0), "m^3", "a volume"),
     "density": (_dimension(1, -3, 0), "kg/m^3", "a density"),
+    "surface density": (_dimension(1, -2, 0), "kg/m^2", "a surface density"),
+    "line density": (_dimension(1, -1, 0), "kg/m", "a line density"),
     "speed": (_dimension(0, 1, -1), "m/s", "a speed"),
     "acceleration": (_dimension(0, 1, -2), "m/s^2", "an acceleration"),
     "angular speed": (_dimension(0, 0, -1), "rad/s", "an angular speed"),

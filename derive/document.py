@@ -13,18 +13,20 @@ from typing import Any
 from sympy import preorder_traversal
 
 from derive.checks import Checks, checks_of
+from derive.depiction import caption_numbers, depictions
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
 from derive.evidence import Grade
 from derive.expressions import Amount, Relation, Truncated
+from derive.figures.marks import Recorded
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
 from derive.reference import Told
 from derive.references import References, found_before
 from derive.source import did_you_mean
-from derive.step import Form, Level, Step
+from derive.step import NUMBERS, Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
@@ -98,13 +100,16 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Answer:
-    """A boxed result: symbol = exact value, and its rounded value if it has one; a note where symbols are alike."""
+    """A boxed result: symbol = exact value, or another relation between them; its numbers, each after its sign.
+
+    There is a note where the symbols of several answers are alike.
+    """
 
     key: str
     symbol: Any
     value: Any
-    rounded: Any | None
-    relation: str = "approx"
+    relation: str = "equals"
+    numbers: tuple[tuple[str, Any], ...] = ()
     note: tuple[Node, ...] = ()
 
 
@@ -113,7 +118,19 @@ class Answers:
     answers: tuple[Answer, ...]
 
 
-Block = Paragraph | Display | Answers
+@dataclass(frozen=True)
+class Illustration:
+    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+
+    key: str
+    stem: str
+    alt: tuple[Node, ...]
+    number: int | None
+    caption: tuple[Node, ...]
+    at: str
+
+
+Block = Paragraph | Display | Answers | Illustration
 
 
 @dataclass(frozen=True)
@@ -132,6 +149,7 @@ class Document:
     title: tuple[Node, ...]
     points: Fraction | None
     statement: tuple[Node, ...]
+    illustrations: tuple[Illustration, ...]
     parts: tuple[PartPage, ...]
     checks: Checks
     closing: tuple[Node, ...]
@@ -150,12 +168,13 @@ def document_of(
     level: Level,
     compared: Sequence[Told] = (),
     others: Mapping[str, int] | None = None,
+    drawings: Sequence[Recorded] = (),
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
 
     `others` are the numbers of the set's problems, to which prose may refer.
     """
-    writer = _Writer(problem, derivation, values, words, level, others or {})
+    writer = _Writer(problem, derivation, values, words, level, others or {}, drawings)
     return writer.document([c for c in compared if c.here]), writer.faults
 
 
@@ -170,8 +189,10 @@ class _Writer:
         words: Phrases,
         level: Level,
         others: Mapping[str, int],
+        drawings: Sequence[Recorded],
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
+        self.drawings = drawings
         self.numbers: dict[str, int] = {}
         self.shown_in: dict[str, str] = {}
         every = [*derivation.steps, *values.values()]
@@ -191,7 +212,8 @@ class _Writer:
         title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)
         statement = self._told(problem.statement.pieces)
-        parts = tuple(self._part(i, part) for i, part in enumerate(problem.parts))
+        illustrations = self._illustrations()
+        parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
         self.references.check(self.numbers, self.symbols)
         checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
         self._check_keys("wording", problem.wording)
@@ -201,6 +223,7 @@ class _Writer:
             title=title,
             points=problem.points,
             statement=statement,
+            illustrations=tuple(illustrations),
             parts=parts,
             checks=checks,
             closing=checks.closing(self.words),
@@ -220,6 +243,8 @@ class _Writer:
         names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
+        for key, number in caption_numbers(self.problem, self.drawings, self.derivation).items():
+            names.setdefault(key, Text(f"{self.words.labels['figure']} {number}"))
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
@@ -242,9 +267,17 @@ class _Writer:
                     Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line)
                 )
 
+    # --- drawings ---
+
+    def _illustrations(self) -> list[Illustration]:
+        found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
+        self.faults += faults
+        stem = self.problem.id.rpartition("/")[2]
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at) for d in found]
+
     # --- parts ---
 
-    def _part(self, index: int, part: Part) -> PartPage:
+    def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
         blocks: list[Block] = self._found_before(part)
         for key in self.derivation.parts[index]:
@@ -254,6 +287,7 @@ class _Writer:
         for i, value in enumerate(v for v in values if v.outcome == "measured"):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
+        blocks.extend(illustration for illustration in illustrations if illustration.at == label)
         return PartPage(label, self._told(part.ask.pieces), part.points, _punctuated(blocks))
 
     def _found_before(self, part: Part) -> list[Block]:
@@ -268,16 +302,13 @@ class _Writer:
     def _answer(self, key: str) -> Answer:
         step = self.derivation.step(key)
         value = self.values.get(key)
-        rounded = None
-        if value is not None:
-            rounded = value.chain[-1].expr
+        forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
+        numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
         if isinstance(step.result, Truncated):
-            return Answer(key, step.symbol, step.result, None, "approx")
+            return Answer(key, step.symbol, step.result, "approx")
         if isinstance(step.result, Relation):
-            return Answer(key, step.result.left, step.result.right, None, step.result.word)
-        relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        relation = relation if rounded is not None else "equals"
-        return Answer(key, step.symbol, step.result, rounded, relation, self.notes.get(key, ()))
+            return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
+        return Answer(key, step.symbol, step.result, "equals", numbers, self.notes.get(key, ()))
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
@@ -328,11 +359,13 @@ class _Writer:
         stands_alone = before is None and not isinstance(form.expr, Relation)
         template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, template)
+        if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
+            return Line(None, _sign_before(form), form.expr.right, reason)
         if isinstance(form.expr, Relation):
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation="approx" if form.because in {"rounded", "series"} else "equals",
+            relation=_sign_before(form),
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
@@ -361,6 +394,14 @@ class _Writer:
 
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
+
+
+def _sign_before(form: Form) -> str:
+    return "approx" if form.because in {"rounded", "series"} else "equals"
+
+
+def _right_side(value: Any) -> Any:
+    return value.right if isinstance(value, Relation) else value
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

@@ -26,10 +26,13 @@ from sympy import (
     Symbol,
     Tuple,
     diff,
+    nan,
     sqrt,
 )
 from sympy.core.symbol import Str
 from sympy.matrices import ImmutableMatrix
+
+from derive.integrals import definite, has_root
 
 Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has no common type for them
 
@@ -421,14 +424,17 @@ def _carried_out(expr: Basic) -> Value:
 
 
 def _definite(integral: Integral) -> Expr:
-    """A definite integral; powers are integrated as powers, for which SymPy's integrator is slow."""
-    value = explicit(integral.function)
-    for x, lower, upper in integral.limits:
-        terms = [term.as_coeff_exponent(x) for term in Add.make_args(value.expand())]
-        if not all(n.is_Integer and n >= 0 and not c.has(x) for c, n in terms):
-            return integral.doit()
-        value = Add(*(c * (upper ** (n + 1) - lower ** (n + 1)) / (n + 1) for c, n in terms))
-    return value.expand()
+    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy.
+
+    An integral over a root of its variable that is of no such kind is left undefined, which equals nothing: there
+    SymPy may be wrong, or not come back.
+    """
+    integrand = explicit(integral.function)
+    value = definite(integrand, integral.limits)
+    if value is not None:
+        return value
+    ends = [end for _, *limits in integral.limits for end in limits]
+    return nan if any(has_root(part) for part in [integrand, *ends]) else integral.doit()
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:

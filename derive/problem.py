@@ -17,9 +17,11 @@ from sympy import Integer, Symbol
 
 from derive.dimensions import KINDS, Dimension, unit_of_kind
 from derive.errors import Complaint, Misused, Place, Rejected
-from derive.expressions import Amount
+from derive.expressions import Amount, explicit
 from derive.given import Given, Measured, read_givens, read_measured, symbol_of_kind
+from derive.measured import numbers_known
 from derive.parts import Part, points_text, read_parts, read_points
+from derive.placement import Placement, read_placements
 from derive.prose import Prose, read_prose
 from derive.reading import RESERVED, Declared
 from derive.schema import (
@@ -61,6 +63,7 @@ class Problem:
     wording: Table[str, Table[str, Prose]]
     show: Table[str, str]
     figures: int
+    drawings: tuple[Placement, ...]
     script: Script = field(repr=False)
     script_path: str
     places: Table[str, Place] = field(repr=False)
@@ -96,7 +99,8 @@ class Problem:
     def texts(self) -> tuple[Prose, ...]:
         """All prose that is printed."""
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
-        return (self.title, self.statement, *(part.ask for part in self.parts), *wording)
+        captions = (placement.caption for placement in self.drawings if placement.caption)
+        return (self.title, self.statement, *(part.ask for part in self.parts), *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
@@ -138,7 +142,8 @@ def _meant(problem_id: str, known: list[str]) -> str:
 
 def run_solve(problem: Problem) -> object:
     """What the script's `solve()` returns for what is given."""
-    return run(problem.script, {given.name: given.value for given in problem.givens})
+    with numbers_known({letter: explicit(amount) for letter, amount in problem.amounts.items()}):
+        return run(problem.script, {given.name: given.value for given in problem.givens})
 
 
 class ProblemReader:
@@ -160,6 +165,7 @@ class ProblemReader:
         points = self.points(parts)
         wording, show = self.wording(), self.show()
         figures = read_figures(self.node.get("figures"), self.faults) or DEFAULT_FIGURES
+        drawings = read_placements(self.mapping("drawings"), symbols, len(parts), self.faults)
         source, topic = (read_text(self.node, key, self.faults) for key in ("source", "topic"))
         self.faults.stop()
         assert title is not None
@@ -179,6 +185,7 @@ class ProblemReader:
             wording=wording,
             show=show,
             figures=figures,
+            drawings=drawings,
             script=script,
             script_path=script_path,
             places=self.places,

@@ -19,6 +19,7 @@ DEFAULT_FIGURES = 4
 _TEXT = {"type": "string"}
 _SCALAR = {"type": ["string", "number"]}
 _POINTS = {"type": "number", "minimum": 0, "multipleOf": 0.5}
+_UNIT = {"type": "string", "examples": list(UNIT_NAMES)}
 _FIGURES = {"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}
 
 
@@ -32,7 +33,10 @@ class Key:
 
 
 FORM_KEYS: Table[str, Key] = {
-    "unit": Key("unit of the number, such as `degree` or `N m`", {"type": "string", "examples": list(UNIT_NAMES)}),
+    "unit": Key(
+        "unit of the number, such as `degree` or `N m`, or a list of units",
+        {"anyOf": [_UNIT, {"type": "array", "items": _UNIT, "minItems": 1}]},
+    ),
     "figures": Key("significant figures of the number", _FIGURES),
 }
 
@@ -64,6 +68,21 @@ PART_KEYS: Table[str, Key] = {
     ),
 }
 
+DRAWING_KEYS: Table[str, Key] = {
+    "at": Key("where it stands: `statement`, the letter of a part, or `hidden`", _TEXT),
+    "caption": Key("what it shows, in prose", _TEXT),
+    "width": Key("how wide it is without its labels, such as `5 cm`", _TEXT),
+    "values": Key("numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", _mapping_of(_SCALAR)),
+    "range": Key(
+        "the two ends of a plot, such as `[-60 deg, 60 deg]`",
+        {"type": "array", "items": _SCALAR, "minItems": 2, "maxItems": 2},
+    ),
+    "cases": Key(
+        "the numbers of each curve of a plot, panel by panel",
+        {"type": "array", "items": _mapping_of(_SCALAR), "minItems": 1},
+    ),
+}
+
 PROBLEM_KEYS: Table[str, Key] = {
     "title": Key("the heading of the problem", _TEXT, required=True),
     "solve": Key("the script beside this file whose `solve()` derives the answers", _TEXT, required=True),
@@ -82,6 +101,7 @@ PROBLEM_KEYS: Table[str, Key] = {
     ),
     "show": Key("how much of a step is shown, by the step's key", _mapping_of({"enum": list(SHOWN)})),
     "figures": Key("significant figures where `form` says nothing", _FIGURES),
+    "drawings": Key("where the drawings of the script stand, by their names", _mapping_of(_object(DRAWING_KEYS))),
     "source": Key("where the problem comes from", _TEXT),
     "topic": Key("what it is about, for lists", _TEXT),
     "note": Key("a closing remark, in prose", _TEXT),

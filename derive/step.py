@@ -41,6 +41,9 @@ class Level(StrEnum):
         return order.index(other) <= order.index(self)
 
 
+NUMBERS = ("value", "rounded")  # why a form stands at the end of a chain: the number in a unit, exact or rounded
+
+
 @dataclass(frozen=True)
 class Form:
     """One line of a chain: an expression and why it equals the line before it.
@@ -61,7 +64,8 @@ class Step:
     """What was established: the symbol, the chain that leads to its value, and how we know.
 
     The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
-    that the step brings in, with their kinds.
+    that the step brings in, with their kinds. `stands_for` are keys of steps that there would be in another case: two
+    roots where there is only one.
     """
 
     key: str
@@ -75,6 +79,7 @@ class Step:
     kind: str | None = None
     words: tuple[tuple[str, str], ...] = ()
     coordinates: tuple[tuple[Symbol, str], ...] = ()
+    stands_for: tuple[str, ...] = ()
 
     @property
     def result(self) -> Any:
@@ -123,6 +128,11 @@ class Quantity:
     __truediv__ = __rtruediv__ = __pow__ = __rpow__ = __neg__ = __matmul__ = _no_arithmetic
 
 
+def lettered(quantity: Quantity) -> Quantity:
+    """The quantity known by its letter alone: what rests on it keeps the letter, until values are put in."""
+    return replace(quantity, value=quantity.symbol, parents=(quantity,))
+
+
 Law = Callable[..., Any]
 Route = Callable[[Any], tuple[Any, Any]]
 
@@ -153,6 +163,7 @@ def establish(
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
     coordinates: Mapping[Symbol, str] | None = None,
+    stands_for: Sequence[str] = (),
     arranged: Callable[[Any], Any] = tidied,
     motion: Mapping[Symbol, Expr] | None = None,
 ) -> Quantity:
@@ -166,6 +177,7 @@ def establish(
     routes    claim -> function of the result, giving two values that must be equal
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
+    stands_for   keys that answers may ask for although in this case there is only this step
     arranged  how the result is written; it changes no value
     motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
@@ -179,7 +191,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = arranged(bound(explicit(substituted), {**bindings, **(motion or {})}))
+    result = arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **(motion or {})}))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
@@ -210,6 +222,7 @@ def establish(
         kind=kind,
         words=tuple((words or {}).items()),
         coordinates=tuple((coordinates or {}).items()),
+        stands_for=tuple(stands_for),
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {})
     record = _established.get()
@@ -305,17 +318,20 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 def _line_evidence(
     key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
 ) -> Evidence:
-    left, right = (explicit(bound(form.expr, bindings)) for form in chain[i - 1 : i + 1])
+    form, before = chain[i], chain[i - 1]
+    if form.because in NUMBERS:  # each number of a result is compared with the result, not with the number before it
+        before = next(other for other in reversed(chain[:i]) if other.because not in NUMBERS)
+    left, right = (explicit(bound(each.expr, bindings)) for each in (before, form))
     claim = f"line {i + 1} equals line {i}"
-    if chain[i].because == "rounded":
-        return _rounding_evidence(key, claim, left, chain[i].expr)
-    if isinstance(chain[i].expr, Truncated):
-        return _series_evidence(key, claim, left, chain[i].expr)
-    if chain[i].because == "motion":
+    if form.because == "rounded":
+        return _rounding_evidence(key, claim, left, form.expr)
+    if isinstance(form.expr, Truncated):
+        return _series_evidence(key, claim, left, form.expr)
+    if form.because == "motion":
         left, right = bound(left, motion), bound(right, motion)
-    verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in chain[i].nonzero])
+    verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:
-        raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)
+        raise _refused(key, f"line {i + 1} ({form.because}) does not follow from line {i}", left, right, verdict)
     return Evidence(claim, verdict.grade, verdict.detail)
 
 

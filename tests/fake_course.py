@@ -41,9 +41,12 @@ class Rendered:
     inputs: tuple[str, ...]
     grades: dict[str, int]
     agreed: bool
+    files: tuple[tuple[str, bytes], ...] = ()
 
 
-def rendered(root: Path, problem_id: str, detail: str | None, kept: Path | None = None) -> Rendered:
+def rendered(
+    root: Path, problem_id: str, detail: str | None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
     path = f"problems/{problem_id}.yaml"
     said = (root / path).read_text().strip()
     if said == "loop":
@@ -71,6 +74,7 @@ def rendered(root: Path, problem_id: str, detail: str | None, kept: Path | None 
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
         agreed=said != "differs",
+        files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),) if draws and "draws" in said else (),
     )
 
 

@@ -29,9 +29,9 @@ TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MOD
 # Imports point downwards, or sideways without a circle. A package stands for its modules.
 LAYERS = (
     ("errors", "dimensions"),
-    ("expressions", "exact", "evidence", "tidy", "rounding"),
+    ("expressions", "integrals", "exact", "evidence", "tidy", "rounding", "measured"),
     ("step", "derivation", "encoding", "homogeneity", "numbers"),
-    ("mechanics",),
+    ("mechanics", "figures"),
     (
         "source",
         "units",
@@ -43,18 +43,20 @@ LAYERS = (
         "parts",
         "script",
         "given",
+        "placement",
         "problem",
         "stated",
         "verdicts",
         "errata",
         "reference",
     ),
-    ("wording", "references", "checks", "document"),
+    ("wording", "references", "checks", "curves", "depiction", "document"),
     ("output", "render"),
     (
         "solution",
         "set_document",
         "stored",
+        "drawn",
         "manifest",
         "workers",
         "build",
@@ -69,7 +71,7 @@ LAYERS = (
 LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 ENGINE = {name for name in MODULES if LAYER[name.partition(".")[0]] <= 3}
 PRINTING = {"cli", "commands", "terminal", "doctor", "bootstrap"}
-OWN_VERBS = ("bodies", "conservation", "equations", "free_rotation", "inertia", "rotation")
+VERB_MODULES = sorted({name.partition(".")[2] for name in MODULES if name.startswith("mechanics.")})
 DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let", "axis_vector"}
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
@@ -178,7 +180,7 @@ def verbs() -> dict[str, Any]:
     """Every public function of mechanics and numbers that yields a quantity."""
     modules = [
         derive.numbers,
-        *(getattr(derive.mechanics, name) for name in OWN_VERBS),
+        *(getattr(derive.mechanics, name) for name in VERB_MODULES),
     ]
     return {
         name: function

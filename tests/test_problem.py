@@ -137,8 +137,8 @@ def test_values_put_numbers_on_declared_letters_and_keep_those_letters_from_othe
 
 def test_a_form_is_for_all_answers_of_a_part_or_for_one(tmp_path: Path) -> None:
     _, angle, torque = loaded(tmp_path).parts
-    assert (angle.form_of("angle_between").unit, angle.form_of("angle_between").figures) == ("degree", 4)
-    assert (torque.form_of("torque").unit, torque.form_of("magnitude").unit) == (None, "N m")
+    assert (angle.form_of("angle_between").units, angle.form_of("angle_between").figures) == (("degree",), 4)
+    assert (torque.form_of("torque").units, torque.form_of("magnitude").units) == ((), ("N m",))
 
 
 def test_wording_is_by_outcome_or_for_any(tmp_path: Path) -> None:

@@ -34,8 +34,8 @@ from derive.expressions import (
     vector,
 )
 from derive.mechanics.arrangement import by_products
-from derive.mechanics.bodies import Point
 from derive.mechanics.conservation import highest_rates
+from derive.mechanics.regions import Point
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
 from derive.tidy import tidied
 

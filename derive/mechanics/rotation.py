@@ -26,7 +26,8 @@ from derive.expressions import (
     scaled,
     vector,
 )
-from derive.mechanics.bodies import Point
+from derive.mechanics.bodies import Body
+from derive.mechanics.regions import Point
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
 from derive.tidy import factored_matrix, size_and_rest, tidied
 
@@ -96,15 +97,9 @@ def _turned_onto_first(p: Expr, q: Expr) -> Expr:
 
 def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     """The integral over the body of a function of the position from the point of the tensor, times dm."""
-    body = inertia.context["body"]
+    body: Body = inertia.context["body"]
     point: Point = inertia.context["about"]
-    if hasattr(body, "over_mass"):
-        return body.over_mass(integrand, point)
-    r = column(*(limit[0] for limit in body.limits(point.position)))
-    values = explicit(integrand(r))
-    if hasattr(values, "applyfunc"):
-        return values.applyfunc(lambda f: body.density.value * explicit(body.integral(f, point.position)))
-    return body.density.value * explicit(body.integral(values, point.position))
+    return body.over_mass(integrand, point)
 
 
 def _acceleration(omega: Quantity) -> Callable[[Any], Any]:

@@ -14,9 +14,10 @@ from sympy import MatrixBase
 
 from derive.checks import Ways
 from derive.dimensions import Dimension
-from derive.document import Answer, Display, Document, PartPage
+from derive.document import Answer, Display, Document, Illustration, PartPage
 from derive.errata import Erratum
 from derive.parts import points_text
+from derive.placement import STATEMENT
 from derive.render.latex import MARKS, escaped, latex, unit_latex
 from derive.render.layout import Layout
 from derive.render.lines import Printed, answer_lines, printed_lines
@@ -172,6 +173,14 @@ class _Page:
             return self._formula(lines[0], mark="") + note
         rows = " \\\\\n".join(self._formula(line) for line in lines)
         return rf"\begin{{aligned}}{rows}\end{{aligned}}{note}"
+
+    def in_statement(self) -> Sequence[Illustration]:
+        return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
+
+    def drawing(self, drawing: Illustration) -> str:
+        """The file, what stands in its place where it is missing, and its caption."""
+        number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
+        return rf"{{{drawing.stem}.pdf}}{{{self.inline(drawing.alt)}}}{{{number}}}{{{self.inline(drawing.caption)}}}"
 
     def margin(self, display: Display) -> str:
         lines = [escaped(self.words.grades[display.grade])]

@@ -51,10 +51,8 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
 
 def answer_lines(answer: Answer, notation: Notation, limit: float) -> list[Printed]:
     """A boxed result on as few lines as it takes."""
-    relation = "equals" if answer.rounded is not None else answer.relation
-    sides = [(relation, notation.result(answer.value))]
-    if answer.rounded is not None:
-        sides.append((answer.relation, notation.layout(answer.rounded)))
+    sides = [(answer.relation, notation.result(answer.value))]
+    sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]
     whole = Printed(notation.side(answer.symbol), tuple(sides), ())
     if whole.width <= limit:
         return [whole]

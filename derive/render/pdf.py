@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -100,11 +101,19 @@ def chosen_engine(name: str | None) -> Engine:
 
 
 def typeset(
-    tex: str, target: Path, engine: Engine, *, timeout: float = 120, log: Path | None = None, aux: Path | None = None
+    tex: str,
+    target: Path,
+    engine: Engine,
+    *,
+    timeout: float = 120,
+    log: Path | None = None,
+    aux: Path | None = None,
+    beside: Sequence[tuple[str, bytes]] = (),
 ) -> bool:
     """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
 
-    `aux` is a file that keeps the page numbers for the next time: if they still hold, one run is enough.
+    `aux` is a file that keeps the page numbers for the next time: if they still hold, one run is enough; `beside` are
+    files that the source includes, such as its drawings.
     """
     kept = (log or target.parent / "log") / target.stem
     with writing(Path(tempfile.gettempdir())):
@@ -112,6 +121,8 @@ def typeset(
     with workplace as name:
         source = Path(name) / f"{target.stem}.tex"
         write(source, tex)
+        for file, content in beside:
+            write(Path(name) / file, content)
         noted = source.with_suffix(".aux")
         begun = _copied(aux, noted)
         output = _passes(engine, source, timeout)

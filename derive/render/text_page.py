@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from derive.dimensions import exponents
-from derive.document import Answer, Answers, Display, Document, Paragraph, PartPage
+from derive.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
 from derive.parts import points_text
+from derive.placement import STATEMENT
 from derive.render.layout import Layout, Mark, row
 from derive.render.lines import Printed, answer_lines, printed_lines
 from derive.render.notation import Notation
@@ -55,6 +56,7 @@ class _Page:
     def text(self) -> str:
         title = self._with_points(self._inline(self.document.title), self.document.points)
         blocks = [title, "=" * COLUMNS, self._wrapped(self.document.statement)]
+        blocks += [line for i in self.document.illustrations if i.at == STATEMENT for line in ("", self._drawing(i))]
         for part in self.document.parts:
             blocks += ["", self._part(part)]
         blocks += ["", "-" * COLUMNS, self._wrapped((Text(self.words.labels["checked"] + " "), *self.document.closing))]
@@ -71,7 +73,17 @@ class _Page:
                     blocks += ["", self._display(block)]
                 case Answers(answers):
                     blocks += ["", *(self._answer(answer) for answer in answers)]
+                case Illustration():
+                    blocks += ["", self._drawing(block)]
         return "\n".join(blocks)
+
+    def _drawing(self, illustration: Illustration) -> str:
+        """What it shows, and its caption below."""
+        figure = self.words.labels["figure"]
+        shown = self._wrapped((Text(f"[{figure.lower()}: "), *illustration.alt, Text("]")))
+        if illustration.number is None:
+            return shown
+        return shown + "\n" + self._wrapped((Text(f"{figure} {illustration.number}. "), *illustration.caption))
 
     def _with_points(self, text: str, points: Any) -> str:
         if points is None:
