@@ -196,7 +196,9 @@ class _Writer:
         self.dimensions, unlike = dimension_table(problem.dimensions, every)
         # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
         self.faults = [replace(fault, place=problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
-        self.references = References(problem.set_id, others, words, self.faults)
+        self.references = References(
+            problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
+        )
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
         self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -240,8 +242,6 @@ class _Writer:
         names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
-        for key, number in caption_numbers(self.problem, self.drawings, self.derivation).items():
-            names.setdefault(key, Text(f"{self.words.labels['figure']} {number}"))
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:

@@ -86,8 +86,14 @@ def test_no_number_is_told_that_depends_on_letters(tmp_path: Path) -> None:
 
 
 def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
-    edits = {"ask: Find the angle between": "ask: In <<vectors>>, find the angle between"}
+    edits = {"ask: Find the angle between": "ask: In <<figure vectors>>, find the angle between"}
     assert "(c) In Figure 1, find" in rendered(course_in(tmp_path, edits), "hw9/block").text
+
+
+def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {"ask: Find the angle between": "ask: In <<figure axes>>, find the angle between"})
+    assert "error[undefined-name]: no drawing with a caption is called `axes`" in fault
+    assert "help: give the drawing a `caption:` under `drawings:`" in fault
 
 
 # --- places ----------------------------------------------------------------------------------------------------------
