@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from derive import drawn, solution
+from derive import drawn
 from derive.build import Options, built_set
 from derive.errors import Rejected
+from derive.set_document import problem_document
 from derive.solution import Rendered, rendered
 from tests.course import ROOT, course_in
 from tests.test_stored import forbid_deriving
@@ -245,7 +246,7 @@ def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Pa
 def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: Path, block: Rendered) -> None:
     from derive.render.pdf import chosen_engine, typeset
 
-    tex = solution.problem_document(course_in(tmp_path), block, "hw9")
+    tex = problem_document(course_in(tmp_path), block, "hw9")
     pages = {}
     for name, files in (("with", block.files), ("without", ())):
         target = tmp_path / f"{name}.pdf"
