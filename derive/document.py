@@ -26,10 +26,11 @@ from derive.problem import ANY_OUTCOME, Problem
 from derive.reference import Told
 from derive.references import References, found_before
 from derive.source import did_you_mean
-from derive.step import Form, Level, Step
+from derive.step import NUMBERS, Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
+    Math,
     Node,
     Phrases,
     Ref,
@@ -99,13 +100,16 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Answer:
-    """A boxed result: symbol = exact value, and its rounded value if it has one; a note where symbols are alike."""
+    """A boxed result: symbol = exact value, or another relation between them; its numbers, each after its sign.
+
+    There is a note where the symbols of several answers are alike.
+    """
 
     key: str
     symbol: Any
     value: Any
-    rounded: Any | None
-    relation: str = "approx"
+    relation: str = "equals"
+    numbers: tuple[tuple[str, Any], ...] = ()
     note: tuple[Node, ...] = ()
 
 
@@ -304,16 +308,13 @@ class _Writer:
     def _answer(self, key: str) -> Answer:
         step = self.derivation.step(key)
         value = self.values.get(key)
-        rounded = None
-        if value is not None:
-            rounded = value.chain[-1].expr
+        forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
+        numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
         if isinstance(step.result, Truncated):
-            return Answer(key, step.symbol, step.result, None, "approx")
+            return Answer(key, step.symbol, step.result, "approx")
         if isinstance(step.result, Relation):
-            return Answer(key, step.result.left, step.result.right, None, step.result.word)
-        relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        relation = relation if rounded is not None else "equals"
-        return Answer(key, step.symbol, step.result, rounded, relation, self.notes.get(key, ()))
+            return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
+        return Answer(key, step.symbol, step.result, "equals", numbers, self.notes.get(key, ()))
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
@@ -361,13 +362,16 @@ class _Writer:
         return tuple(lines)
 
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
-        template = "" if before is None else self.words.reason(step, form.because, before)
+        stands_alone = before is None and not isinstance(form.expr, Relation)
+        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, template)
+        if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
+            return Line(None, _sign_before(form), form.expr.right, reason)
         if isinstance(form.expr, Relation):
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation="approx" if form.because in {"rounded", "series"} else "equals",
+            relation=_sign_before(form),
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
@@ -382,15 +386,28 @@ class _Writer:
             for key in step.inputs
             if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
         ]
-        if "refs" in template and not refs:
-            return ()
         refs.sort(key=lambda ref: self.numbers[ref.key])
-        return filled(template, {**self.page_names, "refs": joined(refs, self._and)})
+        equations = [ref for ref in refs if self.symbols[ref.key] is None]
+        if "refs" in template and not refs or "equations" in template and not equations:
+            return ()
+        last = self._and
+        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        return filled(
+            template, {**self.page_names, **own, "refs": joined(refs, last), "equations": joined(equations, last)}
+        )
 
     # --- how it was checked ---
 
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
+
+
+def _sign_before(form: Form) -> str:
+    return "approx" if form.because in {"rounded", "series"} else "equals"
+
+
+def _right_side(value: Any) -> Any:
+    return value.right if isinstance(value, Relation) else value
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

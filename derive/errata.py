@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational
+from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol
 
 from derive.encoding import decoded, encoded
-from derive.expressions import Amount, Factors
+from derive.expressions import PLUS_MINUS, Amount, Factors, Relation
 from derive.rounding import Rounded
-from derive.stated import Entry, Stated
+from derive.stated import Entry, Stated, Statement
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,28 @@ def erratum_of(entry: Entry) -> Erratum:
     return Erratum(entry.answer, entry.part, entry.why, _shown(entry.states, entry), _shown(entry.right, entry))
 
 
-def _shown(stated: Stated, entry: Entry) -> Any:
-    values = [_in_unit(_with_figures(expr, i, entry), entry) for i, (expr, _) in enumerate(stated.entries)]
-    return ImmutableDenseMatrix(*stated.shape, values) if stated.shape else values[0]
+def _shown(statement: Statement, entry: Entry) -> Any:
+    """A value, a relation, or both branches of a value in one."""
+    sides = [_value(side, entry) for side in statement.sides]
+    return Relation(sides[0], statement.marks[1], sides[1]) if len(sides) == 2 else sides[0]
+
+
+def _value(stated: Stated, entry: Entry) -> Any:
+    branches = [
+        [_in_unit(_with_figures(_with_plain_letters(expr), i, entry), entry) for i, (expr, _) in enumerate(entries)]
+        for entries in stated.branches
+    ]
+    if stated.shape:
+        return ImmutableDenseMatrix(*stated.shape, branches[0])
+    if len(branches) == 1:
+        return branches[0][0]
+    plus, minus = branches[0][0], branches[1][0]
+    return (plus + minus) / 2 + PLUS_MINUS * (plus - minus) / 2
+
+
+def _with_plain_letters(expr: Expr) -> Expr:
+    """The variable of an integral by its name, as it is printed."""
+    return expr.xreplace({x: Symbol(x.name, real=True) for x in expr.atoms(Dummy)})
 
 
 def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:

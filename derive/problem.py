@@ -17,8 +17,9 @@ from sympy import Integer, Symbol
 
 from derive.dimensions import KINDS, Dimension, unit_of_kind
 from derive.errors import Complaint, Misused, Place, Rejected
-from derive.expressions import Amount
+from derive.expressions import Amount, explicit
 from derive.given import Given, Measured, read_givens, read_measured, symbol_of_kind
+from derive.measured import numbers_known
 from derive.parts import Part, points_text, read_parts, read_points
 from derive.placement import Placement, read_placements
 from derive.prose import Prose, read_prose
@@ -141,7 +142,8 @@ def _meant(problem_id: str, known: list[str]) -> str:
 
 def run_solve(problem: Problem) -> object:
     """What the script's `solve()` returns for what is given."""
-    return run(problem.script, {given.name: given.value for given in problem.givens})
+    with numbers_known({letter: explicit(amount) for letter, amount in problem.amounts.items()}):
+        return run(problem.script, {given.name: given.value for given in problem.givens})
 
 
 class ProblemReader:

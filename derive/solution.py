@@ -5,18 +5,19 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from sympy import Integer, Symbol
+from sympy import Expr, Integer, Symbol
 
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
 from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
+from derive.expressions import Relation
 from derive.figures.marks import drawings_recorded
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
@@ -74,6 +75,7 @@ def rendered(
     words = phrases(template_folder(root))
     solved, failures = _solved(problem, kept)
     derivation, values = solved.derivation, solved.values
+    problem = _answered_by(problem, derivation.steps)
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
     level = Level(detail or "standard")
@@ -152,6 +154,7 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
     with recorded() as established:
         answers = returned_quantities(run_solve(problem), problem.script.returns)
     known = with_ancestors(answers, problem.script.returns)
+    problem = _answered_by(problem, (quantity.step for quantity in known.values()))
     _check_answers(problem, known)
     _check_letters(problem, known)
     derivation = derivation_of([part.answers for part in problem.parts], known, established)
@@ -162,6 +165,22 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
             if value is not None:
                 values[key] = value.step
     return derivation, values, known
+
+
+def _answered_by(problem: Problem, steps: Iterable[Step]) -> Problem:
+    """The problem with each answer that has no step of its own answered by the step that stands for it."""
+    found = list(steps)
+    own = {step.key for step in found}
+    instead = {key: step.key for step in found for key in step.stands_for if key not in own}
+    if not instead:
+        return problem
+
+    def answered(part: Part) -> Part:
+        places = {instead.get(key, key): place for key, place in part.places.items()}
+        forms = {instead.get(key, key) if key else None: form for key, form in part.forms.items()}
+        return replace(part, answers=tuple(places), places=places, forms=forms)
+
+    return replace(problem, parts=tuple(answered(part) for part in problem.parts))
 
 
 def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
@@ -197,17 +216,26 @@ def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
 def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
-    kind = answer.step.kind or "number"
-    unit, factor = unit_of_kind(kind), Integer(1)
-    if form.unit is not None:
-        asked = read_unit(form.unit, part.ask.place)
+    kind = _kind_of(problem, answer)
+    units: list[tuple[str, Expr]] = []
+    for unit in form.units:
+        asked = read_unit(unit, part.ask.place)
         if asked.dimension != dimension_of_kind(kind):
-            message = f"`{answer.key}` is {kind_with_article(kind)}, which is not measured in `{form.unit}`"
+            message = f"`{answer.key}` is {kind_with_article(kind)}, which is not measured in `{unit}`"
             raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
-        unit, factor = form.unit, asked.factor
+        units.append((unit, asked.factor))
+    first, *more = units or [(unit_of_kind(kind), Integer(1))]
     figures = form.figures or problem.figures
-    value = value_of(answer, problem.amounts, unit, factor, figures)
+    value = value_of(answer, problem.amounts, *first, figures, more=more)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
+
+
+def _kind_of(problem: Problem, answer: Quantity) -> str:
+    """The kind of what a number is put in for: in a relation such as R > a/2 that of R."""
+    if isinstance(answer.value, Relation):
+        letter = problem.symbols.get(str(answer.value.left))
+        return letter.kind if letter else "number"
+    return answer.step.kind or "number"
 
 
 def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int]:

@@ -71,6 +71,8 @@ class Chain:
     """Where the lines of the step go."""
 
 
+ASKED = {"point", "axis_letter"}  # words that a phrase chooses by, and does not print
+
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
 Node = Text | Math | DimensionMark | Unit | Ref | ProblemRef | Chain
@@ -230,7 +232,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         "result": Math(step.result),
     }
     names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in step.roles})
-    names.update({name: word if name == "point" else words.term(word) for name, word in step.words})
+    names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)
@@ -255,6 +257,8 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
+    if given.written is not None:
+        return (Math(given.written),)
     if given.kind.name == "Direction":
         return *words.term("components"), Text(f" {words.labels['along']} "), Math(tuple(given.value.components))
     amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in measured}

@@ -26,7 +26,7 @@ from derive.render.latex import latex
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text
 from derive.rounding import Rounded, decimal_text
-from derive.step import Form, Step
+from derive.step import NUMBERS, Form, Step
 
 
 class _PlainSymPy(StrPrinter):
@@ -194,12 +194,15 @@ def _given(given: Any) -> Any:
 
 
 def _answer(step: Step, value: Step | None, notation: Notation) -> dict[str, Any]:
+    forms = [form for form in value.chain if form.because in NUMBERS] if value else []
+    first, *others = [_number(form.expr) for form in forms] or [None]
     return {
         "symbol": _symbol(step, notation),
         "sympy": sympy_text(step.result),
         "latex": latex(notation.result(step.result)),
         "unit": unit_of_kind(step.kind) if step.kind else "",
-        "number": _number(value),
+        "number": first,
+        **({"also": others} if others else {}),
     }
 
 
@@ -208,11 +211,11 @@ def _symbol(step: Step, notation: Notation) -> str:
     return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
-def _number(value: Step | None) -> dict[str, Any] | None:
-    """The rounded value, or nothing while letters are left in it."""
-    if value is None or value.result.free_symbols:
+def _number(value: Any) -> dict[str, Any] | None:
+    """The rounded value, or nothing while letters are left in it; of a relation, that on its right."""
+    shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
+    if shown.free_symbols:
         return None
-    shown, unit = value.result, ""
     if isinstance(shown, ex.Amount | ex.MatrixAmount):
         shown, unit = shown.args[0], shown.args[1].name
     entries = list(shown) if isinstance(shown, MatrixBase) else [shown]

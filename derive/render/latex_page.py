@@ -162,7 +162,7 @@ class _Page:
 
     def _formula(self, printed: Printed, fitted: str = "%s", mark: str = "&") -> str:
         """The line; `mark` is where lines below each other are aligned."""
-        left = latex(printed.left) if printed.left else ""
+        left = fitted % latex(printed.left) if printed.left else ""
         sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
         return f"{left} {mark}{sides}"
 

@@ -34,7 +34,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
         side = (line.relation, right_side(line, notation))
         last = packed[-1] if packed else None
         if line.left is not None and packed:
-            packed.append(Printed(notation.layout(line.left), (side,), line.reason))
+            packed.append(Printed(notation.side(line.left), (side,), line.reason))
             continue
         if last and last.sides[-1][1] == side[1] and line.relation == "equals":
             continue  # what is laid out alike is one line to the reader
@@ -42,7 +42,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
         if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
             packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
         else:
-            left = notation.layout(line.left) if line.left is not None else None
+            left = notation.side(line.left) if line.left is not None else None
             packed.append(Printed(left, (side,), line.reason))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     lines[-1] = replace(lines[-1], number=equations.number)
@@ -51,11 +51,9 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
 
 def answer_lines(answer: Answer, notation: Notation, limit: float) -> list[Printed]:
     """A boxed result on as few lines as it takes."""
-    relation = "equals" if answer.rounded is not None else answer.relation
-    sides = [(relation, notation.result(answer.value))]
-    if answer.rounded is not None:
-        sides.append((answer.relation, notation.layout(answer.rounded)))
-    whole = Printed(notation.layout(answer.symbol), tuple(sides), ())
+    sides = [(answer.relation, notation.result(answer.value))]
+    sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]
+    whole = Printed(notation.side(answer.symbol), tuple(sides), ())
     if whole.width <= limit:
         return [whole]
     begun = replace(whole, sides=whole.sides[:1])

@@ -1,0 +1,60 @@
+"""A spinning top: at which rates it precesses steadily, and how fast it must spin to sleep upright."""
+
+from derive.given import Acceleration, Angle, AngularSpeed, Length, Mass
+from derive.mechanics import (
+    Composed,
+    Disc,
+    Part,
+    Rod,
+    Top,
+    axial_moment,
+    centre_distance,
+    centre_height,
+    conserved_momentum,
+    constant_spin,
+    equation_of_motion,
+    euler_angles,
+    lagrangian,
+    precession_condition,
+    precession_rates,
+    steady_precession,
+    steady_rates,
+    tilt_equation,
+    top_kinetic_energy,
+    total_mass,
+    transverse_moment,
+    turning_rate,
+    weight_energy,
+)
+
+
+def solve(
+    disc_mass: Mass,
+    radius: Length,
+    disc_at: Length,
+    rod_mass: Mass,
+    rod_length: Length,
+    spin: AngularSpeed,
+    tilt: Angle,
+    gravity: Acceleration,
+):
+    disc, rod = Disc(radius, disc_mass), Rod(rod_length, rod_mass)
+    body = Composed(Part("disc", disc, at=disc_at), Part("rod", rod, at=rod_length / 2))
+    mass = total_mass(body)
+    top = Top(mass, centre_distance(body, mass), transverse_moment(body), axial_moment(body))
+
+    angles = euler_angles()
+    omega = turning_rate(angles)  # theta_dot, phi_dot sin theta, psi_dot + phi_dot cos theta
+    T = top_kinetic_energy(top, omega)
+    U = weight_energy(top.in_letters().mass, gravity, [centre_height(top, angles)])
+    L = lagrangian(T, U)
+
+    S = constant_spin(omega, spin, conserved_momentum(L, angles.psi), top)  # psi is cyclic
+    motion = tilt_equation(equation_of_motion(L, angles.theta), S, top, gravity)
+
+    steady = steady_precession(motion)  # theta and phi_dot constant
+    rates = precession_rates(steady, tilt)
+    condition = precession_condition(rates, spin)
+    slow, fast = steady_rates(rates, condition)
+
+    return rates, condition, slow, fast
