@@ -84,7 +84,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         {"q": q},
         put_in=None,
         routes={"put_back": put_back},
-        arranged=explicit,
+        arranged=explicit if stiffness.has(Add) else tidied,
         outcome=sign_of,
         key=key,
         kind="squared angular speed",
