@@ -70,11 +70,7 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
     Outcomes: exact.
     Source: as `value_of`.
     """
-    if (
-        isinstance(answer.value, MatrixBase | Relation)
-        or not answer.value.free_symbols
-        or answer.value.has(Add)
-    ):
+    if isinstance(answer.value, MatrixBase | Relation) or not answer.value.free_symbols or answer.value.has(Add):
         return None
     number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
     if number.is_Rational:
