@@ -23,7 +23,7 @@ from derive.mechanics.constraints import (
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.cyclic import conserved_momentum
 from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude
+from derive.mechanics.equations import at, let, magnitude, with_values
 from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
@@ -55,6 +55,7 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
+from derive.mechanics.sleeping import effective_potential, sleeping_spin, upright_rate
 from derive.mechanics.solids import Ball, Cone, Cylinder, volume
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 from derive.mechanics.tops import (
@@ -69,6 +70,10 @@ from derive.mechanics.tops import (
 )
 
 __all__ = [
+    "effective_potential",
+    "sleeping_spin",
+    "upright_rate",
+    "with_values",
     "Ball",
     "Composed",
     "Cone",

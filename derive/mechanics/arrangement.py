@@ -54,3 +54,14 @@ def spread(value: Expr) -> Expr:
     if all(term.as_coeff_Mul()[0].q == number.q for term in terms):
         return value
     return Mul(number.p, *(f for f in Mul.make_args(letters) if f is not sums[0]), Add(*terms))
+
+
+def by_terms(value: Expr) -> Expr:
+    """A sum with each of its terms tidy, not over one denominator."""
+    return Add(*(tidied(term) for term in Add.make_args(value)))
+
+
+def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
+    """One product, or a sum of tidy terms, whichever is shorter to write."""
+    forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]
+    return min(forms, key=lambda form: int(form.count_ops()))
