@@ -62,7 +62,7 @@ class Chain:
     """Where the lines of the step go."""
 
 
-ASKED = {"point", "axis_letter"}  # words that a phrase chooses by, and does not print
+ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, and does not print
 
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 

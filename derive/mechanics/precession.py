@@ -42,8 +42,8 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
     return establish(
         "precession.steady_precession",
         None,
-        lambda: Relation(at_rest, "=", 0),
-        {},
+        lambda *_: Relation(at_rest, "=", 0),
+        {"tilt": theta.symbol, "rate": phi.rate, "sine": sine},
         put_in=None,
         after=[Form(Relation(kept, "=", 0), "divided", nonzero=(sine,))],
         show_result=False,

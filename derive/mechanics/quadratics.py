@@ -131,8 +131,8 @@ def roots_of(
     return establish(
         "quadratics.roots_of",
         x,
-        lambda _, *those: _with_those(formula, values, those),
-        {"equation": equation, **{q.key: q for q in values}},
+        lambda _, __, *those: _with_those(formula, values, those),
+        {"equation": equation, "unknown": x, **{q.key: q for q in values}},
         routes={"put_back": lambda found: (here.at(found), Integer(0)), "sum": sum_of_both},
         outcome=outcome,
         arranged=lambda found: tidied(found) if linear else _arranged(here, found),

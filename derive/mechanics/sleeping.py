@@ -43,8 +43,8 @@ def upright_rate(conserved: Quantity, tilt: Quantity, key: str = "upright_rate")
     return establish(
         "sleeping.upright_rate",
         phi.rate,
-        lambda: Ratio(Terms(carried, -carried * cos(theta.symbol)), Factors(across, sin(theta.symbol) ** 2)),
-        {},
+        lambda *_: Ratio(Terms(carried, -carried * cos(theta.symbol)), Factors(across, sin(theta.symbol) ** 2)),
+        {"sine": sin(theta.symbol), "carried": carried},
         put_in=None,
         routes={"momentum": by_momentum, "vertical_component": by_vertical_component},
         arranged=lambda _: carried / (across * (1 + cos(theta.symbol))),
@@ -91,8 +91,8 @@ def effective_potential(
     return establish(
         "sleeping.effective_potential",
         scalar(symbol),
-        lambda across, turning, weight: Terms(Factors(HALF, across, turning**2, sin(q) ** 2), weight),
-        {"across": letters.across, "rate": rate, "potential": potential},
+        lambda across, turning, weight, _: Terms(Factors(HALF, across, turning**2, sin(q) ** 2), weight),
+        {"across": letters.across, "rate": rate, "potential": potential, "tilt_rate": theta.rate},
         put_in=None,
         routes={"motion": by_motion, "energy": by_energy},
         arranged=lambda _: _of_carried(top, spin, q) + potential.value,

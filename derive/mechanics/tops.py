@@ -128,8 +128,8 @@ def turning_rate(angles: EulerAngles, symbol: str = "omega", key: str = "angular
     return establish(
         "tops.turning_rate",
         vector(symbol),
-        lambda: turns,
-        {},
+        lambda *_: turns,
+        {"precession": phi.symbol, "tilt": theta.symbol, "turning": psi.symbol, "vertical": vertical},
         put_in=None,
         routes={"rotation_matrix": compared_with(by_rotation_matrix)},
         arranged=explicit,
@@ -228,14 +228,13 @@ def constant_spin(omega: Quantity, rate: Expr, conserved: Quantity, top: Top, ke
     return establish(
         "tops.constant_spin",
         None,
-        lambda: Relation(omega.value[2], "=", rate),
-        {},
+        lambda *_: Relation(omega.value[2], "=", rate),
+        {"omega": omega, "spin": rate},
         put_in=None,
         routes={"rate_of_momentum": by_its_rate},
         arranged=explicit,
         key=key,
         parents=[omega, conserved],
-        words={"way": "backward" if rate.could_extract_minus_sign() else "forward"},
         context={"angles": angles, "spin": rate},
     )
 
@@ -266,16 +265,12 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
     return establish(
         "tops.tilt_equation",
         None,
-        lambda: Relation(_spin_apart(motion.value.left, psi.rate, turning), "=", 0),
-        {},
+        lambda *_: Relation(motion.value.left.expand().xreplace({psi.rate: turning}), "=", 0),
+        {"tilt": theta.symbol, "turning": psi.rate},
         put_in=None,
         routes={"torque": compared_with(by_torque)},
         arranged=lambda found: Relation(by_accelerations(found.left, angles.names), "=", 0),
         key=key,
-        parents=[motion, spin],
+        parents=[spin, motion],
         context={"angles": angles, "spin": rate, "top": top, "gravity": gravity},
     )
-
-
-def _spin_apart(left: Expr, psi_rate: Symbol, turning: Expr) -> Expr:
-    return left.expand().xreplace({psi_rate: turning})
