@@ -58,6 +58,7 @@ _KINDS: dict[str, tuple[Dimension, str, str]] = {
     "squared angular speed": (_dimension(0, 0, -2), "1/s^2", "a squared angular speed"),
     "force": (_dimension(1, 1, -2), "N", "a force"),
     "energy": (_dimension(1, 2, -2), "J", "an energy"),
+    "power": (_dimension(1, 2, -3), "W", "a power"),
     "torque": (_dimension(1, 2, -2), "N m", "a torque"),
     "momentum": (_dimension(1, 1, -1), "kg m/s", "a momentum"),
     "angular momentum": (_dimension(1, 2, -1), "kg m^2/s", "an angular momentum"),

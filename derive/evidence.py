@@ -189,6 +189,9 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return Verdict(Grade.PROVED, "identical")
     if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
+    for sign in (1, -1):
+        if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
+            return Verdict(Grade.PROVED, "polynomial normal form")
     if left.residual == 0 or right.residual == 0:
         return _equal_scalars(left.residual, right.residual)
     if left.mark == right.mark and vanishes(left.residual - right.residual):

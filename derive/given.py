@@ -49,6 +49,12 @@ _NUMBER_UNIT = re.compile(
 )
 
 
+def plural(kind: str) -> str:
+    """Moments of inertia, angular speeds."""
+    noun, of, rest = kind.partition(" of ")
+    return f"{noun}s{of}{rest}"
+
+
 @dataclass(frozen=True)
 class Kind:
     """What a parameter of `solve()` may be: `name` in the script, `each` in `symbols:`, letters for numbers."""
@@ -60,7 +66,7 @@ class Kind:
 
     @property
     def wanted(self) -> str:
-        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {self.each}s"
+        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {plural(self.each)}"
 
 
 Mass: TypeAlias = Annotated[Expr, Kind("Mass", "mass", ("M", "m"))]
@@ -75,10 +81,12 @@ Density: TypeAlias = Annotated[Expr, Kind("Density", "density", ("rho", "sigma")
 SurfaceDensity: TypeAlias = Annotated[Expr, Kind("SurfaceDensity", "surface density", ("sigma", "mu"))]
 LineDensity: TypeAlias = Annotated[Expr, Kind("LineDensity", "line density", ("lambda_l", "mu"))]
 Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
+MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I_0", "J_0"))]
+MomentsOfInertia: TypeAlias = Annotated[
+    tuple[Expr, Expr, Expr], Kind("MomentsOfInertia", "moment of inertia", ("A", "B", "C"), 3)
+]
 SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
 Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
-
-MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I", "I_1", "I_2"))]
 
 _DIRECTION = Kind("Direction", "direction", (), 3)
 _MEASURES = (
@@ -95,7 +103,8 @@ _MEASURES = (
     LineDensity,
     Force,
 )
-_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, SpringConstant, MomentOfInertia, Number)), _DIRECTION)
+_OTHERS = (MomentOfInertia, MomentsOfInertia, SpringConstant, Number)
+_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, *_OTHERS)), _DIRECTION)
 KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
 
 
@@ -212,6 +221,13 @@ def read_measured(key: Scalar, node: Node, symbols: Mapping[str, Declared]) -> M
     return Measured(declared.symbol, value.number, value.unit, value.si)
 
 
+def read_value(name: str, node: Node, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
+    """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
+    wanted = _Wanted(name, kind, notes)
+    value = _value(_scalar(node, wanted), wanted, symbols)
+    return value.si if isinstance(value, _Number) else value
+
+
 def _read_one(
     name: str, node: Node, kind: Kind, symbols: Mapping[str, Declared], faults: Faults, notes: tuple[str, ...]
 ) -> tuple[Expr | _Number, ...] | Direction:
@@ -220,7 +236,7 @@ def _read_one(
         return _direction(node, wanted, symbols)
     if kind.count == 1:
         return (_value(_scalar(node, wanted), wanted, symbols),)
-    items = _three(node, wanted, f"{kind.count} {kind.each}s", "write it as `[a, b, c]`")
+    items = _three(node, wanted, f"{kind.count} {plural(kind.each)}", "write it as `[a, b, c]`")
     values = []
     own = Faults()
     for item in items:

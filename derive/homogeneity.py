@@ -74,10 +74,14 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, ex.TimeRate):
         moving = dimension_of(expr.args[0], table)
         return None if moving is None else moving / dimension_of_kind("time")
+    if isinstance(expr, ex.Component):
+        return dimension_of(expr.args[0], table)
     if isinstance(expr, ex.BodyRate):
         vector = dimension_of(expr.args[0], table)
         return None if vector is None else vector / dimension_of_kind("time")
-    if isinstance(expr, Mul | MatMul | ex.Factors | ex.Dot | ex.Cross | ex.Outer | ex.CarriedRate):
+    if isinstance(expr, ex.CarriedRate):
+        return _product(dimension_of(arg, table) for arg in expr.args[:2])
+    if isinstance(expr, Mul | MatMul | ex.Factors | ex.Dot | ex.Cross | ex.Outer):
         return _product(dimension_of(arg, table) for arg in expr.args)
     if isinstance(expr, ex.Ratio):
         above, below = (dimension_of(arg, table) for arg in expr.args)

@@ -44,8 +44,8 @@ def _prepared(value: Expr, x: Symbol) -> Expr:
 
 def _antiderivative_of_term(term: Expr, x: Symbol) -> Expr | None:
     outside, inside = term.as_independent(x, as_Add=False)
-    if inside == 1:
-        return outside * x
+    if term == 0 or inside == 1:
+        return term * x
     power = inside.as_coeff_exponent(x)
     if power[0] == 1 and power[1].is_Integer and power[1] >= 0:
         return outside * x ** (power[1] + 1) / (power[1] + 1)
@@ -113,3 +113,8 @@ def _nonnegative_within(w: Expr, outer: Limits) -> bool:
     except PolynomialError:
         return False
     return linear and all(w.subs(z, end).expand().is_nonnegative for end in ends)
+
+
+def has_root(value: Expr) -> bool:
+    """Whether a root of something that may vary occurs."""
+    return any(power.exp.is_Rational and not power.exp.is_Integer and power.free_symbols for power in value.atoms(Pow))

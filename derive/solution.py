@@ -15,15 +15,18 @@ from sympy import Expr, Integer, Symbol
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
+from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
 from derive.expressions import Relation
+from derive.figures.marks import drawings_recorded
 from derive.numbers import coefficient_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
+from derive.prose import PROBLEM
 from derive.reference import comparisons
 from derive.render.contract import contract
 from derive.render.latex import unprintable
-from derive.render.latex_page import problem_latex, whole_latex
+from derive.render.latex_page import problem_latex
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text, page_text
 from derive.source import did_you_mean
@@ -31,29 +34,41 @@ from derive.stated import reference_path
 from derive.step import Level, Quantity, Step, recorded
 from derive.stored import Solved, keep, key_of, recalled
 from derive.units import read_unit
-from derive.wording import AXIS_NAMES, Phrases, Text, given_words, phrases, told
+from derive.wording import AXIS_NAMES, Text, given_words, phrases, told
 
 
 @dataclass(frozen=True)
 class Rendered:
-    """One problem, solved and printed."""
+    """One problem, solved and printed.
+
+    latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked
+    counts                  the numbers of how it was checked, see `Checks.counts`
+    """
 
     id: str
     title: str
     points: str
     latex: str
+    title_latex: str
+    sheet: str
+    checked: str
     text: str
     json: str
     warnings: tuple[Complaint, ...]
     inputs: tuple[str, ...]
     grades: dict[str, int]
+    counts: dict[str, int]
     agreed: bool
+    files: Files = ()
 
 
-def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None) -> Rendered:
+def rendered(
+    root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
 
-    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold.
+    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold;
+    `draws` says whether the files of its drawings are wanted too.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
@@ -61,23 +76,32 @@ def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path 
     solved, failures = _solved(problem, kept)
     derivation, values = solved.derivation, solved.values
     problem = _answered_by(problem, derivation.steps)
-    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), solved.compared)
+    heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
+    others = heading.numbers if heading else {}
+    level = Level(detail or "standard")
+    document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
     if faults:
         raise Rejected(faults)
     notation = Notation(document.dimensions)
+    fragments = problem_latex(document, words, notation, template_folder(root))
     return Rendered(
         id=problem_id,
         title=inline_text(document.title, notation),
         points="" if problem.points is None else points_text(problem.points),
-        latex=problem_latex(document, words, notation, template_folder(root)),
+        latex=fragments.solution,
+        title_latex=fragments.title,
+        sheet=fragments.sheet,
+        checked=fragments.checked,
         text=page_text(document, words, notation),
         json=contract(
             problem, derivation, values, document, notation, reference=[told.facts for told in solved.compared]
         ),
         warnings=(*document.warnings, *failures),
-        inputs=(*problem.inputs, reference_path(problem)),
+        inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),
+        counts=document.checks.counts(),
         agreed=not failures,
+        files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
     )
 
 
@@ -87,10 +111,11 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
     solved = recalled(kept, key) if kept else None
     if solved is not None:
         return solved, ()
-    derivation, values, known = _derived(problem)
+    with drawings_recorded() as drawings:
+        derivation, values, known = _derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.told() for c in compared))
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(drawings))
     if kept and not failures:
         keep(kept, key, solved)
     return solved, failures
@@ -98,10 +123,8 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
 
 def _check_characters(problem: Problem) -> None:
     """Prose may only have characters that can be printed."""
-    texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
-    texts += [prose for by_outcome in problem.wording.values() for prose in by_outcome.values()]
     faults = []
-    for prose in texts:
+    for prose in problem.texts:
         at = unprintable(prose.scalar.text)
         if at is not None:
             message = f"`{prose.scalar.text[at]}` cannot be printed"
@@ -109,6 +132,10 @@ def _check_characters(problem: Problem) -> None:
             faults.append(Complaint("character", message, prose.scalar.place_within(at), help=help_line))
     if faults:
         raise Rejected(faults)
+
+
+def _refers_to_problems(problem: Problem) -> bool:
+    return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
 
 
 def headline(root: Path, problem_id: str) -> tuple[str, str]:
@@ -219,39 +246,6 @@ def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int
         for evidence in step.evidence:
             counts[evidence.grade.value] += 1
     return counts
-
-
-# --- whole documents ---
-
-
-def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
-    """A complete .tex of one problem, numbered as in its set."""
-    heading = problem_set(root, set_id)
-    ids = [name if "/" in name else f"{set_id}/{name}" for name in heading.problems]
-    number = ids.index(problem.id) + 1 if problem.id in ids else ""
-    head = _head(root, heading, cover="")
-    return whole_latex(template_folder(root), head, [problem.latex.replace("@NUMBER@", str(number))])
-
-
-def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
-    """A complete .tex of the set: cover block, then its problems in order."""
-    heading = problem_set(root, set_id)
-    facts = [heading.course, heading.instructor, heading.date]
-    head = _head(root, heading, cover=", ".join(str(fact) for fact in facts if fact) or heading.title)
-    fragments = [problem.latex.replace("@NUMBER@", str(i)) for i, problem in enumerate(problems, 1)]
-    return whole_latex(template_folder(root), head, fragments)
-
-
-def _head(root: Path, heading: Any, cover: str) -> dict[str, str]:
-    words: Phrases = phrases(template_folder(root))
-    running = " \u00b7 ".join(str(part) for part in (heading.course, heading.title) if part)
-    return {
-        "title": heading.title,
-        "pdf_title": heading.title,
-        "running": running,
-        "kind": words.labels["solutions"],
-        "cover": cover,
-    }
 
 
 def template_folder(root: Path) -> Path:

@@ -165,6 +165,7 @@ def establish(
     coordinates: Mapping[Symbol, str] | None = None,
     stands_for: Sequence[str] = (),
     arranged: Callable[[Any], Any] = tidied,
+    motion: Mapping[Symbol, Expr] | None = None,
 ) -> Quantity:
     """Make a step, or refuse.
 
@@ -178,6 +179,7 @@ def establish(
     words     name -> key of a term that phrases put into words ("about": "corner")
     stands_for   keys that answers may ask for although in this case there is only this step
     arranged  how the result is written; it changes no value
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
@@ -189,7 +191,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = arranged(bound(explicit(bound(substituted, bindings)), bindings))
+    result = arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **(motion or {})}))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
@@ -197,11 +199,12 @@ def establish(
             Form(formula, "law", law_shown),
             *([Form(substituted, "put_in", put_in)] if put_in else []),
             *between,
-            *([Form(result, "result")] if show_result else []),
+            *([Form(result, "motion" if motion else "result")] if show_result else []),
             *after,
-        ]
+        ],
+        symbol,
     )
-    evidence = [_line_evidence(key, chain, i, bindings) for i in range(1, len(chain))]
+    evidence = [_line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
     evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
@@ -283,10 +286,13 @@ def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
     return Evidence("definition", Grade.DEFINITION, rule)
 
 
-def _without_repeats(forms: Sequence[Form]) -> list[Form]:
-    """A form that looks just like the one before it says nothing; the lower level of the two is kept."""
+def _without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
+    """A form that looks just like the one before it says nothing; the lower level of the two is kept.
+
+    Nor does one that is only the symbol of the step, unless there is no other.
+    """
     kept: list[Form] = []
-    for form in forms:
+    for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
             level = min(kept[-1].level, form.level, key=list(Level).index)
             kept[-1] = replace(kept[-1], level=level)
@@ -309,7 +315,9 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
     return {name: value for name, value in values.items() if name != value}
 
 
-def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any]) -> Evidence:
+def _line_evidence(
+    key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
+) -> Evidence:
     form, before = chain[i], chain[i - 1]
     if form.because in NUMBERS:  # each number of a result is compared with the result, not with the number before it
         before = next(other for other in reversed(chain[:i]) if other.because not in NUMBERS)
@@ -319,6 +327,8 @@ def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[An
         return _rounding_evidence(key, claim, left, form.expr)
     if isinstance(form.expr, Truncated):
         return _series_evidence(key, claim, left, form.expr)
+    if form.because == "motion":
+        left, right = bound(left, motion), bound(right, motion)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:
         raise _refused(key, f"line {i + 1} ({form.because}) does not follow from line {i}", left, right, verdict)

@@ -22,6 +22,7 @@ from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
 from derive.expressions import AXES, Amount, scalar
 from derive.given import Given, Measured
+from derive.prose import Mention
 from derive.rounding import rounded_form
 from derive.step import Step
 
@@ -58,6 +59,14 @@ class Ref:
 
 
 @dataclass(frozen=True)
+class ProblemRef:
+    """Another problem of the set, in words: Problem 3."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Chain:
     """Where the lines of the step go."""
 
@@ -66,7 +75,7 @@ ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, 
 
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
-Node = Text | Math | DimensionMark | Unit | Ref | Chain
+Node = Text | Math | DimensionMark | Unit | Ref | ProblemRef | Chain
 
 
 @dataclass(frozen=True)
@@ -77,6 +86,7 @@ class Phrases:
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]
+    drawings: Mapping[str, str]
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
 
@@ -171,12 +181,23 @@ def _environment() -> ImmutableSandboxedEnvironment:
     )
 
 
-def told(pieces: Sequence[Any], names: Mapping[str, Any], missing: Callable[[str, Place], None]) -> tuple[Node, ...]:
-    """An instructor's prose with its mentions filled; an unknown name is reported and left out."""
+def told(
+    pieces: Sequence[Any],
+    names: Mapping[str, Any],
+    missing: Callable[[str, Place], None],
+    referred: Callable[[Mention], Node | None] = lambda mention: None,
+) -> tuple[Node, ...]:
+    """An instructor's prose with its mentions filled; an unknown name is reported and left out.
+
+    `referred` is what a mention of an equation or a problem stands for, if it stands for anything.
+    """
     nodes: list[Node] = []
     for piece in pieces:
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif piece.of:
+            node = referred(piece)
+            nodes += [node] if node else []
         elif piece.name in names:
             value = names[piece.name]
             nodes.extend(
@@ -218,6 +239,18 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     if step.kind and unit_of_kind(step.kind):
         names["unit"] = Unit(unit_of_kind(step.kind))
     return names
+
+
+def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Node, ...]]:
+    """What is said beside answers of one symbol: a general result, and what it becomes in a case."""
+    notes: dict[str, tuple[Node, ...]] = {}
+    for step in steps:
+        phrase = words.labels["in_case"].get(step.rule)
+        general = [g for g in steps if g.key in step.inputs and step.symbol is not None and g.symbol == step.symbol]
+        if phrase and general:
+            notes[general[0].key] = (Text(words.labels["in_general"]),)
+            notes[step.key] = filled(phrase, names_of_step(step, words, None))
+    return notes
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Node, ...]:

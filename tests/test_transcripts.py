@@ -24,6 +24,11 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         {"[a, 2*a, 3*a]": "[2 cm, 4 cm, 6 cm]", "mass: M\n": "mass: 1.5 kg\n", "rate: omega": "rate: 900 rpm"},
         None,
     ),
+    "euler": ({}, None),
+    "euler-full": ({}, "full"),
+    "euler-symmetric": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_z]"}, None),
+    "euler-isotropic": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_x]"}, None),
+    "euler-numbers": ({"moments: [I_x, I_y, I_z]": "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"}, None),
 }
 
 

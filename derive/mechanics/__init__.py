@@ -11,6 +11,7 @@ from derive.mechanics.composed import (
     transverse_moment,
 )
 from derive.mechanics.conditions import boundary_case, positive_where
+from derive.mechanics.conservation import rate_under
 from derive.mechanics.constraints import (
     Tie,
     contact_forces,
@@ -23,7 +24,15 @@ from derive.mechanics.constraints import (
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.cyclic import conserved_momentum
 from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude, with_values
+from derive.mechanics.equations import at, let, magnitude, squared_magnitude, with_values
+from derive.mechanics.free_rotation import (
+    RigidBody,
+    changing_angular_velocity,
+    euler_equations,
+    principal_tensor,
+    rate_in_body,
+    rate_in_space,
+)
 from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
@@ -70,10 +79,6 @@ from derive.mechanics.tops import (
 )
 
 __all__ = [
-    "effective_potential",
-    "sleeping_spin",
-    "upright_rate",
-    "with_values",
     "Ball",
     "Composed",
     "Cone",
@@ -86,6 +91,7 @@ __all__ = [
     "Hoop",
     "Part",
     "Plate",
+    "RigidBody",
     "Rod",
     "Tie",
     "Top",
@@ -99,6 +105,7 @@ __all__ = [
     "centre_distance",
     "centre_height",
     "centre_of_mass",
+    "changing_angular_velocity",
     "conserved_momentum",
     "constant_spin",
     "contact_forces",
@@ -107,9 +114,11 @@ __all__ = [
     "curvature_at",
     "density",
     "discriminant",
+    "effective_potential",
     "equation_of_motion",
     "equation_with_multipliers",
     "euler_angles",
+    "euler_equations",
     "force_of_constraint",
     "free_lagrangian",
     "frequency",
@@ -134,11 +143,17 @@ __all__ = [
     "precession_rates",
     "principal_axes",
     "principal_moments",
+    "principal_tensor",
+    "rate_in_body",
+    "rate_in_space",
     "rate_of",
+    "rate_under",
     "rolled_centre",
     "roots_of",
+    "sleeping_spin",
     "slope",
     "spin",
+    "squared_magnitude",
     "steady_precession",
     "steady_rates",
     "tie",
@@ -148,6 +163,8 @@ __all__ = [
     "total_mass",
     "transverse_moment",
     "turning_rate",
+    "upright_rate",
     "volume",
     "weight_energy",
+    "with_values",
 ]

@@ -36,6 +36,27 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     return Add(*parts, evaluate=len(parts) < 2)
 
 
+def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Terms with rates first, then products of the coordinates; a difference before a product is subtracted.
+
+    I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and round.
+    """
+    rates = [rate(q, n) for n in (2, 1) for q in moving]
+    present = [s for s in (*rates, *moving) if value.has(s)]
+    try:
+        gathered = value.expand().as_poly(*present) if present else None
+    except PolynomialError:
+        gathered = None
+    if gathered is None:
+        return by_rates(value, moving, 2)
+    parts = []
+    for powers, coefficient in gathered.terms():
+        product = Mul(*(s**n for s, n in zip(present, powers, strict=True)))
+        signs = {term.could_extract_minus_sign() for term in Add.make_args(coefficient)}
+        parts.append(-Mul(-coefficient, product) if len(signs) == 2 else coefficient * product)
+    return Add(*parts)
+
+
 def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
     if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:

@@ -25,11 +25,11 @@ from derive.step import Form, Level, Quantity, compared_with, establish
 
 Particles = list[tuple[Expr, ImmutableMatrix]]
 
-# what is filled with mass -> letter and kind of its extent, letter and kind of the density
-_FILLINGS = {
-    "volume": ("V", "volume", "rho", "density"),
-    "area": ("A", "area", "sigma", "surface density"),
-    "length": ("l", "length", "lambda", "line density"),
+# what is filled with mass -> letter and kind of the density
+_DENSITIES = {
+    "volume": ("rho", "density"),
+    "area": ("sigma", "surface density"),
+    "length": ("lambda", "line density"),
 }
 
 
@@ -97,6 +97,10 @@ class Body:
     @cached_property
     def centre(self) -> Quantity:
         return centre_of_mass(self)
+
+    @property
+    def density_letter(self) -> str:
+        return _DENSITIES[self.filling][0]
 
     @property
     def size(self) -> Expr:
@@ -198,12 +202,12 @@ def density(body: Body, symbol: str | None = None, key: str = "density") -> Quan
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
-    _, _, letter, kind = _FILLINGS[body.filling]
+    letter, kind = _DENSITIES[body.filling]
     region = body.region(body.point(body.reference)).with_section_put_in()
     return establish(
         "bodies.density",
         Symbol(symbol or letter, positive=True),
-        Ratio,
+        lambda mass, extent: Ratio(mass, extent),
         {"mass": body.mass, "extent": extent},
         routes={"mass_given_back": lambda rho: (region.integral(rho), body.mass)},
         outcome=_density_outcome(body, extent),

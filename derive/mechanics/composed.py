@@ -60,7 +60,7 @@ class Composed:
             message = "a composed body needs parts of different names" if names else "a composed body needs parts"
             raise Rejected(Complaint("parts", message))
         self.parts = parts
-        letters = [density(part.body).symbol.name for part in parts]
+        letters = [part.body.density_letter for part in parts]
         self._densities = {
             part.name: density(
                 part.body,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixSymbol, Mul
+from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import Dot, Factors, Group, Norm, Root, Terms, bound, component_names, explicit, scalar
@@ -118,6 +118,28 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
         outcome=lambda length: "zero" if length == 0 else "generic",
         key=key,
         kind=of.step.kind,
+    )
+
+
+def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
+    """Square of a vector's length, |v|^2 = v.v.
+
+    of      vector (3), any unit
+    Second route: turn the vector until it lies along one axis and square its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    v = of.value
+    return establish(
+        "equations.squared_magnitude",
+        Pow(Norm(of.symbol), 2),
+        lambda v: Dot(v, v),
+        {"vector": of},
+        put_in=Level.FULL,
+        routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
+        outcome=lambda square: "zero" if square == 0 else "generic",
+        key=key,
+        context={"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {},
     )
 
 

@@ -70,7 +70,7 @@ class Cone(RoundSolid):
         return {"apex": Point("apex", column(0, 0, 0)), "base": base}
 
     @cached_property
-    def extent(self) -> Quantity:  # type: ignore[override]
+    def extent(self) -> Quantity:
         return volume(self)
 
     def particles(self) -> Particles:

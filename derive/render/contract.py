@@ -19,7 +19,7 @@ from sympy.printing.str import StrPrinter
 from derive import expressions as ex
 from derive.derivation import Derivation
 from derive.dimensions import unit_of_kind
-from derive.document import Document
+from derive.document import Document, Illustration
 from derive.parts import points_text
 from derive.problem import Problem
 from derive.render.latex import latex
@@ -159,10 +159,22 @@ def contract(
             for page, part in zip(document.parts, problem.parts, strict=True)
         ],
         "answers": {key: _answer(step, values.get(key), notation) for key, step in answers.items()},
+        "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
         "steps": [_step(step, notation) for step in [*derivation.steps, *values.values()]],
         "reference": list(reference),
     }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def _drawing(drawing: Illustration, notation: Notation) -> dict[str, Any]:
+    return {
+        "key": drawing.key,
+        "at": drawing.at,
+        "number": drawing.number,
+        "caption": inline_text(drawing.caption, notation),
+        "alt": inline_text(drawing.alt, notation),
+        "files": [f"{drawing.stem}.pdf", f"{drawing.stem}.svg"],
+    }
 
 
 def _points(points: Any) -> int | float | None:

@@ -46,6 +46,10 @@ MARKS = {
     "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",
+    "open": r"\Bigl(",
+    "close": r"\Bigr)",
+    "start": "",
+    "on": r"\qquad ",
 }
 
 
@@ -77,7 +81,8 @@ class _Printer:
             case Raised(base, power):
                 return f"{self.show(base)}^{{{self.show(power)}}}"
             case Lowered(base, word):
-                return rf"{self.show(base)}_{{\mathrm{{{word}}}}}"
+                subscript = word if len(word) == 1 else rf"\mathrm{{{word}}}"
+                return f"{self.show(base)}_{{{subscript}}}"
             case RootSign(inside):
                 return rf"\sqrt{{{self.show(inside)}}}"
             case Fenced(inside, kind):
@@ -170,7 +175,7 @@ def _name(name: Name) -> str:
         letter = rf"\mathbf{{{letter}}}"
     if name.dots:
         letter = rf"\{'d' * name.dots}ot{{{letter}}}"
-    letter += primes
+    letter = f"{{{letter}{primes}}}" if primes else letter  # in braces, so that it can be squared
     return f"{letter}_{{{_subscript(name.subscript)}}}" if name.subscript else letter
 
 

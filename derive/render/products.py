@@ -76,8 +76,20 @@ def positive_first(terms: list[Any]) -> list[Any]:
 
 
 def accelerations_first(terms: list[Any]) -> list[Any]:
-    """In an equation of motion the terms with accelerations lead; all others keep their order."""
-    return sorted(terms, key=lambda term: not any(s.name.endswith("_ddot") for s in term.free_symbols))
+    """In an equation of motion the terms with accelerations lead, then those with one rate; others keep their order."""
+
+    def place(term: Any) -> int:
+        rates = [s for s in term.free_symbols if s.name.endswith("_dot")]
+        accelerates = any(s.name.endswith("_ddot") for s in term.free_symbols)
+        return (
+            0
+            if accelerates
+            else 1
+            if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates))
+            else 2
+        )
+
+    return sorted(terms, key=place)
 
 
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
@@ -127,8 +139,8 @@ def rank_of_dimension(dimension: Dimension | None) -> int:
     """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:
         return 4
-    if dimension.mass and not dimension.length:
-        return 0
+    if dimension.mass and dimension.length >= 0 and not dimension.time:
+        return 0  # a mass, a moment of inertia
     if dimension.mass:
         return 4
     if dimension.length and dimension.time:

@@ -41,6 +41,10 @@ MARKS = {
     "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",
+    "open": "(",
+    "close": ")",
+    "start": "",
+    "on": "    ",
 }
 UNITS = {"degree": "°", "deg": "°", "partial": "∂"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
@@ -112,7 +116,8 @@ def _line(layout: Layout) -> str:
         case Raised(base, power):
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
-            return _line(base) + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+            letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
+            return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
         case Lowered(base, word):
             return f"{plain(base)}_{word}"
         case RootSign(inside):
@@ -174,7 +179,7 @@ def _is_sign_of_change(layout: Layout) -> bool:
 def _is_differential(layout: Layout) -> bool:
     """d or dx, which need no brackets above or below a stroke."""
     first = layout.items[0] if isinstance(layout, Row) else layout
-    return _is_sign_of_change(first) and (not isinstance(layout, Row) or len(layout.items) == 2)
+    return _is_sign_of_change(first)
 
 
 def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:

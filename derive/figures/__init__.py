@@ -1,0 +1,33 @@
+"""Drawings as a script describes them: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
+
+from derive.figures.machines import cone, slab_on_cylinder, top
+from derive.figures.scenes import (
+    arc,
+    arrow,
+    axes,
+    axis_of_rotation,
+    drawing,
+    length,
+    outline,
+    plot,
+    point,
+    turn,
+    vectors_in,
+)
+
+__all__ = [
+    "arc",
+    "arrow",
+    "axes",
+    "axis_of_rotation",
+    "cone",
+    "drawing",
+    "length",
+    "outline",
+    "plot",
+    "point",
+    "slab_on_cylinder",
+    "top",
+    "turn",
+    "vectors_in",
+]
