@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Add, Expr, Mul, Rational, Symbol
+from sympy import Add, Expr, Mul, Rational, Symbol, factor
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.expressions import rate
@@ -78,8 +78,13 @@ def spread(value: Expr) -> Expr:
 
 
 def by_terms(value: Expr) -> Expr:
-    """A sum with each of its terms tidy, not over one denominator."""
-    return Add(*(tidied(term) for term in Add.make_args(value)))
+    """A sum with each of its terms tidy, not over one denominator; a denominator that is a power is written as one."""
+    return Add(*(_shorter(tidied(term)) for term in Add.make_args(value)))
+
+
+def _shorter(term: Expr) -> Expr:
+    numerator, denominator = term.as_numer_denom()
+    return min((term, numerator / factor(denominator)), key=lambda form: int(form.count_ops()))
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:

@@ -88,6 +88,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
         lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
         {"general": general, **{q.key: q for q in values}},
         put_in=None,
+        law_shown=Level.FULL,
         routes={"law": compared_with(anew)},
         key=key or f"{general.key}_here",
         kind=general.step.kind,

@@ -6,7 +6,7 @@ from sympy import Add, Expr, Integer, Pow, Symbol, diff, factorial, series
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import At, Relation, Slope, Terms, Truncated, explicit
-from derive.mechanics.arrangement import spread, spread_or_by_terms
+from derive.mechanics.arrangement import spread_or_by_terms
 from derive.mechanics.coordinates import only_coordinate
 from derive.mechanics.oscillations import sign_of
 from derive.step import Form, Level, Quantity, compared_with, establish
@@ -124,7 +124,7 @@ def leading_order(
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,
-        arranged=spread,
+        arranged=spread_or_by_terms,
         context={"where": where},
     )
 

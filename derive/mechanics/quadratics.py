@@ -171,4 +171,4 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
     k = tidied(outside / (2 * of.a))
     inside = Add(*(tidied(term) for term in (u**2, -FOUR * of.a * of.c / outside**2)))
     both = Add(u, PLUS_MINUS * sqrt(inside), evaluate=False)
-    return Mul(k, both, evaluate=False) if k != 1 else both
+    return Mul(*Mul.make_args(k), both, evaluate=False) if k != 1 else both

@@ -30,7 +30,7 @@ from derive.expressions import (
 from derive.mechanics.arrangement import by_accelerations
 from derive.mechanics.coordinates import Coordinate, by_functions_of_time, coordinate, letters_of
 from derive.mechanics.matter import symmetric_body
-from derive.step import Quantity, compared_with, establish, lettered, require_kind
+from derive.step import Level, Quantity, compared_with, establish, lettered, require_kind
 
 ZERO, ONE, HALF = Integer(0), Integer(1), Rational(1, 2)
 
@@ -155,7 +155,8 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
     axes = [tuple(angles.of_body[:, i]) for i in range(3)]
     matter = symmetric_body(top.across.symbol, top.along.symbol, axes, angles.names)
 
-    def law(across: Expr, along: Expr, w: object) -> Expr:
+    def law(w: object) -> Expr:
+        across, along = top.across.symbol, top.along.symbol
         x, y, z = component_names(w.name) if isinstance(w, MatrixSymbol) else list(w)  # type: ignore[call-overload]
         return Terms(Factors(HALF, across, Terms(Pow(x, 2), Pow(y, 2))), Factors(HALF, along, Pow(z, 2)))
 
@@ -163,7 +164,7 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
         "tops.top_kinetic_energy",
         scalar(symbol),
         law,
-        {"across": letters.across, "along": letters.along, "omega": omega},
+        {"omega": omega},
         parents=[letters.mass, letters.distance, letters.along, letters.across],
         show_result=False,
         routes={"mass_points": compared_with(matter.kinetic_energy)},
@@ -268,6 +269,7 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
         lambda *_: Relation(motion.value.left.expand().xreplace({psi.rate: turning}), "=", 0),
         {"tilt": theta.symbol, "turning": psi.rate},
         put_in=None,
+        law_shown=Level.FULL,
         routes={"torque": compared_with(by_torque)},
         arranged=lambda found: Relation(by_accelerations(found.left, angles.names), "=", 0),
         key=key,
