@@ -41,8 +41,8 @@ from derive.wording import (
     joined,
     name_of,
     names_of_step,
-    stated_once,
     notes_apart,
+    stated_once,
     told,
 )
 

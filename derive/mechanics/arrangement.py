@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Add, Expr, Mul, Rational, Symbol, factor
+from sympy import Add, Expr, Mul, Rational, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.expressions import rate
@@ -88,6 +88,8 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """One product, or a sum of tidy terms, whichever is shorter to write."""
+    """One product, or a sum of tidy terms, whichever is shorter to write; a sum if angles stand in a denominator."""
+    if tidied(value).as_numer_denom()[1].has(sin, cos):
+        return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]
     return min(forms, key=lambda form: int(form.count_ops()))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from sympy import Abs, Expr, I, Integer, Matrix, Rational, Symbol, cos, diff, exp, sin
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import Factors, Ratio, Relation, Terms, column, explicit, scalar
+from derive.expressions import Ratio, Relation, Terms, column, explicit, scalar
 from derive.mechanics.coordinates import T
 from derive.mechanics.tops import EulerAngles, Top
 from derive.step import Quantity, establish
@@ -43,7 +43,7 @@ def upright_rate(conserved: Quantity, tilt: Quantity, key: str = "upright_rate")
     return establish(
         "sleeping.upright_rate",
         phi.rate,
-        lambda *_: Ratio(Terms(carried, -carried * cos(theta.symbol)), Factors(across, sin(theta.symbol) ** 2)),
+        lambda *_: Ratio(Terms(carried, -carried * cos(theta.symbol)), across * sin(theta.symbol) ** 2),
         {"sine": sin(theta.symbol), "carried": carried},
         put_in=None,
         routes={"momentum": by_momentum, "vertical_component": by_vertical_component},
@@ -76,7 +76,7 @@ def effective_potential(
     phi, theta, psi = angles.coordinates
     q = theta.symbol
     rates = {psi.rate: spin - rate.value * cos(q), phi.rate: rate.value}
-    letters = top.in_letters()
+    moving, constant = HALF * top.across.symbol * theta.rate**2, HALF * top.along.symbol * spin**2
     motion = next(parent for parent in rate.parents if "gravity" in parent.context)
 
     def by_motion(found: Expr) -> tuple[Expr, Expr]:
@@ -85,14 +85,13 @@ def effective_potential(
 
     def by_energy(found: Expr) -> tuple[Expr, Expr]:
         whole = explicit(kinetic.value + potential.value).xreplace(rates)
-        apart = HALF * top.across.symbol * theta.rate**2 + HALF * top.along.symbol * spin**2
-        return found + apart, whole
+        return found + moving + constant, whole
 
     return establish(
         "sleeping.effective_potential",
         scalar(symbol),
-        lambda across, turning, weight, _: Terms(Factors(HALF, across, turning**2, sin(q) ** 2), weight),
-        {"across": letters.across, "rate": rate, "potential": potential, "tilt_rate": theta.rate},
+        lambda turning, weight, *_: Terms(HALF * top.across.symbol * turning**2 * sin(q) ** 2, weight),
+        {"rate": rate, "potential": potential, "moving": moving, "constant": constant},
         put_in=None,
         routes={"motion": by_motion, "energy": by_energy},
         arranged=lambda _: _of_carried(top, spin, q) + potential.value,

@@ -68,6 +68,7 @@ from derive.render.products import (
     positive_first,
     rank_of_dimension,
     root_cancelled,
+    roots_last,
     roots_together,
     side_by_side,
     sign_and_size,
@@ -136,7 +137,7 @@ class Notation:
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
     def _ordered_terms(self, expr: Add) -> list[Expr]:
-        return accelerations_first(positive_first(expr.as_ordered_terms()))
+        return accelerations_first(positive_first(roots_last(expr.as_ordered_terms())))
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []

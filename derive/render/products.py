@@ -66,6 +66,15 @@ def either_sign(term: Any) -> Any | None:
     return ex.Factors(*factors) if isinstance(term, ex.Factors) and len(factors) > 1 else Mul(*factors)
 
 
+def roots_last(terms: list[Any]) -> list[Any]:
+    """Of numbers with their units, the root of a sum stands behind the others, as it does with letters."""
+
+    def is_root(term: Any) -> bool:
+        return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
+
+    return sorted(terms, key=is_root) if any(term.has(ex.Amount) for term in terms) else terms
+
+
 def positive_first(terms: list[Any]) -> list[Any]:
     """c^2 - a^2, not -a^2 + c^2."""
     if terms and sign_and_size(terms[0])[0]:
