@@ -1,7 +1,7 @@
 """Drawings as a script describes them: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
 
 from derive.figures.bodies import outline
-from derive.figures.machines import slab_on_cylinder, top
+from derive.figures.machines import leaning_top, slab_on_cylinder
 from derive.figures.scenes import (
     arc,
     arrow,
@@ -21,12 +21,12 @@ __all__ = [
     "axes",
     "axis_of_rotation",
     "drawing",
+    "leaning_top",
     "length",
     "outline",
     "plot",
     "point",
     "slab_on_cylinder",
-    "top",
     "turn",
     "vectors_in",
 ]

@@ -34,7 +34,7 @@ from derive.step import Quantity
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
 
 
-def top(
+def leaning_top(
     body: Composed,
     tilt: Expr,
     angle: Any = None,

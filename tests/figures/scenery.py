@@ -8,7 +8,7 @@ from typing import Any
 
 from sympy import Symbol, symbols
 
-from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, top
+from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline
 from derive.figures.marks import Drawing, Mark
 from derive.mechanics import Composed, Cone, Cuboid, Disc, Part, Rod
 from derive.render.outlines import Piece, Stroke
@@ -38,7 +38,7 @@ CONE = Cone(R, h, M)
 
 def leaning(tilt: Any = theta, **names: Any) -> list[Mark]:
     """A disc of radius a/2 in the middle of a rod of length 2a, leaning on its lower end."""
-    return top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
+    return leaning_top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
 
 
 def plane(*marks: Mark) -> Drawing:
