@@ -134,7 +134,7 @@ def _measures(body: Any, point: Point) -> list[Mark]:
     top = high + radius / 4 if isinstance(body, Cone) and wide != ORIGIN else high
     marks.append(Axis(high * Z, top * Z, Z, label=scalar("z")))
     if radius != 0:
-        marks.append(Line(wide, wide + radius * Y, "hidden", label=radius))
+        marks.append(Line(wide + radius * Y, wide, "hidden", label=radius))
     if low != high and not isinstance(body, Ball):
         beside = radius * Y
         marks.append(Line(low * Z, high * Z, "hidden"))

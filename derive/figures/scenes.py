@@ -206,6 +206,8 @@ def _name_of(thing: Any, label: Any) -> Any:
     """What is written beside it: as asked, or the quantity's own name."""
     if isinstance(label, Quantity):
         return label.symbol
+    if isinstance(label, str):
+        return scalar(label)
     if label is not None:
         return label
     return thing.symbol if isinstance(thing, Quantity) else None

@@ -54,7 +54,10 @@ def solve(
     top = Top(mass, centre_distance(body, mass), transverse_moment(body), axial_moment(body))
 
     angles = euler_angles()
-    drawing("top", leaning_top(body, tilt, precession=angles.phi.rate, spin=spin))
+    theta, phi = angles.theta.symbol, angles.phi.rate
+    drawing("top", leaning_top(body, tilt, theta, precession=phi, spin=spin))
+    drawing("weight", leaning_top(body, tilt, theta, weight=(mass.symbol * gravity, top.distance)))
+
     omega = turning_rate(angles)  # theta_dot, phi_dot sin theta, psi_dot + phi_dot cos theta
     T = top_kinetic_energy(top, omega)
     U = weight_energy(top.in_letters().mass, gravity, [centre_height(top, angles)])
