@@ -24,11 +24,30 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         {"[a, 2*a, 3*a]": "[2 cm, 4 cm, 6 cm]", "mass: M\n": "mass: 1.5 kg\n", "rate: omega": "rate: 900 rpm"},
         None,
     ),
+    "cone": ({}, None),
+    "cone-brief": ({}, "brief"),
+    "cone-isotropic": ({"height: h": "height: 2*R"}, None),
+    "cone-numbers": ({"radius: R": "radius: 4 cm", "height: h": "height: 10 cm", "mass: M": "mass: 300 g"}, "brief"),
     "euler": ({}, None),
     "euler-full": ({}, "full"),
     "euler-symmetric": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_z]"}, None),
     "euler-isotropic": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_x]"}, None),
     "euler-numbers": ({"moments: [I_x, I_y, I_z]": "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"}, None),
+    "slab": ({}, None),
+    "slab-full": ({}, "full"),
+    "slab-thick": ({"radius: R\n": "radius: a/4\n"}, None),
+    "slab-stable": ({"radius: R\n": "radius: 2*a\n"}, None),
+    "slab-border": ({"radius: R\n": "radius: a/2\n"}, None),
+    "slab-numbers": (
+        {
+            "radius: R\n": "radius: 20 cm\n",
+            "thickness: a\n": "thickness: 5 cm\n",
+            "mass: M\n": "mass: 1 kg\n",
+            "inertia: I ": "inertia: 0.0035 kg m^2 ",
+            "gravity: g\n": "gravity: 9.8 m/s^2\n",
+        },
+        None,
+    ),
 }
 
 

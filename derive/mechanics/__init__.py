@@ -65,6 +65,7 @@ from derive.mechanics.rotation import (
     torque,
 )
 from derive.mechanics.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.special_cases import isotropic_where
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 from derive.mechanics.tops import (
     EulerAngles,
@@ -124,6 +125,7 @@ __all__ = [
     "generalized_force",
     "generalized_momentum",
     "inertia_tensor",
+    "isotropic_where",
     "kinetic_energy",
     "lagrangian",
     "leading_order",

@@ -66,6 +66,7 @@ class Composed:
                 part.body,
                 symbol=None if letters.count(letter) == 1 else f"{letter}_{part.name}",
                 key=f"{part.name}_density",
+                part=part.name,
             )
             for part, letter in zip(parts, letters, strict=True)
         }
