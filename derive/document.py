@@ -42,6 +42,7 @@ from derive.wording import (
     name_of,
     names_of_step,
     notes_apart,
+    stated_once,
     told,
 )
 
@@ -214,7 +215,7 @@ class _Writer:
         problem = self.problem
         title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)
-        statement = self._told(problem.statement.pieces)
+        statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"])
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
         self.references.check(self.numbers, self.symbols)

@@ -216,6 +216,8 @@ def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
 def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
+    if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
+        return None
     kind = _kind_of(problem, answer)
     units: list[tuple[str, Expr]] = []
     for unit in form.units:

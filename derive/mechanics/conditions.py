@@ -54,6 +54,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
             "below": lambda _: _with_its_sign(value, alone, bound, beyond=False, sign=-above),
         },
         outcome="conditional" if has_root else "squared",
+        words={"strictly": "not_negative" if or_zero else "positive"},
         key=key,
         context={"letter": letter, "bound": bound, "of": of} if has_root else {"of": of},
         arranged=lambda _: Relation(alone, turned, bound),

@@ -68,6 +68,7 @@ from derive.render.products import (
     present,
     rank_of_dimension,
     root_cancelled,
+    roots_last,
     roots_together,
     side_by_side,
     sign_and_size,
@@ -125,7 +126,7 @@ class Notation:
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
     def _ordered_terms(self, expr: Add) -> list[Expr]:
-        return accelerations_first(positive_first(expr.as_ordered_terms()))
+        return accelerations_first(positive_first(roots_last(expr.as_ordered_terms())))
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
@@ -163,10 +164,10 @@ class Notation:
             letters = [ex.Group(letters[0])]
         if not number_below:
             return self._factors([*number_above, *letters])
-        if any(isinstance(f, Pow) for f in number_below):
+        if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
         number = Fraction(self._factors(number_above), self._factors(number_below))
-        if len(letters) == 1 and isinstance(letters[0], ex.Terms):
+        if len(letters) == 1:
             return row(number, self._as_factor(letters[0]))
         return row(number, self._factors(letters)) if letters else number
 

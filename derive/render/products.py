@@ -14,6 +14,7 @@ from derive.render.layout import (
     DOT,
     MINUS,
     SPACE,
+    Applied,
     Array,
     Fraction,
     IntegralSign,
@@ -78,6 +79,15 @@ def either_sign(term: Any) -> Any | None:
     return ex.Factors(*factors) if isinstance(term, ex.Factors) and len(factors) > 1 else Mul(*factors)
 
 
+def roots_last(terms: list[Any]) -> list[Any]:
+    """Of numbers with their units, the root of a sum stands behind the others, as it does with letters."""
+
+    def is_root(term: Any) -> bool:
+        return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
+
+    return sorted(terms, key=is_root) if any(term.has(ex.Amount) for term in terms) else terms
+
+
 def positive_first(terms: list[Any]) -> list[Any]:
     """c^2 - a^2, not -a^2 + c^2."""
     if terms and sign_and_size(terms[0])[0]:
@@ -138,13 +148,21 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 
 def roots_together(expr: Expr) -> Expr | None:
-    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction; nothing for a single root, or for roots of numbers."""
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers within it as square roots.
+
+    Nothing for a single root, or for roots of numbers alone.
+    """
     factors = Mul.make_args(expr)
-    roots = [f for f in factors if isinstance(f, Pow) and abs(f.exp) == Rational(1, 2)]
-    if len(roots) < 2 or not any(root.free_symbols for root in roots):
+    roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
+    if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
         return None
     inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
     return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
+
+
+def _is_fourth_root(factor: Pow) -> bool:
+    """2^(1/4), which under a square root is sqrt(2)."""
+    return bool(factor.base.is_Integer and factor.exp.is_Rational and factor.exp.q == 4)
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
@@ -173,6 +191,8 @@ def between(before: Layout, after: Layout) -> Layout | None:
     """What stands between two factors as written: nothing between different letters, a dot where they run together."""
     if begins_with_number(after):
         return DOT
+    if isinstance(first_of(after), Applied):
+        return SPACE
     last = last_of(before)
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
         return SPACE
