@@ -218,7 +218,7 @@ class _Writer:
         blocks: list[Block] = []
         for key in self.derivation.parts[index]:
             self._append(blocks, self.derivation.step(key))
-        measured = [v for key in part.answers if (v := self.values.get(key)) and v.outcome == "measured"]
+        measured = [v for key in part.answers if (v := self.values.get(key)) and v.outcome != "exact"]
         for i, value in enumerate(measured):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))

@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, lambdify, preorder_traversal
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify, preorder_traversal
 
-from derive.expressions import Amount, Factors, MatrixAmount, Relation, bound, explicit, scaled
+from derive.expressions import Amount, Factors, MatrixAmount, Ratio, Relation, Root, bound, explicit, scaled
 from derive.rounding import rounded_form
 from derive.step import Form, Level, Quantity, establish
 from derive.tidy import factored_matrix
 
+HALF = Rational(1, 2)
+FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<="}  # the marks under which an inequality is so
 SHORT = 9  # numbers; a formula with more of them is not written out again
 
 
 def value_of(
     answer: Quantity, amounts: Mapping[Symbol, Amount], unit: str, factor: Expr, figures: int, key: str | None = None
 ) -> Quantity | None:
-    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left.
+    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left, or if the
+    numbers make it imaginary, as the frequency of what does not oscillate.
 
     answer    any quantity
     amounts   symbol -> its number with a unit
@@ -39,8 +42,10 @@ def value_of(
         common, rest = factored_matrix(answer.value)
         substituted = bound(rest, numbers) if common == 1 else scaled(bound(common, numbers), bound(rest, numbers))
     else:
-        substituted = bound(answer.value, numbers)
+        substituted = bound(_under_one_root(answer.value), numbers)
     exact = explicit(substituted)
+    if any(entry.is_real is False for entry in _entries(exact)):
+        return None
     shown = _with_unit(exact, unit, factor, figures)
     lossless = explicit(shown) == exact
     return establish(
@@ -57,6 +62,61 @@ def value_of(
         law_shown=Level.BRIEF if _amounts_in(substituted) <= SHORT else Level.FULL,
         after=[Form(shown, "value" if lossless else "rounded")],
         parents=[answer],
+    )
+
+
+def _under_one_root(value: Expr) -> Expr:
+    """sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), into which numbers go once."""
+    roots = [f.as_base_exp() for f in Mul.make_args(value)]
+    above = [base for base, power in roots if power == HALF]
+    below = [base for base, power in roots if power == -HALF]
+    if len(above) + len(below) < 2:
+        return value
+    others = [base**power for base, power in roots if abs(power) != HALF]
+    inside = Ratio(Factors(*above), Factors(*below)) if below else Factors(*above)
+    return Factors(*others, Root(inside)) if others else Root(inside)
+
+
+def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
+    """Whether an inequality is so for the numbers, 20 cm > 2.5 cm; nothing for an equation or if letters are left.
+
+    condition   the inequality, as `positive_where` yields it
+    amounts     symbol -> its number with a unit
+    Second route: the sign of the difference of its sides in the machine's floating-point arithmetic.
+    Outcomes: fulfilled, not_fulfilled.
+    Source: as `value_of`.
+    """
+    relation = condition.value
+    if not isinstance(relation, Relation) or relation.mark not in FULFILLED:
+        return None
+    letters = _free(relation)
+    if not letters or not letters <= set(amounts):
+        return None
+    numbers = {letter: amounts[letter] for letter in letters}
+    left, right = (bound(side, numbers) for side in relation.sides)
+    difference = explicit(left) - explicit(right)
+    mark = "=" if difference == 0 else ">" if difference.is_positive else "<"
+
+    def sign_by_floats(found: Relation) -> tuple[Expr, Expr]:
+        ordered = sorted(letters, key=str)
+        x, y = (
+            lambdify(ordered, side, "math")(*(float(explicit(amounts[s])) for s in ordered)) for side in relation.sides
+        )
+        sign = 0 if abs(x - y) <= 1e-12 * (abs(x) + abs(y)) else 1 if x > y else -1
+        return Integer({">": 1, "=": 0, "<": -1}[found.mark]), Integer(sign)
+
+    return establish(
+        "numbers.comparison",
+        None,
+        lambda _: Relation(left, mark, right),
+        {"condition": relation},
+        routes={"floats": sign_by_floats},
+        outcome="fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled",
+        key=key or f"{condition.key}_value",
+        put_in=None,
+        show_result=False,
+        parents=[condition],
+        arranged=explicit,
     )
 
 

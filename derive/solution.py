@@ -16,7 +16,7 @@ from derive.derivation import Derivation, derivation_of, returned_quantities, wi
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
 from derive.errors import Complaint, Rejected
-from derive.numbers import coefficient_of, value_of
+from derive.numbers import coefficient_of, comparison_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
 from derive.reference import comparisons
@@ -179,7 +179,7 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
             raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
         unit, factor = form.unit, asked.factor
     figures = form.figures or problem.figures
-    value = value_of(answer, problem.amounts, unit, factor, figures)
+    value = value_of(answer, problem.amounts, unit, factor, figures) or comparison_of(answer, problem.amounts)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
 
 

@@ -105,7 +105,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
 
     squared   as `frequency_squared` yields it, 1/s^2
-    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0; it is the positive root of the two.
+    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """

@@ -197,8 +197,8 @@ def _symbol(step: Step, notation: Notation) -> str:
 
 
 def _number(value: Step | None) -> dict[str, Any] | None:
-    """The rounded value, or nothing while letters are left in it."""
-    if value is None or value.result.free_symbols:
+    """The rounded value; nothing for a relation or while letters are left in it."""
+    if value is None or isinstance(value.result, ex.Relation) or value.result.free_symbols:
         return None
     shown, unit = value.result, ""
     if isinstance(shown, ex.Amount | ex.MatrixAmount):
