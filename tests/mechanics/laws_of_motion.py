@@ -9,7 +9,6 @@ from typing import Any
 from sympy import Integer, Rational, Symbol, cos, sin
 
 from derive.expressions import Amount
-
 from tests.mechanics.slab import I, M, R, a, g, known_slab
 
 Verbs = SimpleNamespace
