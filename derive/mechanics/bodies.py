@@ -108,13 +108,16 @@ class Body:
         extent = self.extent
         return extent.value if isinstance(extent, Quantity) else explicit(extent)
 
-    def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
-        """The integral of a function of the position from a point, times dm, carried out."""
+    def over_mass(
+        self, integrand: Callable[[ImmutableMatrix], Any], point: Point, density: Quantity | None = None
+    ) -> Any:
+        """The integral of a function of the position from a point, times dm, carried out; the density may be known."""
+        rho = (density or self.density).value
         region = self.region(point).with_section_put_in()
         values = explicit(integrand(region.position))
         if hasattr(values, "applyfunc"):
-            return values.applyfunc(lambda f: self.density.value * explicit(region.integral(f)))
-        return self.density.value * explicit(region.integral(values))
+            return values.applyfunc(lambda f: rho * explicit(region.integral(f)))
+        return rho * explicit(region.integral(values))
 
     def direction(self, axis: Direction) -> Quantity:
         """A vector along the axis: a named one, or given components."""
