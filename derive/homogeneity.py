@@ -211,6 +211,8 @@ def _names_of(step: Step, dimension: Dimension | None) -> Table:
     names: Table = {} if step.symbol is None else {step.symbol: dimension}
     if isinstance(step.symbol, MatrixSymbol) and step.symbol.shape == (3, 1):
         names.update(dict.fromkeys(ex.component_names(step.symbol.name), dimension))
+    if isinstance(step.symbol, MatrixBase):
+        names.update(dict.fromkeys(step.symbol, dimension))
     return names
 
 

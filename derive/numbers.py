@@ -82,17 +82,14 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
 def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
     """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded.
 
-    answer    a scalar with letters, but no sum; nothing is yielded for any other, nor where the number is rational
+    answer    a scalar with letters; nothing is yielded where it holds a sum, beside which no number stands apart, nor
+              where the number is rational
     figures   significant figures
     Second route: what is left of the result without its letters, in the machine's floating-point arithmetic.
     Outcomes: exact.
     Source: as `value_of`.
     """
-    if (
-        isinstance(answer.value, MatrixBase | Relation)
-        or not answer.value.free_symbols
-        or isinstance(answer.value, Add)
-    ):
+    if isinstance(answer.value, MatrixBase | Relation) or not answer.value.free_symbols or answer.value.has(Add):
         return None
     number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
     if number.is_Rational:

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, NoReturn
 
-from sympy import Expr, MatrixSymbol, Symbol, diff
+from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, diff
 from sympy.core.symbol import Str
 
 from derive.dimensions import kind_with_article
@@ -27,6 +27,8 @@ from derive.evidence import Evidence, Grade, Verdict, equal
 from derive.exact import vanishes
 from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
+
+BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
 
 
 class Level(StrEnum):
@@ -311,6 +313,8 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
         if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
             names = component_names(quantity.symbol.name)
             values.update(zip(names, list(quantity.value), strict=True))
+        elif isinstance(quantity.symbol, MatrixBase):  # several things established together, such as I_1, I_2, I_3
+            values.update(zip(quantity.symbol, quantity.value, strict=True))
     # A name may not stand for something that holds that very name (a general omega has components omega_x, ...).
     return {name: value for name, value in values.items() if name != value}
 
@@ -328,6 +332,7 @@ def _line_evidence(
     if isinstance(form.expr, Truncated):
         return _series_evidence(key, claim, left, form.expr)
     if form.because == "motion":
+        claim = f"{claim} {BY_MOTION}"
         left, right = bound(left, motion), bound(right, motion)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:

@@ -100,7 +100,9 @@ def _of_relation(
 ) -> Verdict:
     """The document's equation against ours, or against ours times a factor that it says it has multiplied by."""
     sides = statement.sides
-    if len(sides) > 2 or statement.marks[-1] == "~" or any(side.shape or len(side.branches) > 1 for side in sides):
+    if any(side.shape for side in sides):
+        return Verdict(Grade.REFUTED, f"{_named_shape(sides[0].shape)} against a relation")
+    if len(sides) > 2 or statement.marks[-1] == "~" or any(len(side.branches) > 1 for side in sides):
         return Verdict(Grade.REFUTED, "this is not one relation")
     if len(sides) == 1:  # an equation may be stated by what vanishes in it
         sides = (sides[0], replace(sides[0], branches=(((Integer(0), sides[0].entries[0][1]),),)))

@@ -245,7 +245,7 @@ def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]
         (
             "<<part a>>",
             "`<<part a>>` is not a mention",
-            "write one name, as `<<mass>>`, `<<eq torque>>` for an equation, or `<<problem top>>`",
+            "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`",
         ),
     ],
 )

@@ -102,47 +102,39 @@ def top(
 
 
 def slab_on_cylinder(
-    radius: Expr,
-    thickness: Expr,
-    angle: Expr,
-    half_length: Expr | None = None,
-    centre: Any = None,
-    weight: Any = None,
+    radius: Expr, thickness: Expr, angle: Expr, centre: Any = None, weight: Any = None, half_length: Expr | None = None
 ) -> list[Mark]:
     """A slab rolled on a fixed cylinder, seen along its axis: x to the right, y upwards, angles clockwise.
 
-    radius        of the cylinder, R; its axis is the origin O
-    thickness     of the slab, a
+    radius        of the cylinder; its axis is the origin O
+    thickness     of the slab
     angle         by which it has turned, positive to the right; balanced on top at zero
-    half_length   of the slab, as drawn; without it two and a half radii
-    centre        name of the slab's centre, or the quantities (x, y) that say where it is, which are then drawn
+    centre        the two quantities (x, y) that say where its centre is: drawn with the contact and how far it moved
+    weight        name of the weight, which acts in the centre
+    half_length   of the slab, as drawn; one and a half radii and half its thickness if it is left out
     """
     reach = half_length if half_length is not None else Rational(3, 2) * radius + thickness / 2
     along, across = column(cos(angle), -sin(angle), 0), column(sin(angle), cos(angle), 0)
     contact = radius * across
     foot = contact - radius * angle * along  # the point of the face under the centre, R q behind the contact
-    middle, keys = foot + thickness / 2 * across, ()
-    label = centre if centre is not None else Symbol("C", real=True)
-    if isinstance(centre, tuple | list):
-        middle, keys = column(centre[0].value, centre[1].value, 0), tuple(q.key for q in centre)
-        label = Symbol("C", real=True)
-    corners = tuple(
-        foot + s * reach * along + h * across for s, h in ((-1, 0), (1, 0), (1, thickness), (-1, thickness))
-    )
+    corners = [foot + s * reach * along + h * across for s, h in ((-1, 0), (1, 0), (1, thickness), (-1, thickness))]
     marks: list[Mark] = [
         Circle(ORIGIN, Z, radius, True),
-        Polygon(corners),
+        Polygon(tuple(corners)),
         Line(ORIGIN, Rational(13, 10) * radius * Y + thickness * Y, "construction"),
         Line(ORIGIN, contact, "construction", label=radius),
-        Line(foot, foot + thickness * across, "hidden"),
         Dot(ORIGIN, label=Symbol("O", real=True)),
-        Dot(contact, label=Symbol("P", real=True)),
-        Dot(middle, label=label, keys=keys),
         AngleMark(ORIGIN, Y, across, Rational(2, 5) * radius, label=angle),
         Length(corners[1], corners[2], along, label=thickness),
-        Length(foot + thickness * across, contact + thickness * across, across, label=radius * angle),
-        Line(contact, contact + thickness * across, "hidden"),
     ]
-    if weight is not None:
-        marks.append(Arrow(middle, -Y, Rational(1, 4), False, label=weight, keys=keys))
-    return marks
+    if centre is None:
+        return marks
+    place, keys = column(centre[0].value, centre[1].value, 0), tuple(quantity.key for quantity in centre)
+    marks += [
+        Line(foot, foot + thickness * across, "hidden"),
+        Line(contact, contact + thickness * across, "hidden"),
+        Dot(contact, label=Symbol("P", real=True)),
+        Dot(place, label=Symbol("C", real=True), keys=keys),
+        Length(foot + thickness * across, contact + thickness * across, across, label=radius * angle),
+    ]
+    return marks if weight is None else [*marks, Arrow(place, -Y, Rational(1, 4), False, label=weight, keys=keys)]

@@ -34,7 +34,8 @@ from derive.figures.marks import (
     flat,
     noted,
 )
-from derive.mechanics.bodies import Cuboid, Point
+from derive.mechanics.bodies import Cuboid
+from derive.mechanics.regions import Point
 from derive.step import Quantity
 
 ORIGIN = column(0, 0, 0)
@@ -224,7 +225,7 @@ def outline(body: Any, named: bool = True) -> list[Mark]:
 
 @outline.register
 def _(body: Cuboid, named: bool = True) -> list[Mark]:
-    corner = body.corner.position
+    corner = body.point("corner").position
     along = [column(*(int(i == k) for k in range(3))) for i in range(3)]
     ends = [corner + side * direction for side, direction in zip(body.sides, along, strict=True)]
     outer = [Axis(end, end, d, label=scalar(name)) for end, d, name in zip(ends, along, AXES, strict=True)]

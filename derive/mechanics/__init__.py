@@ -66,6 +66,7 @@ from derive.mechanics.rotation import (
 )
 from derive.mechanics.sleeping import effective_potential, sleeping_spin, upright_rate
 from derive.mechanics.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.special_cases import isotropic_where
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
 from derive.mechanics.tops import (
     EulerAngles,
@@ -126,6 +127,7 @@ __all__ = [
     "generalized_force",
     "generalized_momentum",
     "inertia_tensor",
+    "isotropic_where",
     "kinetic_energy",
     "lagrangian",
     "leading_order",

@@ -108,16 +108,13 @@ class Body:
         extent = self.extent
         return extent.value if isinstance(extent, Quantity) else explicit(extent)
 
-    def over_mass(
-        self, integrand: Callable[[ImmutableMatrix], Any], point: Point, density: Quantity | None = None
-    ) -> Any:
-        """The integral of a function of the position from a point, times dm, carried out; the density may be known."""
-        rho = (density or self.density).value
+    def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
+        """The integral of a function of the position from a point, times dm, carried out."""
         region = self.region(point).with_section_put_in()
-        values = explicit(integrand(region.position))
+        values, density = explicit(integrand(region.position)), self.mass / self.size
         if hasattr(values, "applyfunc"):
-            return values.applyfunc(lambda f: rho * explicit(region.integral(f)))
-        return rho * explicit(region.integral(values))
+            return values.applyfunc(lambda f: density * explicit(region.integral(f)))
+        return density * explicit(region.integral(values))
 
     def direction(self, axis: Direction) -> Quantity:
         """A vector along the axis: a named one, or given components."""
@@ -195,10 +192,11 @@ def axis_vector(along: ImmutableMatrix, name: str) -> Quantity:
     )
 
 
-def density(body: Body, symbol: str | None = None, key: str = "density") -> Quantity:
+def density(body: Body, symbol: str | None = None, key: str = "density", part: str | None = None) -> Quantity:
     """Density of a uniform body, rho = M/V; of a thin one, sigma = M/A or lambda = M/l.
 
     body    mass M; volume V, area A or length l
+    part    what the page calls the body where it is one of several
     Second route: the integral of the density over the body gives M back.
     Outcomes: along_edges (of a cuboid); volume, area, length (what the mass is spread over); derived, where that was a
     step of its own.
@@ -216,6 +214,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density") -> Quan
         outcome=_density_outcome(body, extent),
         kind=kind,
         key=key,
+        words={"part": part} if part else {},
     )
 
 

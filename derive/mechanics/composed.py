@@ -66,6 +66,7 @@ class Composed:
                 part.body,
                 symbol=None if letters.count(letter) == 1 else f"{letter}_{part.name}",
                 key=f"{part.name}_density",
+                part=part.name,
             )
             for part, letter in zip(parts, letters, strict=True)
         }
@@ -103,10 +104,7 @@ def total_mass(body: Composed, symbol: str | None = None, key: str = "total_mass
     masses = [part.body.mass for part in body.parts]
 
     def by_integration() -> Expr:
-        return sum(
-            (part.body.over_mass(lambda _: Integer(1), part.pivot, body.density(part)) for part in body.parts),
-            Integer(0),
-        )
+        return sum((part.body.over_mass(lambda _: Integer(1), part.pivot) for part in body.parts), Integer(0))
 
     return establish(
         "composed.total_mass",
@@ -224,7 +222,7 @@ def part_moment(body: Composed, part: Part, pair: tuple[int, int]) -> Quantity:
     axial = [body.moment(part, AXIAL)] if is_flat else []
 
     def directly() -> Expr:
-        return part.body.over_mass(lambda r: _squared_distance(r, pair), centre, body.density(part))
+        return part.body.over_mass(lambda r: _squared_distance(r, pair), centre)
 
     law: Callable[..., Any]
     if is_flat:
@@ -265,9 +263,5 @@ def _from_particles(body: Composed, pair: tuple[int, int]) -> Expr:
 
 def _by_integration(body: Composed, pair: tuple[int, int]) -> Expr:
     return sum(
-        (
-            part.body.over_mass(lambda r: _squared_distance(r, pair), part.pivot, body.density(part))
-            for part in body.parts
-        ),
-        Integer(0),
+        (part.body.over_mass(lambda r: _squared_distance(r, pair), part.pivot) for part in body.parts), Integer(0)
     )

@@ -210,11 +210,13 @@ def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
     split = [_collected((Nested(_from_the_tip(factor(disc), z_limit), (z_limit,)),)) for disc in along]
     return [
         Form(Factors(front, Integral(_sum(chords), y_limit, z_limit)), "chords", Level.STANDARD),
-        *([Form(Factors(front, Integral(_sum(turned), z_limit)), "turned", Level.FULL)] if all(turned) else []),
+        *([Form(Factors(front, Integral(_sum(turned), z_limit)), "turned", Level.STANDARD)] if all(turned) else []),
         Form(Factors(front, Integral(_sum(discs), z_limit)), "discs", Level.STANDARD),
         _line(front, split, Nested.written, "section", Level.STANDARD),
         _line(front, split, _with_power_bracket, "antiderivative", Level.STANDARD),
-        Form(_times(front, [Mul(*(_one_further(part) for part in term)) for term in split]), "multiplied"),
+        Form(
+            _times(front, [Mul(*(_one_further(part) for part in term)) for term in split]), "multiplied", Level.STANDARD
+        ),
     ]
 
 

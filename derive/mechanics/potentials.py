@@ -90,7 +90,7 @@ def leading_order(
     potential   a function of one coordinate, J
     where       a letter and the value for which the curvature vanishes, as `boundary_case` yields it
     at          q_0; 0 unless given
-    Second route: the derivatives of U up to the n-th, at that point.
+    Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
     at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
@@ -112,6 +112,10 @@ def leading_order(
         expected = leading * factorial(order) * marks[order] if order else Integer(0)
         return Add(*(diff(found, q, n).subs(q, place) * marks[n] for n in orders)), expected
 
+    def lowest(found: Expr) -> tuple[Expr, Expr]:
+        orders = (n for n in range(1, HIGHEST + 1) if tidied(diff(found, q, n).subs(q, place)) != 0)
+        return Integer(order), Integer(next(orders, 0))
+
     return establish(
         "potentials.leading_order",
         in_case(potential.symbol),
@@ -120,7 +124,7 @@ def leading_order(
         put_in=None,
         law_shown=Level.FULL,
         after=[Form(Truncated(truncated, q, place, Integer(order)), "series")] if order else [],
-        routes={"derivatives": by_derivatives},
+        routes={"derivatives": by_derivatives, "lowest": lowest},
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,

@@ -64,7 +64,7 @@ def principal_axes(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     found, angle = _frame(moments)
-    alone = _alone(moments.value)
+    alone = lone_moment(moments.value)
     first = alone if alone is not None else 0
     order = [first, *(k for k in range(3) if k != first)]
     axes: dict[int, Quantity] = {}
@@ -136,7 +136,7 @@ def _multiplicity_of_roots(moments: Any) -> str:
     return "two_equal_roots" if _number_of_different(moments) == 2 else "roots"
 
 
-def _alone(moments: Any) -> int | None:
+def lone_moment(moments: Any) -> int | None:
     """Which moment differs from two others that are equal."""
     if _number_of_different(moments) != 2:
         return None
@@ -202,7 +202,7 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
         frame = [column(*(int(i == k) for i in range(3))) for k in range(3)]
     else:
         frame = _eigenvectors(tensor, moments.value)
-    alone = _alone(moments.value)
+    alone = lone_moment(moments.value)
     if alone is not None:
         i, j = (alone + 1) % 3, (alone + 2) % 3
         u, v = frame[i], frame[j]
@@ -212,7 +212,7 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
 
 def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
     """Of a single moment, the vector at right angles to the rows of I - I_k 1; what is left, by vector products."""
-    alone = _alone(moments)
+    alone = lone_moment(moments)
     first = alone if alone is not None else 0
     i, j = (first + 1) % 3, (first + 2) % 3
     frame: dict[int, Any] = {first: _null_vector(tensor, moments[first])}

@@ -148,7 +148,7 @@ def character(of: Quadratic) -> str:
     sign = sign_known(of.discriminant)
     if sign == 1:
         return "opposite" if sign_known(of.a * of.c) == -1 else "two"
-    return {-1: "none", 0: "double"}.get(sign, "conditional")
+    return "conditional" if sign is None else {-1: "none", 0: "double"}[sign]
 
 
 def _formula(of: Quadratic) -> Expr:

@@ -111,6 +111,7 @@ def solid_of_revolution(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Exp
         limits: Limits = ((z, lower, upper), (theta, Integer(0), 2 * pi), (r, Integer(0), edge))
         return Region(limits, column(*_from_axis(r * cos(theta), r * sin(theta), point), z), r)
     x, y = coordinates("xy", taken)
+    _check_sign(radius_at, ends)
     edge = radius_at(point.along_body(z))
     varies = edge.has(z)
     r = Symbol(coordinates("r", taken)[0].name, nonnegative=True) if varies else edge
@@ -118,6 +119,15 @@ def solid_of_revolution(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Exp
     chord = sqrt(r**2 - (y + b) ** 2)
     limits = ((z, lower, upper), (y, -r - b, r - b), (x, -chord - a, chord - a))
     return Region(limits, column(x, y, z), section=(r, edge) if varies else None)
+
+
+def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> None:
+    """The ends of a chord are in order only where its radius is not negative."""
+    unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
+    if unsure is not None:
+        message = f"the radius `{unsure}` is not known to be positive, as Cartesian limits need"
+        help_line = "give it a letter of its own, or use cylindrical coordinates"
+        raise Rejected(Complaint("unknown-sign", message, help=help_line))
 
 
 def disc(radius: Expr, point: Point, height: Expr) -> Region:

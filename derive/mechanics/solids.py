@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, pi, sin, sqrt
 
-from derive.expressions import Factors, Group, Ratio, Terms, column
+from derive.expressions import Factors, column
 from derive.mechanics.bodies import Body, Particles
 from derive.mechanics.integration import worked_integral
 from derive.mechanics.regions import COORDINATES, Point, Region, solid_of_revolution
@@ -35,6 +35,17 @@ class RoundSolid(Body):
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         return solid_of_revolution(self.radius_at, self.ends, point, coordinates or COORDINATES[1])
+
+    def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
+        """Two expressions that are equal where (r, z), in its own axes, is on its edge."""
+        raise AttributeError(f"{type(self).__name__} must say where its edge is")
+
+    def radii(self, point: Point, region: Region) -> list[Quantity]:
+        if region.section is None:
+            return []
+        if point not in self._known_radii:
+            self._known_radii[point] = _section_radius(self, point, region)
+        return [self._known_radii[point]]
 
     @cached_property
     def _known_radii(self) -> dict[Point, Quantity]:
@@ -85,12 +96,9 @@ class Cone(RoundSolid):
             found += disc_particles(share * self.mass, height * self.radius, height * self.height)
         return found
 
-    def radii(self, point: Point, region: Region) -> list[Quantity]:
-        if region.section is None:
-            return []
-        if point not in self._known_radii:
-            self._known_radii[point] = _section_radius(self, point, region)
-        return [self._known_radii[point]]
+    def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
+        """Apex, edge and rim are on one line: the slopes are equal."""
+        return r * self.height, self.radius * z
 
 
 @dataclass(frozen=True)
@@ -157,6 +165,10 @@ class Ball(RoundSolid):
     def extent(self) -> Expr:
         return Factors(Rational(4, 3), pi, self.radius**3)
 
+    def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
+        """Pythagoras: the edge is at the distance R from the centre."""
+        return r**2 + z**2, self.radius**2
+
     def points(self) -> Mapping[str, Point]:
         return {"centre": Point("centre", column(0, 0, 0))}
 
@@ -189,9 +201,9 @@ def volume(body: Cone) -> Quantity:
     _, theta, r = region.names
     return establish(
         "bodies.volume",
-        Symbol("V", positive=True),
+        Symbol("V" if Symbol("V", positive=True) not in body.mass.free_symbols else "V_0", positive=True),
         lambda *_: region.integral(Integer(1)),
-        {"edge": region.limits[2][2], "x_is": r * cos(theta), "y_is": r * sin(theta)},
+        {"along": region.names[0], "edge": region.limits[2][2], "x_is": r * cos(theta), "y_is": r * sin(theta)},
         between=worked_integral(region, Integer(1), Integer(1), Integer(1)),
         routes={"pappus": lambda value: (value, _by_pappus(body))},
         outcome="cylindrical",
@@ -209,35 +221,20 @@ def _by_pappus(body: Cone) -> Expr:
     return 2 * pi * (r1 + r2 + r3) / 3 * (-area)
 
 
-def _section_radius(body: Cone, point: Point, region: Region) -> Quantity:
-    """r = R (h - z)/h, the radius of the cross-section at z from a point of the axis."""
-    assert region.section is not None
-    symbol, value = region.section
+def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
+    """The radius of the cross-section at z from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
+    symbol, value = region.section or (None, None)
     z = region.names[0]
-    tip = point.seen(body.points()["apex"].position)[2]
-    direction = point.axes[2, 2]
     return establish(
         "bodies.section_radius",
         symbol,
-        lambda R, h, along: Ratio(Factors(R, _from_tip(tip, along, direction)), h),
-        {"radius": body.radius, "height": body.height, "coordinate": z},
-        routes={"limits": lambda r: (r, value), "straight": lambda r: _on_one_line(body, point, z, r)},
+        lambda _: value,
+        {"along": z},
+        routes={"edge": lambda r: body.edge_condition(point.along_body(z), r)},
+        outcome="straight" if isinstance(body, Cone) else "curved",
         kind="length",
         put_in=None,
         coordinates={z: "length"},
         words={"start": point.name},
         key="section_radius",
     )
-
-
-def _from_tip(tip: Expr, z: Expr, direction: Expr) -> Expr:
-    """The distance from the tip along the axis, as it is written: h - z."""
-    if tip == 0:
-        return z
-    return Group(Terms(tip, -z)) if direction == -1 else Group(Terms(z, -tip))
-
-
-def _on_one_line(body: Cone, point: Point, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-    """Tip, edge at z and rim are on one line: their slopes are equal."""
-    tip, rim = (point.seen(column(0, 0, end))[2] for end in (Integer(0), body.height))
-    return r * (rim - tip), body.radius * (z - tip)

@@ -32,7 +32,6 @@ from sympy.core.numbers import Exp1, Pi
 
 from derive import expressions as ex
 from derive.dimensions import Dimension
-from derive.expressions import scaled
 from derive.render.layout import (
     CROSS,
     DOT,
@@ -66,6 +65,7 @@ from derive.render.products import (
     either_sign,
     number_and_letters,
     positive_first,
+    present,
     rank_of_dimension,
     root_cancelled,
     roots_last,
@@ -74,20 +74,9 @@ from derive.render.products import (
     sign_and_size,
 )
 from derive.rounding import Rounded, decimal_text
-from derive.tidy import factored_matrix
 
 SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
 FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
-
-
-def present(value: Any) -> Any:
-    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
-    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
-        return value
-    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
-        return value
-    factor, rest = factored_matrix(value)
-    return value if factor == 1 else scaled(factor, rest)
 
 
 class Notation:

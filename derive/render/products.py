@@ -5,10 +5,11 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import Any
 
-from sympy import Add, Expr, MatMul, Mul, Pow, Rational, factorint
+from sympy import Add, Expr, MatMul, MatrixBase, Mul, Pow, Rational, factorint
 
 from derive import expressions as ex
 from derive.dimensions import Dimension
+from derive.expressions import scaled
 from derive.render.layout import (
     DOT,
     MINUS,
@@ -29,6 +30,7 @@ from derive.render.layout import (
     last_of,
     row,
 )
+from derive.tidy import factored_matrix
 
 
 def decimal(number: Rational) -> Layout:
@@ -38,6 +40,16 @@ def decimal(number: Rational) -> Layout:
         return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
     places = max(factorint(number.q).values(), default=0)
     return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+
+
+def present(value: Any) -> Any:
+    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
+    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
+        return value
+    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
+        return value
+    factor, rest = factored_matrix(value)
+    return value if factor == 1 else scaled(factor, rest)
 
 
 def sign_and_size(term: Any) -> tuple[bool, Any]:

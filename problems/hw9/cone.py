@@ -6,6 +6,7 @@ from derive.mechanics import (
     agreement,
     centre_of_mass,
     inertia_tensor,
+    isotropic_where,
     moved_to,
     principal_axes,
     principal_moments,
@@ -18,11 +19,11 @@ def solve(radius: Length, height: Length, mass: Mass):
     J = inertia_tensor(cone, about="apex", key="apex_tensor")  # cylindrical coordinates
     I = moved_to(J, cone.centre)  # parallel axes
 
-    base = {"origin": "base", "coordinates": "cartesian"}
     J_base = inertia_tensor(cone, about="base", coordinates="cartesian", symbol="J'", key="base_tensor")
-    centre = centre_of_mass(cone, **base, symbol="r'_C", key="centre_from_base")
+    centre = centre_of_mass(cone, origin="base", coordinates="cartesian", symbol="r'_C", key="centre_from_base")
     again = moved_to(J_base, centre, symbol="I'", key="tensor_from_base")
 
     moments = principal_moments(I)
+    axes = principal_axes(moments)  # I e = I_k e
 
-    return I, agreement(I, again), moments, *principal_axes(moments)
+    return I, agreement(I, again), moments, *axes, isotropic_where(moments, height)

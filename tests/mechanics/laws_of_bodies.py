@@ -10,12 +10,17 @@ from tests.mechanics.round_bodies import M, R, cone_derivation, h, skew_tensor, 
 
 Verbs = SimpleNamespace
 BODIES, SOLIDS, THIN, INERTIA = "mechanics.bodies", "mechanics.solids", "mechanics.thin_bodies", "mechanics.inertia"
+CASES = "mechanics.special_cases"
 COMPOSED, PRINCIPAL, REGIONS = "mechanics.composed", "mechanics.principal", "mechanics.regions"
 INTEGRATION, INTEGRALS = "mechanics.integration", "integrals"
 
 
 def skew(verbs: Verbs) -> Any:
     return verbs.principal_axes(verbs.principal_moments(skew_tensor(verbs)))
+
+
+def special_case(verbs: Verbs) -> Any:
+    return verbs.isotropic_where(verbs.principal_moments(verbs.inertia_tensor(verbs.Cone(R, h, M))), h)
 
 
 RUNS: dict[str, Callable[[Verbs], Any]] = {
@@ -32,6 +37,7 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
     "principal_moments of a plate": skew,
     "principal_axes": cone_derivation,
     "principal_axes of a plate": skew,
+    "isotropic_where": special_case,
     "total_mass": top_derivation,
     "centre_distance": top_derivation,
     "part_moment": top_derivation,
@@ -69,10 +75,10 @@ LAWS: list[tuple[str, str, str, str, str]] = [
     ("inertia_tensor of a cone", REGIONS, "(y, -r - b, r - b)", "(y, -b, r - b)", "base_tensor_xx"),
     (
         "inertia_tensor of a cone",
-        SOLIDS,
-        "return Group(Terms(tip, -z)) if",
-        "return Group(Terms(tip, z)) if",
-        "section_radius",
+        REGIONS,
+        "[2] + self.axes[2, 2] * z",
+        "[2] - self.axes[2, 2] * z",
+        "inertia_tensor_xx",
     ),
     (
         "inertia_tensor of a cone",
@@ -209,6 +215,28 @@ LAWS: list[tuple[str, str, str, str, str]] = [
     ("part_moment", THIN, "Factors(pi, self.radius**2)", "Factors(2, pi, self.radius**2)", "disc_density"),
     ("axial_moment", COMPOSED, "lambda *found: _sum(list(found))", "lambda *found: 2 * found[0]", "axial_moment"),
     ("axial_moment", COMPOSED, "lambda *found: _sum(list(found))", "lambda *found: -found[0]", "axial_moment"),
+    (
+        "isotropic_where",
+        CASES,
+        'Relation(found[one], "=", found[other])',
+        'Relation(found[one], "=", 2 * found[other])',
+        "special_case",
+    ),
+    (
+        "isotropic_where",
+        CASES,
+        "moments.value[k] / _letters_only(plain)",
+        "(k + 1) * moments.value[k] / _letters_only(plain)",
+        "special_case",
+    ),
+    (
+        "isotropic_where",
+        CASES,
+        'Relation(unknown**2, "=", tidied(bound**2))',
+        'Relation(unknown**2, "=", tidied(bound))',
+        "special_case",
+    ),
+    ("isotropic_where", CASES, "tidied(-rest / leading)", "tidied(-2 * rest / leading)", "special_case"),
     ("transverse_moment", COMPOSED, "            terms.append(own)\n", "", "transverse_moment"),
     ("transverse_moment", COMPOSED, "Pow(part.at, 2, evaluate", "Pow(part.at, 3, evaluate", "transverse_moment"),
     (
@@ -221,6 +249,14 @@ LAWS: list[tuple[str, str, str, str, str]] = [
 ]
 
 ROUTES: list[tuple[str, str, str, str, str]] = [
+    (
+        "isotropic_where",
+        CASES,
+        ".value.subs(letter, bound))\n    return there",
+        ".value.subs(letter, 2 * bound))\n    return there",
+        "special_case",
+    ),
+    ("isotropic_where", CASES, "-rises * Abs(before)", "rises * Abs(before)", "special_case"),
     ("part_moment", COMPOSED, "(m * _squared_distance(centre.", "(2 * m * _squared_distance(centre.", "disc_moment_z"),
     ("volume", SOLIDS, "(r1 + r2 + r3) / 3", "(r1 + r2 + r3) / 2", "volume"),
     (
@@ -233,8 +269,8 @@ ROUTES: list[tuple[str, str, str, str, str]] = [
     (
         "inertia_tensor of a cone",
         SOLIDS,
-        "r * (rim - tip), body.radius",
-        "r * (tip - rim), body.radius",
+        "r * self.height, self.radius * z",
+        "r * self.height, 2 * self.radius * z",
         "section_radius",
     ),
     (
