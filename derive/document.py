@@ -261,8 +261,9 @@ class _Writer:
         )
 
     def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
+        in_another_case = {key for step in self.derivation.steps for key in step.stands_for}
         for key in named:
-            if key not in self.symbols:
+            if key not in self.symbols and key not in in_another_case:
                 help_line = did_you_mean(key, self.symbols)
                 place = self.problem.place_of(section, key)
                 self.faults.append(
