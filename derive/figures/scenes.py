@@ -34,7 +34,8 @@ from derive.figures.marks import (
     flat,
     noted,
 )
-from derive.mechanics.bodies import Cuboid, Point
+from derive.mechanics.bodies import Cuboid
+from derive.mechanics.regions import Point
 from derive.step import Quantity
 
 ORIGIN = column(0, 0, 0)
