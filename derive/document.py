@@ -42,6 +42,7 @@ from derive.wording import (
     name_of,
     names_of_step,
     notes_apart,
+    stated_once,
     told,
 )
 
@@ -128,6 +129,7 @@ class Illustration:
     number: int | None
     caption: tuple[Node, ...]
     at: str
+    rests_on: tuple[str, ...] = ()
 
 
 Block = Paragraph | Display | Answers | Illustration
@@ -199,7 +201,9 @@ class _Writer:
         self.dimensions, unlike = dimension_table(problem.dimensions, every)
         # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
         self.faults = [replace(fault, place=problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
-        self.references = References(problem.set_id, others, words, self.faults)
+        self.references = References(
+            problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
+        )
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
         self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -211,7 +215,7 @@ class _Writer:
         problem = self.problem
         title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)
-        statement = self._told(problem.statement.pieces)
+        statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"])
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
         self.references.check(self.numbers, self.symbols)
@@ -243,8 +247,6 @@ class _Writer:
         names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
-        for key, number in caption_numbers(self.problem, self.drawings, self.derivation).items():
-            names.setdefault(key, Text(f"{self.words.labels['figure']} {number}"))
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
@@ -259,8 +261,9 @@ class _Writer:
         )
 
     def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
+        in_another_case = {key for step in self.derivation.steps for key in step.stands_for}
         for key in named:
-            if key not in self.symbols:
+            if key not in self.symbols and key not in in_another_case:
                 help_line = did_you_mean(key, self.symbols)
                 place = self.problem.place_of(section, key)
                 self.faults.append(
@@ -273,22 +276,27 @@ class _Writer:
         found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
         self.faults += faults
         stem = self.problem.id.rpartition("/")[2]
-        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at) for d in found]
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in found]
 
     # --- parts ---
 
     def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
         blocks: list[Block] = self._found_before(part)
+        ends: dict[str, int] = {}
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             self._append(blocks, self.derivation.step(key))
+            ends[key] = len(blocks)
+        steps = len(blocks)
         values = [v for key in part.answers if (v := self.values.get(key)) and v.key not in self.numbers]
-        for i, value in enumerate(v for v in values if v.outcome == "measured"):
+        for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
-        blocks.extend(illustration for illustration in illustrations if illustration.at == label)
-        return PartPage(label, self._told(part.ask.pieces), part.points, _punctuated(blocks))
+        own = [illustration for illustration in illustrations if illustration.at == label]
+        return PartPage(
+            label, self._told(part.ask.pieces), part.points, _illustrated(_punctuated(blocks), own, ends, steps)
+        )
 
     def _found_before(self, part: Part) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""
@@ -410,10 +418,22 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         if isinstance(block, Display) and isinstance(following, Paragraph):
             first = following.nodes[0]
-            if isinstance(first, Text) and first.text[:1].islower():
+            if isinstance(first, Text) and first.text.lstrip()[:1].islower():
                 block = replace(block, end=",")
         result.append(block)
     return tuple(result)
+
+
+def _illustrated(
+    blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
+) -> tuple[Block, ...]:
+    """Each drawing after the step that completes it; at the end of the part if that is its last, or none of its."""
+    places = [max((ends[key] for key in drawing.rests_on if key in ends), default=steps) for drawing in own]
+    found: list[Block] = []
+    for i, block in enumerate(blocks):
+        found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]
+        found.append(block)
+    return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place >= steps))
 
 
 def _around_chain(nodes: tuple[Node, ...]) -> tuple[tuple[Node, ...], tuple[Node, ...]]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol
 
 from derive.encoding import decoded, encoded
 from derive.expressions import PLUS_MINUS, Amount, Factors, Relation
@@ -34,21 +35,22 @@ class Erratum:
         return cls(*words, decoded(kept["printed"]), decoded(kept["right"]))
 
 
-def erratum_of(entry: Entry) -> Erratum:
-    """The erratum that an entry of the reference states."""
+def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
+    """The erratum that an entry of the reference states, in the letters of the problem, by their names."""
     assert entry.right is not None
-    return Erratum(entry.answer, entry.part, entry.why, _shown(entry.states, entry), _shown(entry.right, entry))
+    printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
+    return Erratum(entry.answer, entry.part, entry.why, printed, right)
 
 
-def _shown(statement: Statement, entry: Entry) -> Any:
+def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
     """A value, a relation, or both branches of a value in one."""
-    sides = [_value(side, entry) for side in statement.sides]
+    sides = [_value(side, entry, letters) for side in statement.sides]
     return Relation(sides[0], statement.marks[1], sides[1]) if len(sides) == 2 else sides[0]
 
 
-def _value(stated: Stated, entry: Entry) -> Any:
+def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
     branches = [
-        [_in_unit(_with_figures(_with_plain_letters(expr), i, entry), entry) for i, (expr, _) in enumerate(entries)]
+        [_in_unit(_with_figures(_renamed(expr, letters), i, entry), entry) for i, (expr, _) in enumerate(entries)]
         for entries in stated.branches
     ]
     if stated.shape:
@@ -59,9 +61,9 @@ def _value(stated: Stated, entry: Entry) -> Any:
     return (plus + minus) / 2 + PLUS_MINUS * (plus - minus) / 2
 
 
-def _with_plain_letters(expr: Expr) -> Expr:
-    """The variable of an integral by its name, as it is printed."""
-    return expr.xreplace({x: Symbol(x.name, real=True) for x in expr.atoms(Dummy)})
+def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
+    """In the problem's own letters; the variable of an integral by its name, as it is printed."""
+    return expr.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in expr.atoms(Symbol)})
 
 
 def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:

@@ -13,19 +13,20 @@ from functools import cached_property
 from derive.errors import Place
 from derive.source import Faults, Node, Scalar, abridged, shape_of
 
-EQUATION, PROBLEM = "eq", "problem"
+EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
 
 _MENTION = re.compile(
-    r"<<\s*(?:(?P<of>eq)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
+    r"<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
+    r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
     r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
     re.ASCII,
 )
-_HOW = "write one name, as `<<mass>>`, `<<eq torque>>` for an equation, or `<<problem top>>`"
+_HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
 
 
 @dataclass(frozen=True)
 class Mention:
-    """A `<<name>>`, and where it stands; `of` is what it refers to if not to the name itself: `eq`, `problem`."""
+    """A `<<name>>`, and where it stands; `of` is what it refers to if not to the name: `eq`, `problem`, `figure`."""
 
     name: str
     place: Place

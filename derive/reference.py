@@ -54,10 +54,11 @@ class Comparison:
     grade: Grade | None
     detail: str
     complaint: Complaint | None = None
+    erratum: Erratum | None = None
     here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
 
     def told(self) -> Told:
-        return Told(self.facts(), self.here, erratum_of(self.entry) if self.outcome == "erratum" else None)
+        return Told(self.facts(), self.here, self.erratum)
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""
@@ -127,7 +128,9 @@ def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
         return Comparison(pinned.id, entry, "differs", verdict.grade, message, fault)
     right = verdict_on(entry.right, step, entry, pinned)
     if right:
-        return Comparison(pinned.id, entry, "erratum", right.grade, f"{entry.why}: {_said(verdict)}")
+        erratum = erratum_of(entry, {name: known.symbol for name, known in pinned.symbols.items()})
+        told = f"{entry.why}: {_said(verdict)}"
+        return Comparison(pinned.id, entry, "erratum", right.grade, told, erratum=erratum)
     return _difference(entry, step, right, pinned, "`right`", entry.right.place)
 
 

@@ -1,31 +1,41 @@
-"""References by number: `<<eq torque>>` to an equation of the page, `<<problem top>>` to a problem of the set."""
+"""References by number: `<<eq torque>>` to an equation, `<<figure axes>>` to a drawing, `<<problem top>>`."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
 from derive.errors import Complaint
-from derive.prose import PROBLEM, Mention
+from derive.prose import FIGURE, PROBLEM, Mention
 from derive.source import did_you_mean
 from derive.step import Step
-from derive.wording import Node, Phrases, ProblemRef, Ref, filled, joined, name_of
+from derive.wording import Node, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
 
 
 class References:
     """Those of one page. An equation may be referred to before it has its number, so they are checked at the end.
 
     others   the numbers of the set's problems, by their names
+    figures  the numbers of the drawings that have a caption, by their names
     faults   gathers what is wrong
     """
 
-    def __init__(self, set_id: str, others: Mapping[str, int], words: Phrases, faults: list[Complaint]):
-        self.set_id, self.others, self.words, self.faults = set_id, others, words, faults
+    def __init__(
+        self,
+        set_id: str,
+        others: Mapping[str, int],
+        figures: Mapping[str, int],
+        words: Phrases,
+        faults: list[Complaint],
+    ):
+        self.set_id, self.others, self.figures, self.words, self.faults = set_id, others, figures, words, faults
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Node | None:
         """What stands in the text for a mention."""
         if mention.of == PROBLEM:
             return self._problem(mention)
+        if mention.of == FIGURE:
+            return self._figure(mention)
         self.equations.append(mention)
         return Ref(mention.name)
 
@@ -48,6 +58,14 @@ class References:
         help_line = did_you_mean(mention.name, self.others) or "the problems of a set are those that its set.yaml lists"
         message = f"there is no problem `{mention.name}` in this set"
         self.faults.append(Complaint("no-such-problem", message, mention.place, help=help_line))
+        return None
+
+    def _figure(self, mention: Mention) -> Node | None:
+        if mention.name in self.figures:
+            return Text(f"{self.words.labels['figure']}\u00a0{self.figures[mention.name]}")
+        message = f"no drawing with a caption is called `{mention.name}`"
+        help_line = did_you_mean(mention.name, self.figures) or "give the drawing a `caption:` under `drawings:`"
+        self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))
         return None
 
     def check(self, numbers: Mapping[str, int], known: Collection[str]) -> None:

@@ -28,6 +28,8 @@ from derive.exact import vanishes
 from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
 
+BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
+
 
 class Level(StrEnum):
     """How much algebra a reader wants; a form is shown at its own level and at every higher one."""
@@ -330,6 +332,7 @@ def _line_evidence(
     if isinstance(form.expr, Truncated):
         return _series_evidence(key, claim, left, form.expr)
     if form.because == "motion":
+        claim = f"{claim} {BY_MOTION}"
         left, right = bound(left, motion), bound(right, motion)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:

@@ -71,7 +71,7 @@ class Chain:
     """Where the lines of the step go."""
 
 
-ASKED = {"point", "axis_letter"}  # words that a phrase chooses by, and does not print
+ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, and does not print
 
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
@@ -271,6 +271,28 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     if not behind:
         return names
     return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
+
+
+def stated_once(nodes: Sequence[Node], last: str) -> tuple[Node, ...]:
+    """Prose in which the number of a letter is told only where the letter comes first: `a = 10 cm`, then `a`.
+
+    `last` is the word before the letters behind an expression: in `a/2 with a = 10 cm` it goes with them.
+    """
+    kept: list[Node] = []
+    known: set[Any] = set()
+    for i, node in enumerate(nodes):
+        kept.append(node)
+        letter, sign = (kept[-3:-1]) if len(kept) > 2 else (None, None)
+        if not (sign == Text(" = ") and isinstance(letter, Math) and isinstance(node, Math)):
+            continue
+        if not isinstance(node.expr, Amount) or letter.expr not in known:
+            known.add(letter.expr)
+            continue
+        del kept[-2:]
+        alone = kept[-2:-1] == [Text(f" {last} ")] and nodes[i + 1 : i + 2] != (Text(" and "),)
+        if alone:
+            del kept[-2:]
+    return tuple(kept)
 
 
 def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Node, ...]:

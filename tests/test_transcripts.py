@@ -33,6 +33,26 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
     "euler-symmetric": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_z]"}, None),
     "euler-isotropic": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_x]"}, None),
     "euler-numbers": ({"moments: [I_x, I_y, I_z]": "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"}, None),
+    "slab": ({}, None),
+    "slab-full": ({}, "full"),
+    "slab-thick": ({"radius: R\n": "radius: a/4\n"}, None),
+    "slab-stable": ({"radius: R\n": "radius: 2*a\n"}, None),
+    "slab-border": ({"radius: R\n": "radius: a/2\n"}, None),
+    "slab-numbers": (
+        {
+            "radius: R\n": "radius: 20 cm\n",
+            "thickness: a\n": "thickness: 5 cm\n",
+            "mass: M\n": "mass: 1 kg\n",
+            "inertia: I ": "inertia: 0.0035 kg m^2 ",
+            "gravity: g\n": "gravity: 9.8 m/s^2\n",
+        },
+        None,
+    ),
+    "top": ({}, None),
+    "top-slow": ({"900 rpm": "200 rpm"}, "brief"),
+    "top-horizontal": ({"45 deg": "90 deg"}, "brief"),
+    "top-beyond": ({"45 deg": "120 deg"}, "brief"),
+    "top-letters": ({"tilt: 45 deg": "tilt: theta", "S: angular speed,": "S: angular speed, theta: angle,"}, "brief"),
 }
 
 

@@ -1,6 +1,6 @@
 """Integrals as a document writes them: signs with their limits, differentials anywhere customary, brackets with limits.
 
-Only integrals of powers, sines and cosines are taken, so that none runs away.
+Only integrals that are quick are read: of powers, sines and cosines, and over the roots that circles bring in.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from sympy import Add, Dummy, Expr, Integer, Integral, Mul, Pow, Symbol, cos, expand, sin
 
 from derive.expressions import Bracket, Group, explicit
+from derive.integrals import Limits, definite, has_root
 from derive.latex.grids import Grids, Value, each
 from derive.terms import Term
 
@@ -55,6 +56,8 @@ def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: list[Va
         sign = signs[position]
         if sign.variable is None:
             help_line = "put an integrand that is a sum in brackets"
+            if reader.d_is_a_letter:
+                help_line = "`d` is a letter here, so write `\\mathrm{d}x`"
             reader.refuse("integral", "this integral has no differential", sign.start, sign.end, help_line)
         for part in outside:
             if _has(part, sign.variable.expr):
@@ -66,25 +69,33 @@ def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: list[Va
                 message = f"the limit `{reader.shown(limit)}` has a variable that is integrated inside"
                 reader.refuse("integral", message, limit.start, limit.end)
         inside = _one(reader, inside, sign, sign.variable)
-    return inside
+    return each(inside, lambda term: _checked(reader, term, signs))
 
 
 def _one(reader: Grids, inside: Value, sign: Sign, variable: Term) -> Value:
+    """One integral more around what is there; the variable becomes a letter of its own."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
         size, terms = grown(term, variable.expr, sign.lower, sign.upper)
         reader.bound(sign.start, term.end, size, terms)
         x = Dummy(str(variable.expr), real=True)
-        function = term.expr.xreplace({variable.expr: x})
-        if not _is_elementary(explicit(function), x):
-            message = f"this is more than powers, sines and cosines of `{reader.shown(variable)}`"
-            reader.refuse("integral", message, term.start, term.end)
-        whole = Group(Integral(function, (x, sign.lower.expr, sign.upper.expr)))
+        inner = term.expr.args[0] if isinstance(term.expr, Group) else term.expr
+        function, limits = (inner.function, inner.limits) if isinstance(inner, Integral) else (inner, ())
+        renamed = [limit.xreplace({variable.expr: x}) for limit in (function, *limits)]
+        whole = Group(Integral(renamed[0], *renamed[1:], (x, sign.lower.expr, sign.upper.expr)))
         dimension = term.dimension * variable.dimension
         return replace(term, expr=whole, dimension=dimension, size=size, terms=terms, kind=None)
 
     return each(inside, integral)
+
+
+def _checked(reader: Grids, term: Term, signs: list[Sign]) -> Term:
+    integral = term.expr.args[0]
+    if not _is_elementary(explicit(integral.function), integral.limits):
+        names = " and ".join(f"`{reader.shown(sign.variable)}`" for sign in signs if sign.variable)
+        reader.refuse("integral", f"this is more than powers, sines and cosines of {names}", term.start, term.end)
+    return term
 
 
 def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
@@ -94,9 +105,19 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
             reader.refuse("dimension", f"{message} {variable.is_a}", limit.start, limit.end)
 
 
-def _is_elementary(function: Expr, x: Symbol) -> bool:
-    """A sum of products of powers, sines and cosines of x, which the rules of a first course integrate."""
-    return all(_is_short(term.as_independent(x, as_Add=False)[1], x) for term in Add.make_args(expand(function)))
+def _is_elementary(function: Expr, limits: Limits) -> bool:
+    """Whether the integral is of the kinds that are taken at once, or one that SymPy takes by the rules of a course.
+
+    One over a root is read without more: where it is of no known kind it counts as undefined and agrees with nothing.
+    """
+    variables = {x for x, *_ in limits}
+    ends = [end for _, *both in limits for end in both]
+    if definite(function, limits) is not None or any(has_root(part) for part in [function, *ends]):
+        return True
+    if any(end.free_symbols & variables for end in ends):
+        return False
+    terms = Add.make_args(expand(function))
+    return all(_is_short(term.as_independent(x, as_Add=False)[1], x) for term in terms for x in variables)
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:

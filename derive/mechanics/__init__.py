@@ -24,7 +24,7 @@ from derive.mechanics.constraints import (
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
 from derive.mechanics.cyclic import conserved_momentum
 from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude, squared_magnitude
+from derive.mechanics.equations import at, let, magnitude, squared_magnitude, with_values
 from derive.mechanics.free_rotation import (
     RigidBody,
     changing_angular_velocity,
@@ -64,6 +64,7 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
+from derive.mechanics.sleeping import effective_potential, sleeping_spin, upright_rate
 from derive.mechanics.solids import Ball, Cone, Cylinder, volume
 from derive.mechanics.special_cases import isotropic_where
 from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
@@ -114,6 +115,7 @@ __all__ = [
     "curvature_at",
     "density",
     "discriminant",
+    "effective_potential",
     "equation_of_motion",
     "equation_with_multipliers",
     "euler_angles",
@@ -151,6 +153,7 @@ __all__ = [
     "rate_under",
     "rolled_centre",
     "roots_of",
+    "sleeping_spin",
     "slope",
     "spin",
     "squared_magnitude",
@@ -163,6 +166,8 @@ __all__ = [
     "total_mass",
     "transverse_moment",
     "turning_rate",
+    "upright_rate",
     "volume",
     "weight_energy",
+    "with_values",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Add, Expr, Mul, Rational, Symbol
+from sympy import Add, Expr, Mul, Rational, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.expressions import rate
@@ -75,3 +75,21 @@ def spread(value: Expr) -> Expr:
     if all(term.as_coeff_Mul()[0].q == number.q for term in terms):
         return value
     return Mul(number.p, *(f for f in Mul.make_args(letters) if f is not sums[0]), Add(*terms))
+
+
+def by_terms(value: Expr) -> Expr:
+    """A sum with each of its terms tidy, not over one denominator; a denominator that is a power is written as one."""
+    return Add(*(_shorter(tidied(term)) for term in Add.make_args(value)))
+
+
+def _shorter(term: Expr) -> Expr:
+    numerator, denominator = term.as_numer_denom()
+    return min((term, numerator / factor(denominator)), key=lambda form: int(form.count_ops()))
+
+
+def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
+    """One product, or a sum of tidy terms, whichever is shorter to write; a sum if angles stand in a denominator."""
+    if tidied(value).as_numer_denom()[1].has(sin, cos):
+        return by_terms(others[0] if others else value)
+    forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]
+    return min(forms, key=lambda form: int(form.count_ops()))

@@ -21,7 +21,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
     or_zero  whether zero is allowed too
     Second route: the sign of the quantity where the letter is a little above the bound, and a little below.
     Outcomes: conditional; squared (solved for the square of the letter only, because the sign of its bound is not
-    known); always, never, zero where the sign does not depend on the letters.
+    known); always, never, vanishing where the sign does not depend on the letters.
     Errors: the inequality cannot be solved for that letter.
     Source: none needed: algebra of inequalities.
     """
@@ -54,6 +54,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
             "below": lambda _: _with_its_sign(value, alone, bound, beyond=False, sign=-above),
         },
         outcome="conditional" if has_root else "squared",
+        words={"strictly": "not_negative" if or_zero else "positive"},
         key=key,
         context={"letter": letter, "bound": bound, "of": of} if has_root else {"of": of},
         arranged=lambda _: Relation(alone, turned, bound),
@@ -61,14 +62,14 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
 
 
 def _of_known_sign(of: Quantity, value: Expr, key: str) -> Quantity:
-    outcome, mark = ("zero", "=") if value == 0 else ("always", ">") if value.is_positive else ("never", "<")
+    outcome, mark = ("vanishing", "=") if value == 0 else ("always", ">") if value.is_positive else ("never", "<")
     size = {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}[mark]
     return establish(
         "conditions.positive_where",
         None,
         lambda v: Relation(v, mark, 0),
         {"quantity": of},
-        put_in=Level.STANDARD,
+        put_in=Level.STANDARD if value != 0 else None,
         show_result=False,
         routes={"sign": lambda _: (value, size)},
         outcome=outcome,

@@ -34,8 +34,8 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
     return establish(
         "cyclic.conserved_momentum",
         None,
-        lambda p: Relation(TimeRate(p, *moving), "=", 0),
-        {"momentum": momentum},
+        lambda p, _: Relation(TimeRate(p, *moving), "=", 0),
+        {"momentum": momentum, "coordinate": q.symbol},
         before=[],
         show_result=False,
         routes={"virtual_work": compared_with(by_virtual_work)},

@@ -9,6 +9,7 @@ from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import Dot, Factors, Group, Norm, Root, Terms, bound, component_names, explicit, scalar
+from derive.mechanics.arrangement import by_terms
 from derive.mechanics.rotation import length_by_turning
 from derive.step import Form, Level, Quantity, compared_with, establish
 from derive.tidy import size_and_rest
@@ -61,6 +62,39 @@ def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
     """A term whose factor is zero is left out, as one does on paper."""
     kept = [term for term in terms if explicit(term) != 0]
     return kept or [Integer(0)]
+
+
+def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
+    """The value of a general result once the letters in it have values.
+
+    general   a scalar in letters, any unit
+    values    what some of its letters stand for
+    Second route: the law itself, evaluated with these values from the start.
+    Errors: the general result contains none of these letters.
+    Source: none needed: substitution.
+    """
+    known = {q.symbol: q.value for q in values}
+    if not general.value.free_symbols & set(known):
+        names = " and ".join(f"`{q.key}`" for q in values)
+        raise Rejected(Complaint("nothing-to-put-in", f"`{general.key}` does not depend on {names}"))
+
+    def anew() -> Any:
+        behind = {q.symbol: bound(explicit(q.value), known) for q in general.parents if q.symbol not in known}
+        return explicit(bound(bound(general.step.chain[0].expr, behind), known))
+
+    return establish(
+        "equations.with_values",
+        general.symbol,
+        lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
+        {"general": general, **{q.key: q for q in values}},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_here",
+        kind=general.step.kind,
+        arranged=by_terms,
+        context=general.context,
+    )
 
 
 def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:

@@ -59,7 +59,7 @@ class RigidBody:
                 message = f"no body has such moments: that about {axis} is more than the other two together"
                 raise Rejected(Complaint("no-such-body", message))
 
-    @property
+    @cached_property
     def second_moments(self) -> tuple[Expr, Expr, Expr]:
         """The integrals of x^2, y^2 and z^2 over the mass: I_x is that of y^2 + z^2, and so on."""
         x, y, z = (tidied(sum(self.moments, Integer(0)) / 2 - moment) for moment in self.moments)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Add, Expr, Integer, Pow, Symbol, cos, diff, exp
+from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, exp, prime
 
 from derive.errors import Complaint, Rejected
 from derive.evidence import equal
@@ -20,10 +20,14 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
     at         the value of the coordinate in equilibrium, 0 unless given; q is then measured from there
     Second route: mass and stiffness as second derivatives of the Lagrangian, by the rate and by the coordinate.
     Outcomes: generic, displaced (the equilibrium is not at 0).
-    Errors: the value is no equilibrium.
+    Errors: the value is no equilibrium; another coordinate occurs in the equation.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     q, place = equation.context["coordinate"].symbol, at if at is not None else Integer(0)
+    others = [c for c in equation.coordinates if c != q and equation.value.left.has(c, rate(c), rate(c, 2))]
+    if others:
+        message = f"`linearised` needs an equation of {q.name} alone, but `{equation.key}` also has {others[0].name}"
+        raise Rejected(Complaint("wrong-argument", message))
     small = Symbol("epsilon", real=True)
     moved = equation.value.left.xreplace(
         {q: place + small * q, rate(q): small * rate(q), rate(q, 2): small * rate(q, 2)}
@@ -84,7 +88,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         {"q": q},
         put_in=None,
         routes={"put_back": put_back},
-        arranged=explicit,
+        arranged=explicit if stiffness.has(Add) else tidied,
         outcome=sign_of,
         key=key,
         kind="squared angular speed",
@@ -105,7 +109,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
 
     squared   as `frequency_squared` yields it, 1/s^2
-    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0.
+    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
@@ -119,13 +123,21 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
         left = diff(motion, T, 2) / motion + squared.value
         return left.expand().subs(trial**2, found**2), Integer(0)
 
+    def positive_root(found: Expr) -> tuple[Expr, Expr]:
+        """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
+        letters = sorted(squared.value.free_symbols, key=str)
+        there = {letter: Rational(prime(n + 5), 7) for n, letter in enumerate(letters)}
+        imaginary = not grows and squared.value.subs(there).is_negative
+        value = found.subs(there) / (I if imaginary else 1)
+        return value, Abs(value)
+
     return establish(
         "oscillations.frequency",
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
         put_in=None,
-        routes={"motion": satisfies},
+        routes={"motion": satisfies, "positive": positive_root},
         arranged=explicit,
         outcome=outcome,
         key=key,

@@ -6,7 +6,7 @@ from sympy import Add, Expr, Integer, Pow, Symbol, diff, factorial, series
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import At, Relation, Slope, Terms, Truncated, explicit
-from derive.mechanics.arrangement import spread
+from derive.mechanics.arrangement import spread_or_by_terms
 from derive.mechanics.coordinates import only_coordinate
 from derive.mechanics.oscillations import sign_of
 from derive.step import Form, Level, Quantity, compared_with, establish
@@ -37,9 +37,13 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quanti
         routes={"expanded": compared_with(lambda: _coefficient(potential.value, q, q, order) * factorial(order))},
         outcome=named if order < 3 else "higher",
         key=key or f"{potential.key}_{named}",
-        arranged=spread,
+        arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
         context={"potential": potential, "coordinate": q},
     )
+
+
+def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
+    return Add(*(tidied(diff(term, q, order)) for term in Add.make_args(value)))
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
@@ -60,9 +64,7 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
     """
     q, potential = curvature.context["coordinate"], curvature.context["potential"]
     place = at if at is not None else Integer(0)
-    if tidied(diff(potential.value, q).subs(q, place)) != 0:
-        message = f"`{potential.key}` is not level at {q.name} = {place}"
-        raise Rejected(Complaint("no-equilibrium", message))
+    _check_level(potential.value, q, place, potential)
     return establish(
         "potentials.curvature_at",
         At(curvature.symbol, q, place),
@@ -73,9 +75,15 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
         routes={"expanded": compared_with(lambda: 2 * _coefficient(potential.value, q, place, 2))},
         outcome=sign_of,
         key=key,
-        arranged=spread,
+        arranged=spread_or_by_terms,
         parents=[potential],
     )
+
+
+def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
+    if tidied(diff(value, q).subs(q, place)) != 0:
+        message = f"`{potential.key}` is not level at {q.name} = {place}"
+        raise Rejected(Complaint("no-equilibrium", message))
 
 
 def leading_order(
@@ -86,9 +94,10 @@ def leading_order(
     potential   a function of one coordinate, J
     where       a letter and the value for which the curvature vanishes, as `boundary_case` yields it
     at          q_0; 0 unless given
-    Second route: the derivatives of U up to the n-th, at that point.
+    Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
     at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
+    Errors: U' does not vanish there.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
     q, place = only_coordinate(potential), at if at is not None else Integer(0)
@@ -97,6 +106,7 @@ def leading_order(
         return At(energy, where.left, where.right) if where else energy
 
     value = explicit(in_case(potential.value))
+    _check_level(value, q, place, potential)
     order, leading = _first_that_decides(value, q, place)
     constant = tidied(value.subs(q, place))
     truncated = Terms(constant, leading * Pow(q - place, order))
@@ -108,6 +118,10 @@ def leading_order(
         expected = leading * factorial(order) * marks[order] if order else Integer(0)
         return Add(*(diff(found, q, n).subs(q, place) * marks[n] for n in orders)), expected
 
+    def lowest(found: Expr) -> tuple[Expr, Expr]:
+        orders = (n for n in range(1, HIGHEST + 1) if tidied(diff(found, q, n).subs(q, place)) != 0)
+        return Integer(order), Integer(next(orders, 0))
+
     return establish(
         "potentials.leading_order",
         in_case(potential.symbol),
@@ -116,11 +130,11 @@ def leading_order(
         put_in=None,
         law_shown=Level.FULL,
         after=[Form(Truncated(truncated, q, place, Integer(order)), "series")] if order else [],
-        routes={"derivatives": by_derivatives},
+        routes={"derivatives": by_derivatives, "lowest": lowest},
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,
-        arranged=spread,
+        arranged=spread_or_by_terms,
         context={"where": where},
     )
 

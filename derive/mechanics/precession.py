@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from sympy import Abs, Expr, Integer, cos, sin, sqrt
+from sympy import Abs, Expr, Integer, Mul, cos, sin, sqrt
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import PLUS_MINUS, CarriedRate, Relation, column, explicit, rate, scalar, scaled
+from derive.expressions import PLUS_MINUS, CarriedRate, Relation, Terms, column, explicit, rate, scalar, scaled
 from derive.measured import sign_known, with_numbers
 from derive.mechanics.arrangement import by_rates
 from derive.mechanics.conditions import positive_where
@@ -32,6 +32,7 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
     sine = sin(theta.symbol)
     at_rest = tilt.value.left.xreplace({theta.acceleration: ZERO, theta.rate: ZERO})
     kept = by_rates(-(at_rest / sine).expand(), [phi.symbol])
+    in_powers = Terms(*(kept.coeff(phi.rate, n) * phi.rate**n for n in (2, 1, 0)))
 
     def by_carrying(found: Relation) -> tuple[Relation, Relation]:
         round_vertical = scaled(phi.rate, column(0, sine, cos(theta.symbol)))
@@ -42,10 +43,10 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
     return establish(
         "precession.steady_precession",
         None,
-        lambda: Relation(at_rest, "=", 0),
-        {},
+        lambda *_: Relation(at_rest, "=", 0),
+        {"tilt": theta.symbol, "rate": phi.rate, "sine": sine},
         put_in=None,
-        after=[Form(Relation(kept, "=", 0), "divided", nonzero=(sine,))],
+        after=[Form(Relation(in_powers, "=", 0), "divided", nonzero=(sine,))],
         show_result=False,
         routes={"carried_round": by_carrying},
         arranged=lambda _: Relation(kept, "=", 0),
@@ -149,7 +150,7 @@ def _steady_rate(
     return establish(
         "precession.steady_rate",
         rate(scalar(f"phi_{name}")),
-        lambda _: rates.value.xreplace({PLUS_MINUS: Integer(sign)}),
+        lambda _: _of_sign(rates.value, sign),
         {"rates": rates},
         put_in=None,
         routes={
@@ -157,12 +158,18 @@ def _steady_rate(
             "other_form": compared_with(other_form),
         },
         outcome=outcome,
-        arranged=lambda found: found,
+        arranged=lambda _: _of_sign(rates.value, sign),
         key=key,
         kind="angular speed",
         parents=[rates, condition],
         stands_for=stands_for,
     )
+
+
+def _of_sign(both: Expr, sign: int) -> Expr:
+    """The formula with one of the two signs, still one product."""
+    factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
+    return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
 
 def no_steady_precession(rates: Quantity, condition: Quantity, key: str = "no_steady_precession") -> Quantity:

@@ -131,8 +131,8 @@ def roots_of(
     return establish(
         "quadratics.roots_of",
         x,
-        lambda _, *those: _with_those(formula, values, those),
-        {"equation": equation, **{q.key: q for q in values}},
+        lambda _, __, *those: _with_those(formula, values, those),
+        {"equation": equation, "unknown": x, **{q.key: q for q in values}},
         routes={"put_back": lambda found: (here.at(found), Integer(0)), "sum": sum_of_both},
         outcome=outcome,
         arranged=lambda found: tidied(found) if linear else _arranged(here, found),
@@ -148,7 +148,7 @@ def character(of: Quadratic) -> str:
     sign = sign_known(of.discriminant)
     if sign == 1:
         return "opposite" if sign_known(of.a * of.c) == -1 else "two"
-    return {-1: "none", 0: "double"}.get(sign, "conditional")
+    return "conditional" if sign is None else {-1: "none", 0: "double"}[sign]
 
 
 def _formula(of: Quadratic) -> Expr:
@@ -171,4 +171,4 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
     k = tidied(outside / (2 * of.a))
     inside = Add(*(tidied(term) for term in (u**2, -FOUR * of.a * of.c / outside**2)))
     both = Add(u, PLUS_MINUS * sqrt(inside), evaluate=False)
-    return Mul(k, both, evaluate=False) if k != 1 else both
+    return Mul(*Mul.make_args(k), both, evaluate=False) if k != 1 else both

@@ -29,7 +29,7 @@ def rolled_centre(
     """
     q = angle.symbol
     name_x, name_y = symbols
-    behind_x, behind_y = Factors(radius, q, cos(q)), Factors(radius, q, sin(q))
+    behind_x, behind_y = radius * q * cos(q), radius * q * sin(q)
     above = Terms(radius, height)
     values: dict[str, Any] = {
         name_x: Terms(Factors(above, sin(q)), -behind_x),

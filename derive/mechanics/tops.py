@@ -30,7 +30,7 @@ from derive.expressions import (
 from derive.mechanics.arrangement import by_accelerations
 from derive.mechanics.coordinates import Coordinate, by_functions_of_time, coordinate, letters_of
 from derive.mechanics.matter import symmetric_body
-from derive.step import Quantity, compared_with, establish, lettered, require_kind
+from derive.step import Level, Quantity, compared_with, establish, lettered, require_kind
 
 ZERO, ONE, HALF = Integer(0), Integer(1), Rational(1, 2)
 
@@ -128,8 +128,14 @@ def turning_rate(angles: EulerAngles, symbol: str = "omega", key: str = "angular
     return establish(
         "tops.turning_rate",
         vector(symbol),
-        lambda: turns,
-        {},
+        lambda *_: turns,
+        {
+            "precession": phi.symbol,
+            "tilt": theta.symbol,
+            "turning": psi.symbol,
+            "sine": vertical[1],
+            "cosine": vertical[2],
+        },
         put_in=None,
         routes={"rotation_matrix": compared_with(by_rotation_matrix)},
         arranged=explicit,
@@ -155,7 +161,8 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
     axes = [tuple(angles.of_body[:, i]) for i in range(3)]
     matter = symmetric_body(top.across.symbol, top.along.symbol, axes, angles.names)
 
-    def law(across: Expr, along: Expr, w: object) -> Expr:
+    def law(w: object) -> Expr:
+        across, along = top.across.symbol, top.along.symbol
         x, y, z = component_names(w.name) if isinstance(w, MatrixSymbol) else list(w)  # type: ignore[call-overload]
         return Terms(Factors(HALF, across, Terms(Pow(x, 2), Pow(y, 2))), Factors(HALF, along, Pow(z, 2)))
 
@@ -163,7 +170,7 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
         "tops.top_kinetic_energy",
         scalar(symbol),
         law,
-        {"across": letters.across, "along": letters.along, "omega": omega},
+        {"omega": omega},
         parents=[letters.mass, letters.distance, letters.along, letters.across],
         show_result=False,
         routes={"mass_points": compared_with(matter.kinetic_energy)},
@@ -197,7 +204,7 @@ def centre_height(top: Top, angles: EulerAngles, symbol: str = "z", key: str = "
     return establish(
         "tops.centre_height",
         scalar(symbol),
-        lambda l: Factors(l, cos(theta.symbol)),
+        lambda l: l * cos(theta.symbol),
         {"distance": top.in_letters().distance},
         put_in=None,
         show_result=False,
@@ -228,14 +235,13 @@ def constant_spin(omega: Quantity, rate: Expr, conserved: Quantity, top: Top, ke
     return establish(
         "tops.constant_spin",
         None,
-        lambda: Relation(omega.value[2], "=", rate),
-        {},
+        lambda *_: Relation(omega.value[2], "=", rate),
+        {"omega": omega, "spin": rate, "along": top.along.symbol},
         put_in=None,
         routes={"rate_of_momentum": by_its_rate},
         arranged=explicit,
         key=key,
         parents=[omega, conserved],
-        words={"way": "backward" if rate.could_extract_minus_sign() else "forward"},
         context={"angles": angles, "spin": rate},
     )
 
@@ -266,16 +272,13 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
     return establish(
         "tops.tilt_equation",
         None,
-        lambda: Relation(_spin_apart(motion.value.left, psi.rate, turning), "=", 0),
-        {},
+        lambda *_: Relation(motion.value.left.expand().xreplace({psi.rate: turning}), "=", 0),
+        {"tilt": theta.symbol, "turning": psi.rate, "spin": spin},
         put_in=None,
+        law_shown=Level.FULL,
         routes={"torque": compared_with(by_torque)},
         arranged=lambda found: Relation(by_accelerations(found.left, angles.names), "=", 0),
         key=key,
-        parents=[motion, spin],
+        parents=[spin, motion],
         context={"angles": angles, "spin": rate, "top": top, "gravity": gravity},
     )
-
-
-def _spin_apart(left: Expr, psi_rate: Symbol, turning: Expr) -> Expr:
-    return left.expand().xreplace({psi_rate: turning})

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from sympy import MatrixBase
+from sympy import Expr, MatrixBase
 
 from derive.checks import Ways
 from derive.dimensions import Dimension
@@ -210,6 +210,8 @@ class _Page:
             value = tuple(value)
         right = latex(self._inline_layout(value), inline=True)
         symbol = self.document.symbols.get(erratum.answer)
+        if isinstance(value, Expr) and erratum.answer in self.document.symbols and symbol is None:
+            return f"{right} = 0"  # an equation is stated by what vanishes in it
         return right if symbol is None else f"{latex(self.notation.layout(symbol), inline=True)} = {right}"
 
     def closing(self) -> str:

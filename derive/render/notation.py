@@ -32,7 +32,6 @@ from sympy.core.numbers import Exp1, Pi
 
 from derive import expressions as ex
 from derive.dimensions import Dimension
-from derive.expressions import scaled
 from derive.render.layout import (
     CROSS,
     DOT,
@@ -66,27 +65,18 @@ from derive.render.products import (
     either_sign,
     number_and_letters,
     positive_first,
+    present,
     rank_of_dimension,
     root_cancelled,
+    roots_last,
     roots_together,
     side_by_side,
     sign_and_size,
 )
 from derive.rounding import Rounded, decimal_text
-from derive.tidy import factored_matrix
 
 SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
 FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
-
-
-def present(value: Any) -> Any:
-    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
-    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
-        return value
-    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
-        return value
-    factor, rest = factored_matrix(value)
-    return value if factor == 1 else scaled(factor, rest)
 
 
 class Notation:
@@ -136,7 +126,7 @@ class Notation:
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
     def _ordered_terms(self, expr: Add) -> list[Expr]:
-        return accelerations_first(positive_first(expr.as_ordered_terms()))
+        return accelerations_first(positive_first(roots_last(expr.as_ordered_terms())))
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
@@ -174,10 +164,10 @@ class Notation:
             letters = [ex.Group(letters[0])]
         if not number_below:
             return self._factors([*number_above, *letters])
-        if any(isinstance(f, Pow) for f in number_below):
+        if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
         number = Fraction(self._factors(number_above), self._factors(number_below))
-        if len(letters) == 1 and isinstance(letters[0], ex.Terms):
+        if len(letters) == 1:
             return row(number, self._as_factor(letters[0]))
         return row(number, self._factors(letters)) if letters else number
 

@@ -1,5 +1,6 @@
 """A spinning top: at which rates it precesses steadily, and how fast it must spin to sleep upright."""
 
+from derive.figures import drawing, leaning_top
 from derive.given import Acceleration, Angle, AngularSpeed, Length, Mass
 from derive.mechanics import (
     Composed,
@@ -8,15 +9,22 @@ from derive.mechanics import (
     Rod,
     Top,
     axial_moment,
+    boundary_case,
     centre_distance,
     centre_height,
     conserved_momentum,
     constant_spin,
+    curvature_at,
+    effective_potential,
     equation_of_motion,
     euler_angles,
     lagrangian,
+    leading_order,
+    positive_where,
     precession_condition,
     precession_rates,
+    sleeping_spin,
+    slope,
     steady_precession,
     steady_rates,
     tilt_equation,
@@ -24,7 +32,9 @@ from derive.mechanics import (
     total_mass,
     transverse_moment,
     turning_rate,
+    upright_rate,
     weight_energy,
+    with_values,
 )
 
 
@@ -44,6 +54,10 @@ def solve(
     top = Top(mass, centre_distance(body, mass), transverse_moment(body), axial_moment(body))
 
     angles = euler_angles()
+    theta, phi = angles.theta.symbol, angles.phi.rate
+    drawing("top", leaning_top(body, tilt, theta, precession=phi, spin=spin))
+    drawing("weight", leaning_top(body, tilt, theta, weight=(mass.symbol * gravity, top.distance)))
+
     omega = turning_rate(angles)  # theta_dot, phi_dot sin theta, psi_dot + phi_dot cos theta
     T = top_kinetic_energy(top, omega)
     U = weight_energy(top.in_letters().mass, gravity, [centre_height(top, angles)])
@@ -57,4 +71,11 @@ def solve(
     condition = precession_condition(rates, spin)
     slow, fast = steady_rates(rates, condition)
 
-    return rates, condition, slow, fast
+    upright = upright_rate(conserved_momentum(L, angles.phi), motion)  # phi is cyclic; upright p_phi = p_psi = I_z S
+    V = effective_potential(upright, T, U)
+    here = with_values(curvature_at(slope(V, 2)), *top.values, key="curvature_here")
+    stable = positive_where(here, spin, key="upright_condition")
+    border = leading_order(with_values(V, *top.values, key="potential_here"), where=boundary_case(stable))
+    sleeping = sleeping_spin(stable, border, V)
+
+    return rates, condition, slow, fast, sleeping

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from derive import drawn, solution
+from derive import drawn
 from derive.build import Options, built_set
 from derive.errors import Rejected
+from derive.set_document import problem_document
 from derive.solution import Rendered, rendered
 from tests.course import ROOT, course_in
 from tests.test_stored import forbid_deriving
@@ -86,8 +87,14 @@ def test_no_number_is_told_that_depends_on_letters(tmp_path: Path) -> None:
 
 
 def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
-    edits = {"ask: Find the angle between": "ask: In <<vectors>>, find the angle between"}
+    edits = {"ask: Find the angle between": "ask: In <<figure vectors>>, find the angle between"}
     assert "(c) In Figure 1, find" in rendered(course_in(tmp_path, edits), "hw9/block").text
+
+
+def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {"ask: Find the angle between": "ask: In <<figure axes>>, find the angle between"})
+    assert "error[undefined-name]: no drawing with a caption is called `axes`" in fault
+    assert "help: give the drawing a `caption:` under `drawings:`" in fault
 
 
 # --- places ----------------------------------------------------------------------------------------------------------
@@ -239,7 +246,7 @@ def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Pa
 def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: Path, block: Rendered) -> None:
     from derive.render.pdf import chosen_engine, typeset
 
-    tex = solution.problem_document(course_in(tmp_path), block, "hw9")
+    tex = problem_document(course_in(tmp_path), block, "hw9")
     pages = {}
     for name, files in (("with", block.files), ("without", ())):
         target = tmp_path / f"{name}.pdf"

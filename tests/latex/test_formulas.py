@@ -82,6 +82,8 @@ SCALARS = [
     (r"\rho\int_{0}^{h}\int_{0}^{2\pi}\int_0^{Rz/h} r^2 r\,dr\,d\theta\,dz", pi * rho * R**4 * h / 10),
     (r"\int_0^h z^{2} dz \int_{0}^{2 \pi} d\theta\left(\int_{0}^{\frac{R}{h} z} r d r\right)", pi * R**2 * h**3 / 5),
     (r"\int_0^{2\pi} \sin^2\theta d\theta + \int_0^\pi \sin 2\phi d\phi", pi),
+    (r"\int_0^h z^2 \cos\frac{z}{h} dz", h**3 * (2 * cos(1) - sin(1))),
+    (r"\int_0^h dz \int_0^{z} dx \int_0^{x} y dy", h**4 / 24),
     (r"\left[\frac{z^5}{5}\right]_0^h", h**5 / 5),
     (r"\left(\frac{x^{3}}{3}\right)_{0}^{a}(2 a)", 2 * a**4 / 3),
     (r"\rho\left[\frac{\theta}{2}-\frac{1}{4} \sin (2 \theta)\right]_{0}^{2 \pi}", pi * rho),
@@ -145,6 +147,28 @@ def test_a_relation_has_two_sides_and_its_mark(mark: str, read_as: str) -> None:
     assert [side.branches[0][0][0] for side in found.sides] == [R, a / 2]
 
 
+TITLES = [
+    r"U(\theta)=",
+    r"U^{\prime\prime}(\theta=0) =",
+    r"U'' =",
+    r"\frac{\partial L}{\partial\dot\theta} =",
+    r"\frac{d}{dt}\frac{\partial L}{\partial\dot\theta} &=",
+    r"\frac{dU}{d\theta} =",
+    r"\frac{d}{dt} L =",
+]
+
+
+@pytest.mark.parametrize("title", TITLES)
+def test_a_left_side_that_only_names_the_answer_is_passed_over(title: str) -> None:
+    found = read(f"{title} M a^2 = M b^2")
+    assert (len(found.sides), found.marks) == (2, ("=", "="))
+
+
+@pytest.mark.parametrize("product", ["n(a+b)", "n(2)a", "(a)", "2(a)", "a(n n)"])
+def test_a_left_side_that_could_be_a_product_is_a_side(product: str) -> None:
+    assert len(read(f"{product} = b").sides) == 2
+
+
 def test_the_place_of_a_side_is_where_it_stands() -> None:
     second = read(r"a = \frac{b}{2}").sides[1]
     assert (second.place.column, second.place.width) == (5, 11)
@@ -173,6 +197,13 @@ def test_an_integral_and_a_bracket_are_kept_as_they_are_written() -> None:
     ((bracket, _),) = read(r"\left[z^2\right]_0^h").sides[0].branches[0]
     assert isinstance(bracket, Bracket)
     assert bracket.args[2:] == (0, h)
+
+
+def test_an_integral_over_a_disc_is_read_and_taken_once_the_radius_is_known_to_be_positive() -> None:
+    text = r"\int_{-R}^{R} dy \int_{-\sqrt{R^2-y^2}}^{\sqrt{R^2-y^2}} x^2 dx"
+    ((integral, _),) = read(text).sides[0].branches[0]
+    positive = Symbol("R", positive=True)
+    assert equal(integral.xreplace({R: positive}), pi * positive**4 / 4)
 
 
 def test_the_letter_of_a_bracket_or_an_integral_is_its_own() -> None:

@@ -24,6 +24,7 @@ from derive.errors import Unverified
 from derive.evidence import Grade
 from tests.mechanics.alteration import altered, verbs_as_imported
 from tests.mechanics.block import AMOUNTS, M, a, block_derivation, known_block, omega
+from tests.mechanics.slab import known_slab
 
 Verbs = SimpleNamespace
 
@@ -301,7 +302,7 @@ def test_a_wrong_second_route_is_refused_at_its_step(run: str, module: str, old:
 
 def refusing_step(run: Callable[[Verbs], Any], module: str, old: str, new: str) -> str | None:
     """The step that refuses when one piece of the source is replaced, if one does."""
-    known_block()  # by the laws as they are
+    known_block(), known_slab(), known_slab(radius=a / 4)  # by the laws as they are
     with altered(module, old, new) as verbs:
         try:
             run(verbs)
