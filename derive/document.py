@@ -261,8 +261,9 @@ class _Writer:
         )
 
     def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
+        in_another_case = {key for step in self.derivation.steps for key in step.stands_for}
         for key in named:
-            if key not in self.symbols:
+            if key not in self.symbols and key not in in_another_case:
                 help_line = did_you_mean(key, self.symbols)
                 place = self.problem.place_of(section, key)
                 self.faults.append(
@@ -289,7 +290,7 @@ class _Writer:
             ends[key] = len(blocks)
         steps = len(blocks)
         values = [v for key in part.answers if (v := self.values.get(key)) and v.key not in self.numbers]
-        for i, value in enumerate(v for v in values if v.outcome == "measured"):
+        for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
         own = [illustration for illustration in illustrations if illustration.at == label]

@@ -158,7 +158,7 @@ def _steady_rate(
             "other_form": compared_with(other_form),
         },
         outcome=outcome,
-        arranged=lambda found: found,
+        arranged=lambda _: _of_sign(rates.value, sign),
         key=key,
         kind="angular speed",
         parents=[rates, condition],

@@ -125,10 +125,10 @@ def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, ke
     sleeps = border.step.outcome.startswith("minimum")
 
     def at_border(found: Relation) -> tuple[Expr, Expr]:
-        return _difference_of_rates(potential, found.left, least), Integer(0)
+        return _difference_of_rates(potential, found.left, found.right), Integer(0)
 
     def above(found: Relation) -> tuple[Expr, Expr]:
-        beyond = tidied(_difference_of_rates(potential, found.left, least * (1 + Symbol("u", positive=True))))
+        beyond = tidied(_difference_of_rates(potential, found.left, found.right * (1 + Symbol("u", positive=True))))
         return beyond, Abs(beyond)
 
     return establish(
