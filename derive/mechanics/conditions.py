@@ -79,12 +79,10 @@ def _of_unknown_sign(value: Expr) -> tuple[int, Expr]:
     """The sign of the factors whose sign is known, and the product of those that decide."""
     sign, open_factors = 1, []
     for factor in Mul.make_args(value):
-        base, exponent = factor.as_base_exp()
         if factor.is_negative:
             sign = -sign
         elif not factor.is_positive:
-            odd = exponent.is_Integer and exponent % 2 == 1
-            open_factors.append(base if odd else factor)
+            open_factors.append(factor)
     return sign, Mul(*open_factors)
 
 
