@@ -20,7 +20,7 @@ from derive.mechanics import (
     tie,
 )
 from derive.step import Quantity
-from tests.mechanics.motion import THETA, X, b, g, l, m, motion, position
+from tests.mechanics.motion import THETA, ZERO, X, b, g, l, m, motion, position
 from tests.mechanics.slab import I as moment
 from tests.mechanics.slab import M, R, a, known_slab
 
@@ -29,7 +29,7 @@ U, V = coordinate("u", "length"), coordinate("v", "length")
 gravity = symbols("g", positive=True)
 
 
-def kept(u: Expr, v: Expr, angle: Coordinate = THETA, inertia: Any = Integer(0)) -> tuple[list[Quantity], Quantity]:
+def kept(u: Expr, v: Expr, angle: Coordinate = THETA, inertia: Any = ZERO) -> tuple[list[Quantity], Quantity]:
     """The forces that keep a body of mass m at (u, v), and its equation of motion with them put in."""
     ties = (tie(U, position("u", u, angle)), tie(V, position("v", v, angle)))
     free = free_lagrangian(m, g, inertia, (U, V), angle)
