@@ -59,6 +59,10 @@ def test_a_multiple_of_a_letter_stands_for_it() -> None:
     assert condition(2 * b - a / 2, 2 * b) == Relation(b, ">", a / 4)
 
 
+def test_of_several_letters_one_that_will_do_is_solved_for() -> None:
+    assert condition(b - 3 * a / 2, b - a) == Relation(a, "<", 2 * b / 3)
+
+
 @pytest.mark.parametrize(
     ("value", "outcome", "mark"),
     [
