@@ -233,6 +233,7 @@ _KINDS: dict[type[m.Mark], str] = {
     m.Box: "block",
     m.ConeMark: "cone",
     m.CylinderMark: "cylinder",
+    m.BallMark: "ball",
     m.RodMark: "rod",
     m.Circle: "circle",
     m.Polygon: "polygon",
@@ -257,7 +258,7 @@ def _names(mark: m.Mark) -> dict[str, Any] | None:
             names.update(radius=Math(mark.radius), height=Math(_distance(mark.start, mark.end)))
         case m.RodMark():
             names.update(length=Math(_distance(mark.start, mark.end)))
-        case m.Circle():
+        case m.Circle() | m.BallMark():
             names.update(radius=Math(mark.radius))
         case m.Polygon():
             names.update(corners=len(mark.corners))

@@ -290,7 +290,7 @@ class _Writer:
             ends[key] = len(blocks)
         steps = len(blocks)
         values = [v for key in part.answers if (v := self.values.get(key)) and v.key not in self.numbers]
-        for i, value in enumerate(v for v in values if v.outcome == "measured"):
+        for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
         own = [illustration for illustration in illustrations if illustration.at == label]

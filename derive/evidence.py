@@ -221,10 +221,12 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """x^2 > y^2 says the same as x > y when neither x nor y is negative."""
+    """x^2 > y^2, or a positive multiple of it, says the same as x > y when neither x nor y is negative."""
     for squares, roots in ((left, right), (right, left)):
-        if all(side.is_nonnegative for side in roots.sides):
-            if all(vanishes(root**2 - square) for root, square in zip(roots.sides, squares.sides, strict=True)):
+        difference = roots.left**2 - roots.right**2
+        if difference != 0 and all(side.is_nonnegative for side in roots.sides):
+            factor = _ratio(squares.residual, difference)
+            if factor.is_positive and vanishes(squares.residual - factor * difference):
                 return True
     return False
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, lambdify, preorder_traversal
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify, preorder_traversal
 
-from derive.expressions import Amount, Factors, MatrixAmount, Relation, bound, explicit, scaled
+from derive.expressions import Amount, Factors, MatrixAmount, Ratio, Relation, Root, bound, explicit, scaled
 from derive.rounding import rounded_form
 from derive.step import Form, Level, Quantity, establish
 from derive.tidy import factored_matrix, tidied
 
+HALF = Rational(1, 2)
+FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<="}  # the marks under which an inequality is so
 SHORT = 9  # numbers; a formula with more of them is not written out again
 
 
@@ -24,7 +26,8 @@ def value_of(
     key: str | None = None,
     more: Sequence[tuple[str, Expr]] = (),
 ) -> Quantity | None:
-    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left.
+    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left, or if the
+    numbers make it imaginary, as the frequency of what does not oscillate.
 
     answer    any quantity; of a relation that has one letter on its left side, the right side
     amounts   symbol -> its number with a unit
@@ -45,8 +48,10 @@ def value_of(
         common, rest = factored_matrix(value)
         substituted = bound(rest, numbers) if common == 1 else scaled(bound(common, numbers), bound(rest, numbers))
     else:
-        substituted = bound(value, numbers)
+        substituted = bound(_under_one_root(value), numbers)
     exact = explicit(substituted)
+    if any(entry.is_real is False for entry in _entries(exact)):
+        return None
     shown = [_with_unit(exact, *each, figures) for each in ((unit, factor), *more)]
     return establish(
         "numbers.value",
@@ -77,6 +82,61 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
         return value.right, lambda number: Relation(value.left, value.mark, number)
     return Integer(0), _as_it_is
+
+
+def _under_one_root(value: Expr) -> Expr:
+    """sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), into which numbers go once."""
+    roots = [f.as_base_exp() for f in Mul.make_args(value)]
+    above = [base for base, power in roots if power == HALF]
+    below = [base for base, power in roots if power == -HALF]
+    if len(above) + len(below) < 2:
+        return value
+    others = [base**power for base, power in roots if abs(power) != HALF]
+    inside = Ratio(Factors(*above), Factors(*below)) if below else Factors(*above)
+    return Factors(*others, Root(inside)) if others else Root(inside)
+
+
+def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
+    """Whether an inequality is so for the numbers, 20 cm > 2.5 cm; nothing for an equation or if letters are left.
+
+    condition   the inequality, as `positive_where` yields it
+    amounts     symbol -> its number with a unit
+    Second route: the sign of the difference of its sides in the machine's floating-point arithmetic.
+    Outcomes: fulfilled, not_fulfilled.
+    Source: as `value_of`.
+    """
+    relation = condition.value
+    if not isinstance(relation, Relation) or relation.mark not in FULFILLED:
+        return None
+    letters = _free(relation)
+    if not letters or not letters <= set(amounts):
+        return None
+    numbers = {letter: amounts[letter] for letter in letters}
+    left, right = (bound(side, numbers) for side in relation.sides)
+    difference = explicit(left) - explicit(right)
+    mark = "=" if difference == 0 else ">" if difference.is_positive else "<"
+
+    def sign_by_floats(found: Relation) -> tuple[Expr, Expr]:
+        ordered = sorted(letters, key=str)
+        x, y = (
+            lambdify(ordered, side, "math")(*(float(explicit(amounts[s])) for s in ordered)) for side in relation.sides
+        )
+        sign = 0 if abs(x - y) <= 1e-12 * (abs(x) + abs(y)) else 1 if x > y else -1
+        return Integer({">": 1, "=": 0, "<": -1}[found.mark]), Integer(sign)
+
+    return establish(
+        "numbers.comparison",
+        None,
+        lambda _: Relation(left, mark, right),
+        {"condition": relation},
+        routes={"floats": sign_by_floats},
+        outcome="fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled",
+        key=key or f"{condition.key}_value",
+        put_in=None,
+        show_result=False,
+        parents=[condition],
+        arranged=explicit,
+    )
 
 
 def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:

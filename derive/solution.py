@@ -19,7 +19,7 @@ from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
 from derive.expressions import Relation
 from derive.figures.marks import drawings_recorded
-from derive.numbers import coefficient_of, value_of
+from derive.numbers import coefficient_of, comparison_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
 from derive.prose import PROBLEM
@@ -228,7 +228,9 @@ def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
         units.append((unit, asked.factor))
     first, *more = units or [(unit_of_kind(kind), Integer(1))]
     figures = form.figures or problem.figures
-    value = value_of(answer, problem.amounts, *first, figures, more=more)
+    # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
+    compared = None if units else comparison_of(answer, problem.amounts)
+    value = compared or value_of(answer, problem.amounts, *first, figures, more=more)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
 
 

@@ -195,8 +195,7 @@ class _EntryReader:
         put_in = self.put_in(node.get("with"))
         states = self.statement(node, put_in)
         why, right = self.erratum(node, put_in)
-        times = node.get("times")
-        factor = self.one(times, "`times`", node.get("latex") is not None, True) if times else None
+        factor = self.factor(node)
         read = None
         with self.faults:
             read = read_unit(unit, _place(node, "in")) if unit else None
@@ -204,6 +203,15 @@ class _EntryReader:
         if answer is None or states is None:
             return None
         return Entry(answer, part, states, right, why, figures, read, _place(node, "answer"), put_in, factor)
+
+    def factor(self, entry: Mapping) -> Statement | None:
+        node = entry.get("times")
+        if node is None:
+            return None
+        read = self.one(node, "`times`", entry.get("latex") is not None, True)
+        if read and (len(read.sides) > 1 or read.sides[0].shape or len(read.sides[0].branches) > 1):
+            self.faults.error("wrong-type", "`times` must be one scalar", node.place)
+        return read
 
     def statement(self, node: Mapping, put_in: tuple[str, ...]) -> Statement | None:
         """What the entry states, in the one notation or the other; a slip of the document need not be homogeneous."""

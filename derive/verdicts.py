@@ -107,13 +107,15 @@ def _of_relation(
     if len(sides) == 1:  # an equation may be stated by what vanishes in it
         sides = (sides[0], replace(sides[0], branches=(((Integer(0), sides[0].entries[0][1]),),)))
     mark = statement.marks[1] if len(statement.sides) == 2 else "="
-    left, right = ((side.entries[0][0].xreplace(meanings), side.entries[0][1]) for side in sides)
+    left, right = (_in_its_unit(side.entries[0][0].xreplace(meanings), side.entries[0][1], entry) for side in sides)
     if all(side.homogeneous for side in sides) and 0 not in (left[0], right[0]) and left[1] != right[1]:
         return Verdict(Grade.REFUTED, f"{named(left[1])} against {named(right[1])}")
     kept = left[0].free_symbols | right[0].free_symbols
     numbers = _numbers(pinned, kept, entry)
     stated = explicit(Relation(left[0], mark, right[0]).xreplace(numbers))
     ours = explicit(derived.xreplace(numbers))
+    if entry.figures:
+        return _bound_to_figures(stated, ours, entry)
     if entry.times is None:
         return equal(stated, ours)
     if stated.mark != ours.mark or ours.mark not in {"=", "!="}:
@@ -124,6 +126,21 @@ def _of_relation(
         turned = equal(stated.residual, -factor * ours.residual)  # the sides may be the other way round
         verdict = turned if turned else verdict
     return verdict
+
+
+def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, Dimension]:
+    """A number that a relation has on one side is in the unit of the entry."""
+    if entry.unit is None or not expr.is_number or expr == 0:
+        return expr, dimension
+    return expr * entry.unit.factor, dimension * entry.unit.dimension
+
+
+def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
+    """Whether `S > 28` has the decimal that is derived, the rest being the same."""
+    if stated.left != ours.left or stated.mark != ours.mark or stated.right.free_symbols:
+        return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")
+    factor = entry.unit.factor if entry.unit else Integer(1)
+    return _to_figures(stated.right / factor, ours.right / factor, entry.figures[0])
 
 
 def _signs(derived: Any) -> tuple[int, ...]:

@@ -82,6 +82,6 @@ def test_a_long_left_side_ends_with_its_relation() -> None:
 
 
 def test_a_boxed_answer_takes_as_many_lines_as_it_needs() -> None:
-    answer = Answer("T", Symbol("T"), LONG, None, "equals")
+    answer = Answer("T", Symbol("T"), LONG)
     assert len(answer_lines(answer, NOTATION, 40)) > 2
     assert len(answer_lines(answer, NOTATION, 1000)) == 1

@@ -1,6 +1,7 @@
 """Drawings as a script describes them: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
 
-from derive.figures.machines import cone, slab_on_cylinder, top
+from derive.figures.bodies import outline
+from derive.figures.machines import leaning_top, slab_on_cylinder
 from derive.figures.scenes import (
     arc,
     arrow,
@@ -8,7 +9,6 @@ from derive.figures.scenes import (
     axis_of_rotation,
     drawing,
     length,
-    outline,
     plot,
     point,
     turn,
@@ -20,14 +20,13 @@ __all__ = [
     "arrow",
     "axes",
     "axis_of_rotation",
-    "cone",
     "drawing",
+    "leaning_top",
     "length",
     "outline",
     "plot",
     "point",
     "slab_on_cylinder",
-    "top",
     "turn",
     "vectors_in",
 ]

@@ -1,22 +1,22 @@
-"""Whole scenes of mechanics in plain expressions: a cone, a symmetric top, a slab rolled on a cylinder.
+"""Whole scenes of mechanics: a top that leans on its pivot, a slab rolled on a cylinder.
 
 Each is a list of marks for `drawing()`, so that a script can add its own marks to it.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Rational, Symbol, cos, pi, sin
+from sympy import Add, Expr, Integer, Rational, Symbol, cos, pi, sin
 
 from derive.expressions import column, scalar
+from derive.figures.bodies import ORIGIN, Y, Z, round_outline
 from derive.figures.marks import (
     AngleMark,
     Arrow,
     Axis,
     Circle,
-    ConeMark,
-    CylinderMark,
     Dot,
     Length,
     Line,
@@ -26,79 +26,86 @@ from derive.figures.marks import (
     Support,
     Turn,
 )
+from derive.mechanics.composed import Composed, Part
+from derive.mechanics.solids import Ball, Cone, Cylinder
+from derive.mechanics.thin_bodies import Rod
+from derive.step import Quantity
 
-ORIGIN = column(0, 0, 0)
-X, Y, Z = column(1, 0, 0), column(0, 1, 0), column(0, 0, 1)
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
-THIN = Rational(1, 20)  # the thickness of a disc that is drawn as a solid, in terms of its radius
 
 
-def cone(radius: Expr, height: Expr, apex: str = "below", measured: bool = True) -> list[Mark]:
-    """A circular cone on the z axis, with its axes: its apex at the origin below, or its base there and the apex above.
-
-    radius, height   lengths
-    apex             "below" or "above"
-    measured         whether its radius and height are written beside it
-    """
-    below = apex == "below"
-    tip, base = (ORIGIN, height * Z) if below else (height * Z, ORIGIN)
-    marks: list[Mark] = [ConeMark(tip, base, radius)]
-    marks += [
-        Axis(ORIGIN if below else radius * X, ORIGIN if below else radius * X, X, label=scalar("x")),
-        Axis(ORIGIN if below else radius * Y, ORIGIN if below else radius * Y, Y, label=scalar("y")),
-        Axis(height * Z, (height + radius / 4 if below else height) * Z, Z, label=scalar("z")),
-        Line(ORIGIN, height * Z, "hidden"),
-    ]
-    if measured:
-        marks += [
-            Line(base, base + radius * Y, "hidden", label=radius),
-            Length(radius * -Y, radius * -Y + height * Z, -Y, label=height),
-        ]
-    return marks
-
-
-def top(
+def leaning_top(
+    body: Composed,
     tilt: Expr,
-    length: Expr,
-    disc_radius: Expr,
-    disc_at: Expr,
+    angle: Any = None,
     precession: Any = None,
     spin: Any = None,
     weight: Any = None,
     azimuth: Expr = TO_THE_RIGHT,
-    angle: Any = None,
 ) -> list[Mark]:
-    """A disc on a thin rod that stands on its lower end and leans: the pivot, the vertical, the tilt and the turning.
+    """A body on a leaning axis that stands on a pivot: the vertical Z, the tilt, the turning about both axes.
 
-    tilt               angle between the rod and the vertical Z; `angle` is its name, if it is not a letter itself
-    length             of the rod, from the pivot
-    disc_radius        radius of the disc, whose middle is at `disc_at` from the pivot
-    precession, spin   names of the rates round the vertical and round the rod; nothing is drawn for one without a name
-    weight             name of the weight, which acts in the middle of the disc
-    azimuth            from which side one sees it lean
+    body               parts on one axis, each at a height above the pivot
+    tilt               angle between that axis and the vertical; `angle` is its name, if it is not a letter itself
+    precession, spin   names of the rates round the vertical and round the axis; nothing is drawn for one without a name
+    weight             name of the weight, or the pair of it and the distance of the centre of mass from the pivot
+    azimuth            to which side it leans
     """
     e = column(sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt))
-    thick = THIN * disc_radius
+    far = max((part.at + _half(part.body) for part in body.parts), key=_in_units)
+    near = min((part.at for part in body.parts if not isinstance(part.body, Rod)), key=_in_units, default=far / 2)
     named = angle if angle is not None else tilt
     marks: list[Mark] = [
         Support(ORIGIN, label=scalar("O")),
-        RodMark(ORIGIN, (disc_at - thick) * e),
-        CylinderMark((disc_at - thick) * e, (disc_at + thick) * e, disc_radius),
-        RodMark((disc_at + thick) * e, length * e),
-        Axis(ORIGIN, Rational(5, 4) * length * Z, label=Symbol("Z", real=True)),
-        AngleMark(ORIGIN, Z, e, Rational(7, 10) * disc_at, label=named),
-        Dot(disc_at * e),
+        *(mark for part in body.parts for mark in _part(part, body, e)),
+        Axis(ORIGIN, Rational(5, 4) * far * Z, label=Symbol("Z", real=True)),
+        AngleMark(ORIGIN, Z, e, Rational(7, 10) * near, label=named),
     ]
     if spin is not None:
         marks += [
-            Line(length * e, Rational(5, 4) * length * e, "construction"),
-            Turn(Rational(9, 8) * length * e, e, Rational(1, 9), label=spin),
+            Line(far * e, Rational(5, 4) * far * e, "construction"),
+            Turn(Rational(9, 8) * far * e, e, Rational(1, 9), label=spin),
         ]
     if precession is not None and tilt != 0:  # upright, one cannot tell the two turns apart
-        marks.append(Turn(Rational(11, 10) * length * Z, Z, Rational(1, 7), label=precession))
-    if weight is not None:
-        marks.append(Arrow(disc_at * e, -Z, Rational(1, 2), False, label=weight))
-    return marks
+        marks.append(Turn(Rational(11, 10) * far * Z, Z, Rational(1, 7), label=precession))
+    return marks if weight is None else [*marks, *_weight(weight, body, e)]
+
+
+def _part(part: Part, whole: Composed, e: Any) -> list[Mark]:
+    """The outline of a part on the leaning axis; a rod in pieces, so that the bodies on it hide what is behind them."""
+    start = part.at - part.body.middle.position[2]  # of the part's own z, above the pivot
+    if not isinstance(part.body, Rod):
+        return round_outline(part.body, lambda z: (start + z) * e, e)
+    cuts = [other.at for other in whole.parts if not isinstance(other.body, Rod) and _in_units(other.at - start) > 0]
+    ends = [start, *(cut for cut in cuts if _in_units(cut) < _in_units(start + part.body.length))]
+    return [RodMark(a * e, b * e) for a, b in pairwise([*ends, start + part.body.length])]
+
+
+def _half(body: Any) -> Expr:
+    """How far a part reaches beyond its centre of mass, upwards along the axis."""
+    if isinstance(body, Rod | Cylinder):
+        return getattr(body, "height", getattr(body, "length", 0)) / 2
+    if isinstance(body, Cone):
+        return body.height / 4
+    return body.radius if isinstance(body, Ball) else Integer(0)
+
+
+def _in_units(length: Expr) -> float:
+    """A length with every letter one, to put lengths in order."""
+    return float(length.subs(dict.fromkeys(length.free_symbols, 1)))
+
+
+def _weight(weight: Any, body: Composed, e: Any) -> list[Mark]:
+    """The weight in the centre of mass of the whole: as derived, or of the parts."""
+    name, distance = weight if isinstance(weight, tuple) else (weight, None)
+    keys: tuple[str, ...] = ()
+    if isinstance(distance, Quantity):
+        centre, keys = distance.value * e, (distance.key,)
+    else:
+        masses = [part.body.mass for part in body.parts]
+        moments = [part.body.mass * part.at for part in body.parts]
+        centre = (Add(*moments) / Add(*masses)).cancel() * e
+    return [Dot(centre, keys=keys), Arrow(centre, -Z, Rational(1, 2), False, label=name, keys=keys)]
 
 
 def slab_on_cylinder(

@@ -60,6 +60,14 @@ class CylinderMark(Mark):
 
 
 @dataclass(frozen=True)
+class BallMark(Mark):
+    """A ball."""
+
+    centre: Place
+    radius: Any
+
+
+@dataclass(frozen=True)
 class RodMark(Mark):
     """A rod, too thin to show its thickness."""
 

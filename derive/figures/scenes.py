@@ -8,7 +8,6 @@ A quantity brings its name and its key along; a plain expression is taken as it 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import singledispatch
 from typing import Any
 
 from sympy import Expr, Integer, MatrixBase, Rational, Symbol
@@ -16,6 +15,7 @@ from sympy import Expr, Integer, MatrixBase, Rational, Symbol
 from derive.errors import Complaint, Rejected
 from derive.evidence import Grade
 from derive.expressions import AXES, column, explicit, scalar
+from derive.figures.bodies import ORIGIN, outline
 from derive.figures.marks import (
     PLANE,
     SPACE,
@@ -23,7 +23,6 @@ from derive.figures.marks import (
     Arrow,
     Axis,
     AxisOfRotation,
-    Box,
     Dot,
     Drawing,
     Length,
@@ -34,11 +33,9 @@ from derive.figures.marks import (
     flat,
     noted,
 )
-from derive.mechanics.bodies import Cuboid
 from derive.mechanics.regions import Point
 from derive.step import Quantity
 
-ORIGIN = column(0, 0, 0)
 LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
 
 
@@ -209,24 +206,8 @@ def _name_of(thing: Any, label: Any) -> Any:
     """What is written beside it: as asked, or the quantity's own name."""
     if isinstance(label, Quantity):
         return label.symbol
+    if isinstance(label, str):
+        return scalar(label)
     if label is not None:
         return label
     return thing.symbol if isinstance(thing, Quantity) else None
-
-
-# --- bodies ----------------------------------------------------------------------------------------------------------
-
-
-@singledispatch
-def outline(body: Any, named: bool = True) -> list[Mark]:
-    """The outline of a body in its own axes; `named`, with its measures and the axes beside it."""
-    raise Rejected(Complaint("wrong-argument", f"there is no outline of a {type(body).__name__}"))
-
-
-@outline.register
-def _(body: Cuboid, named: bool = True) -> list[Mark]:
-    corner = body.point("corner").position
-    along = [column(*(int(i == k) for k in range(3))) for i in range(3)]
-    ends = [corner + side * direction for side, direction in zip(body.sides, along, strict=True)]
-    outer = [Axis(end, end, d, label=scalar(name)) for end, d, name in zip(ends, along, AXES, strict=True)]
-    return [Box(corner, body.sides, body.sides if named else ()), *(outer if named else ())]

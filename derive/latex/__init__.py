@@ -7,6 +7,7 @@
     integrals   signs and differentials, brackets between limits
     arguments   functions and how far their arguments reach
     brackets    brackets, triples, matrices, limits
+    titles      left sides that only name the answer
     grammar     chains, sums, products, factors
 
 What cannot be read, or could be read in two ways, is refused at its place.

@@ -27,6 +27,7 @@ class Functions(Grids):
     def __init__(self, scalar: Scalar, letters: Letters, homogeneous: bool):
         super().__init__(scalar, homogeneous)
         self.letters = letters
+        self.d_is_a_letter = "d" in letters
         self.undeclared: list[Complaint] = []
         self.euler = Term(E, NUMBER, 0, 0)
 
@@ -198,7 +199,7 @@ class Functions(Grids):
         if token is None:
             return
         unclear = run.written == "/"
-        if self.is_plain(token) and not (token.kind == "letter" and token.text == "d" and "d" not in self.letters):
+        if self.is_plain(token) and not (token.kind == "letter" and token.text == "d" and not self.d_is_a_letter):
             at, told = run.at, len(self.undeclared)
             following = self.atom(run, depth)
             run.at = at

@@ -22,6 +22,7 @@ from derive.latex.grids import Grids, Value, between
 from derive.latex.integrals import Sign, differential_of, integrated
 from derive.latex.letters import letter_at
 from derive.latex.runs import Run
+from derive.latex.titles import is_derivative, without_title
 from derive.latex.tokens import MAX_DEPTH, Argument, Token
 from derive.latex.vocabulary import FRACTIONS, FUNCTIONS, RELATIONS
 from derive.terms import Term
@@ -62,6 +63,7 @@ class Formula(Brackets):
 
     def chain(self, run: Run) -> tuple[list[tuple[list[Value], int, Token, Token]], list[str]]:
         """The sides, each with its alternatives, branches, first and last token; and the marks before them, or ""."""
+        without_title(run)
         sides, marks = [], [self.relation(run) or ""]
         while True:
             first = run.token
@@ -205,7 +207,7 @@ class Formula(Brackets):
         if token is None or all(sign.variable for sign in signs):
             return False
         upright = token.text == "mathrm" and token.arguments[0] and [t.text for t in token.arguments[0].tokens] == ["d"]
-        plain = token.kind == "letter" and token.text == "d" and "d" not in self.letters
+        plain = token.kind == "letter" and token.text == "d" and not self.d_is_a_letter
         return bool((upright or plain) and letter_at(run.following))
 
     def differential(self, run: Run) -> Term:
@@ -230,7 +232,7 @@ class Formula(Brackets):
     def factor(self, run: Run, depth: int) -> Value:
         base = self.atom(run, depth)
         token = run.token
-        if token and token.text == "'":
+        if token and self.is_prime(run):
             self.refuse("latex", "a prime is not read", token.start, help="transcribe what the derivative is equal to")
         if token is None or token.kind != "script":
             return base
@@ -238,6 +240,11 @@ class Formula(Brackets):
             help_line = "limits are written `_{...}^{...}`"
             self.refuse("latex", "only a letter has a subscript", token.start, token.end, help_line)
         return self.raised_to(base, self.script(run), depth, run)
+
+    def is_prime(self, run: Run) -> bool:
+        return run.written == "'" or (
+            run.written == "^" and [t.text for t in self.script_ahead(run).tokens][:1] == ["prime"]
+        )
 
     def raised_to(self, base: Value, script: Argument, depth: int, run: Run) -> Value:
         if [token.text for token in script.tokens] == ["circ"]:
@@ -291,8 +298,7 @@ class Formula(Brackets):
         return self.function(run, token, depth)
 
     def check_not_a_derivative(self, token: Token) -> None:
-        firsts = [argument.tokens[0].text for argument in token.arguments if argument and argument.tokens]
-        if firsts == ["d", "d"] and "d" not in self.letters:
+        if is_derivative(token) and not self.d_is_a_letter:
             help_line = "transcribe what it is equal to"
             self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
 
@@ -330,6 +336,9 @@ class Formula(Brackets):
 
     def missing(self, run: Run) -> NoReturn:
         token = run.token
+        if token and run.written == "\\partial":
+            help_line = "transcribe what it is equal to"
+            self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
         if token and token.kind in ("cell", "row", "word"):
             self.unexpected(run)
         where = f"before `{self.text[token.start : token.end]}`" if token else "at the end"

@@ -62,6 +62,7 @@ class Grids(Arithmetic):
     def __init__(self, scalar: Scalar, homogeneous: bool):
         super().__init__(scalar)
         self.homogeneous = homogeneous
+        self.d_is_a_letter = False
         self.dimensions: dict[Expr, Dimension] = {}  # of the letters read so far
 
     def fits(self, left: Term, right: Term) -> bool:

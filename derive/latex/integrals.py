@@ -56,6 +56,8 @@ def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: list[Va
         sign = signs[position]
         if sign.variable is None:
             help_line = "put an integrand that is a sum in brackets"
+            if reader.d_is_a_letter:
+                help_line = "`d` is a letter here, so write `\\mathrm{d}x`"
             reader.refuse("integral", "this integral has no differential", sign.start, sign.end, help_line)
         for part in outside:
             if _has(part, sign.variable.expr):

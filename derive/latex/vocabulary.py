@@ -85,8 +85,6 @@ INSTEAD: Mapping[str, str] = {
     "′": "\\dot{...}",
 }
 REFUSED: Mapping[str, tuple[str, str | None]] = {
-    "partial": ("a derivative is not read", "transcribe what it is equal to"),
-    "prime": ("a prime is not read", "transcribe what the derivative is equal to"),
     "log": ("the base of `\\log` is not clear", "write `\\ln`"),
     "tag": ("a number of an equation is no part of it", "leave it out"),
     "label": ("a label of an equation is no part of it", "leave it out"),
@@ -112,5 +110,5 @@ ARGUMENTS: Mapping[str, str] = {
 KNOWN = frozenset(
     [*GREEK, *FUNCTIONS, *ARGUMENTS, *(mark[1:] for mark in RELATIONS if mark[0] == "\\")]
     + ["pi", "cdot", "times", "pm", "mp", "int", "left", "right", "circ", "lvert", "rvert", "lbrace", "rbrace"]
-    + ["imath", "jmath"]
+    + ["imath", "jmath", "partial", "prime"]
 )

@@ -154,8 +154,12 @@ class Cuboid(Body):
     def size(self) -> Expr:
         return reduce(mul, self.sides, Integer(1))
 
+    @property
+    def corner(self) -> Point:
+        return Point("corner", column(0, 0, 0))
+
     def points(self) -> Mapping[str, Point]:
-        return {"corner": Point("corner", column(0, 0, 0))}
+        return {"corner": self.corner}
 
     @property
     def middle(self) -> Point:

@@ -20,10 +20,14 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
     at         the value of the coordinate in equilibrium, 0 unless given; q is then measured from there
     Second route: mass and stiffness as second derivatives of the Lagrangian, by the rate and by the coordinate.
     Outcomes: generic, displaced (the equilibrium is not at 0).
-    Errors: the value is no equilibrium.
+    Errors: the value is no equilibrium; another coordinate occurs in the equation.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     q, place = equation.context["coordinate"].symbol, at if at is not None else Integer(0)
+    others = [c for c in equation.coordinates if c != q and equation.value.left.has(c, rate(c), rate(c, 2))]
+    if others:
+        message = f"`linearised` needs an equation of {q.name} alone, but `{equation.key}` also has {others[0].name}"
+        raise Rejected(Complaint("wrong-argument", message))
     small = Symbol("epsilon", real=True)
     moved = equation.value.left.xreplace(
         {q: place + small * q, rate(q): small * rate(q), rate(q, 2): small * rate(q, 2)}
@@ -105,7 +109,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
 
     squared   as `frequency_squared` yields it, 1/s^2
-    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0; of the two roots, the positive.
+    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """

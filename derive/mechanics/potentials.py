@@ -64,9 +64,7 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
     """
     q, potential = curvature.context["coordinate"], curvature.context["potential"]
     place = at if at is not None else Integer(0)
-    if tidied(diff(potential.value, q).subs(q, place)) != 0:
-        message = f"`{potential.key}` is not level at {q.name} = {place}"
-        raise Rejected(Complaint("no-equilibrium", message))
+    _check_level(potential.value, q, place, potential)
     return establish(
         "potentials.curvature_at",
         At(curvature.symbol, q, place),
@@ -82,6 +80,12 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
     )
 
 
+def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
+    if tidied(diff(value, q).subs(q, place)) != 0:
+        message = f"`{potential.key}` is not level at {q.name} = {place}"
+        raise Rejected(Complaint("no-equilibrium", message))
+
+
 def leading_order(
     potential: Quantity, where: Relation | None = None, at: Expr | None = None, key: str = "leading_order"
 ) -> Quantity:
@@ -93,6 +97,7 @@ def leading_order(
     Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
     at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
+    Errors: U' does not vanish there.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
     q, place = only_coordinate(potential), at if at is not None else Integer(0)
@@ -101,6 +106,7 @@ def leading_order(
         return At(energy, where.left, where.right) if where else energy
 
     value = explicit(in_case(potential.value))
+    _check_level(value, q, place, potential)
     order, leading = _first_that_decides(value, q, place)
     constant = tidied(value.subs(q, place))
     truncated = Terms(constant, leading * Pow(q - place, order))

@@ -214,6 +214,8 @@ def _symbol(step: Step, notation: Notation) -> str:
 def _number(value: Any) -> dict[str, Any] | None:
     """The rounded value, or nothing while letters are left in it; of a relation, that on its right."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
+    if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
+        return None  # a comparison of two numbers
     if shown.free_symbols:
         return None
     if isinstance(shown, ex.Amount | ex.MatrixAmount):

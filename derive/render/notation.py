@@ -167,7 +167,7 @@ class Notation:
         if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
         number = Fraction(self._factors(number_above), self._factors(number_below))
-        if len(letters) == 1 and isinstance(letters[0], Add | ex.Terms):
+        if len(letters) == 1:
             return row(number, self._as_factor(letters[0]))
         return row(number, self._factors(letters)) if letters else number
 

@@ -99,6 +99,10 @@ def fixed_places(mark: m.Mark, numbers: Numbers) -> list[Vector]:
         case m.CylinderMark():
             rims = [_rim(a, b, mark.radius, numbers) for a, b in ((mark.start, mark.end), (mark.end, mark.start))]
             return [place for rim in rims for place in rim[::8]]
+        case m.BallMark():
+            centre, radius = numbers.vector(mark.centre), numbers.of(mark.radius)
+            steps = [column for axis in range(3) for column in (_along(axis, radius), _along(axis, -radius))]
+            return [plus(centre, step) for step in steps]
         case m.Circle():
             return _circle(numbers.vector(mark.centre), numbers.vector(mark.normal), numbers.of(mark.radius))[::8]
         case m.Polygon():
@@ -117,6 +121,9 @@ def outline_of(mark: m.Mark, paper: Paper) -> list[Piece]:
             return _cone(mark, paper)
         case m.CylinderMark():
             return _cylinder(mark, paper)
+        case m.BallMark():
+            rim = _circle(paper.numbers.vector(mark.centre), paper.stance.eye, paper.numbers.of(mark.radius))
+            return _plane_figure(paper.spots(*rim), filled=True)
         case m.RodMark():
             ends = (paper.numbers.vector(mark.start), paper.numbers.vector(mark.end))
             return [Stroke(paper.spots(*ends), "rod")]
@@ -129,6 +136,11 @@ def outline_of(mark: m.Mark, paper: Paper) -> list[Piece]:
             corners = [paper.numbers.vector(corner) for corner in mark.corners]
             return _plane_figure(paper.spots(*corners, corners[0]), filled=True)
     return []
+
+
+def _along(axis: int, size: float) -> Vector:
+    x, y, z = (size if axis == k else 0.0 for k in range(3))
+    return x, y, z
 
 
 def _plane_figure(spots: tuple[Spot, ...], filled: bool) -> list[Piece]:

@@ -22,7 +22,7 @@ from derive.render.stance import Numbers, Spot, Vector, across, angle_of, best_s
 POINTS_PER_CM = 72 / 2.54
 PAST = 0.3  # how far axes go past a body, in terms of its size
 ASIDE = 12.0  # points between a body and its dimension line
-SOLIDS = (m.Box, m.ConeMark, m.CylinderMark, m.RodMark, m.Circle, m.Polygon)
+SOLIDS = (m.Box, m.ConeMark, m.CylinderMark, m.BallMark, m.RodMark, m.Circle, m.Polygon)
 
 
 def picture(drawing: m.Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:

@@ -14,6 +14,7 @@ from derive.render.layout import (
     DOT,
     MINUS,
     SPACE,
+    Applied,
     Array,
     Fraction,
     IntegralSign,
@@ -190,6 +191,8 @@ def between(before: Layout, after: Layout) -> Layout | None:
     """What stands between two factors as written: nothing between different letters, a dot where they run together."""
     if begins_with_number(after):
         return DOT
+    if isinstance(first_of(after), Applied):
+        return SPACE
     last = last_of(before)
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
         return SPACE

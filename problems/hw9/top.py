@@ -1,5 +1,6 @@
 """A spinning top: at which rates it precesses steadily, and how fast it must spin to sleep upright."""
 
+from derive.figures import drawing, leaning_top
 from derive.given import Acceleration, Angle, AngularSpeed, Length, Mass
 from derive.mechanics import (
     Composed,
@@ -53,6 +54,10 @@ def solve(
     top = Top(mass, centre_distance(body, mass), transverse_moment(body), axial_moment(body))
 
     angles = euler_angles()
+    theta, phi = angles.theta.symbol, angles.phi.rate
+    drawing("top", leaning_top(body, tilt, theta, precession=phi, spin=spin))
+    drawing("weight", leaning_top(body, tilt, theta, weight=(mass.symbol * gravity, top.distance)))
+
     omega = turning_rate(angles)  # theta_dot, phi_dot sin theta, psi_dot + phi_dot cos theta
     T = top_kinetic_energy(top, omega)
     U = weight_energy(top.in_letters().mass, gravity, [centre_height(top, angles)])

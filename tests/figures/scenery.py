@@ -8,9 +8,9 @@ from typing import Any
 
 from sympy import Symbol, symbols
 
-from derive.figures import arc, arrow, axis_of_rotation, drawing, outline
+from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline
 from derive.figures.marks import Drawing, Mark
-from derive.mechanics import Cuboid
+from derive.mechanics import Composed, Cone, Cuboid, Disc, Part, Rod
 from derive.render.outlines import Piece, Stroke
 from derive.render.picture import picture
 from derive.render.stance import Numbers
@@ -31,6 +31,14 @@ def vectors_of_block(sides: Any = (a, 2 * a, 3 * a), axis: Any = "diagonal", **v
         "vectors", outline(block, named=False), axis_of_rotation(known["axis_vector"], middle),
         arrow(omega, middle), arrow(L, middle, size=1), arc(omega, L, size, at=middle),
     )  # fmt: skip
+
+
+CONE = Cone(R, h, M)
+
+
+def leaning(tilt: Any = theta, **names: Any) -> list[Mark]:
+    """A disc of radius a/2 in the middle of a rod of length 2a, leaning on its lower end."""
+    return leaning_top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
 
 
 def plane(*marks: Mark) -> Drawing:

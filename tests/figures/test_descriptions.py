@@ -9,11 +9,24 @@ from sympy import Matrix, cos, sin
 
 from derive.errors import Rejected
 from derive.expressions import column
-from derive.figures import arc, arrow, cone, drawing, outline, plot, point, slab_on_cylinder, top
+from derive.figures import arc, arrow, drawing, outline, plot, point, slab_on_cylinder
 from derive.figures.kept import drawings_from_data, drawings_to_data
-from derive.figures.marks import AngleMark, Arrow, Box, Dot, Polygon, RodMark, drawings_recorded
-from derive.mechanics import Cuboid
-from tests.figures.scenery import M, R, a, h, theta, vectors_of_block
+from derive.figures.marks import (
+    AngleMark,
+    Arrow,
+    BallMark,
+    Box,
+    Circle,
+    ConeMark,
+    CylinderMark,
+    Dot,
+    Length,
+    Polygon,
+    RodMark,
+    drawings_recorded,
+)
+from derive.mechanics import Ball, Coordinate, Cuboid, Cylinder, Hoop, Plate, rolled_centre
+from tests.figures.scenery import CONE, M, R, a, h, leaning, theta, vectors_of_block
 from tests.mechanics.block import known_block
 
 
@@ -48,9 +61,9 @@ def test_an_outline_has_the_sides_of_the_body() -> None:
 def test_drawings_go_to_json_and_back_unchanged() -> None:
     scenes = [
         vectors_of_block(),
-        drawing("cone", cone(R, h), point(column(0, 0, h / 4), "C")),
-        drawing("top", top(theta, 2 * a, a, a, theta, theta, M)),
-        drawing("slab", slab_on_cylinder(R, a, theta, weight=M), view="plane"),
+        drawing("cone", outline(CONE), point(column(0, 0, h / 4), "C")),
+        drawing("top", leaning(precession=theta, spin=theta, weight=M)),
+        drawing("slab", slab_on_cylinder(R, a, theta), view="plane"),
         plot("torque", known_block()["magnitude"], a, (1, 2), of="length"),
     ]
     assert list(drawings_from_data(json.loads(json.dumps(drawings_to_data(scenes))))) == scenes
@@ -92,11 +105,31 @@ def test_a_plot_needs_a_quantity_that_depends_on_its_letter() -> None:
         plot("energy", known_block()["magnitude"], theta, (0, 1))
 
 
+# --- bodies ---
+
+
+@pytest.mark.parametrize(("about", "tip", "base"), [("apex", 0, h), ("base", h, 0), ("centre", -3 * h / 4, h / 4)])
+def test_a_cone_is_seen_from_its_points(about: str, tip: object, base: object) -> None:
+    (mark,) = [mark for mark in outline(CONE, about) if isinstance(mark, ConeMark)]
+    assert list(mark.apex) == [0, 0, tip]
+    assert list(mark.base) == [0, 0, base]
+    assert [each.label for each in outline(CONE, about) if isinstance(each, Length)] == [h]
+
+
+@pytest.mark.parametrize(
+    ("body", "kind"),
+    [(Cylinder(R, h, M), CylinderMark), (Ball(R, M), BallMark), (Hoop(R, M), Circle), (Plate((R, h), M), Polygon)],
+)
+def test_every_body_has_an_outline(body: object, kind: type) -> None:
+    assert sum(isinstance(mark, kind) for mark in outline(body)) == 1
+    assert len(outline(body, named=False)) == 1
+
+
 # --- scenes ----------------------------------------------------------------------------------------------------------
 
 
 def test_the_rod_of_a_top_leans_by_the_tilt_and_has_its_length() -> None:
-    rods = [mark for mark in top(theta, 2 * a, a / 2, a) if isinstance(mark, RodMark)]
+    rods = [mark for mark in leaning() if isinstance(mark, RodMark)]
     end = Matrix(rods[-1].end)
     assert end[2] == 2 * a * cos(theta)
     assert (end.dot(end) - 4 * a**2).simplify() == 0
@@ -104,7 +137,7 @@ def test_the_rod_of_a_top_leans_by_the_tilt_and_has_its_length() -> None:
 
 
 def test_the_weight_of_a_top_acts_in_the_middle_of_its_disc_and_downwards() -> None:
-    weight = next(mark for mark in top(theta, 2 * a, a / 2, a, weight=M) if isinstance(mark, Arrow))
+    weight = next(mark for mark in leaning(weight=M) if isinstance(mark, Arrow))
     assert Matrix(weight.start)[2] == a * cos(theta)
     assert list(weight.value) == [0, 0, -1]
 
@@ -112,16 +145,24 @@ def test_the_weight_of_a_top_acts_in_the_middle_of_its_disc_and_downwards() -> N
 def test_the_centre_of_a_rolled_slab_is_where_rolling_takes_it() -> None:
     """x = (R + a/2) sin q - R q cos q, y = (R + a/2) cos q + R q sin q; the corners are about that centre."""
     marks = slab_on_cylinder(R, a, theta)
-    centre = next(mark.at for mark in marks if isinstance(mark, Dot) and str(mark.label) == "C")
     x, y = (R + a / 2) * sin(theta) - R * theta * cos(theta), (R + a / 2) * cos(theta) + R * theta * sin(theta)
-    assert (Matrix(centre) - Matrix([x, y, 0])).expand() == Matrix([0, 0, 0])
     corners = next(mark.corners for mark in marks if isinstance(mark, Polygon))
     mean = sum((Matrix(corner) for corner in corners), Matrix([0, 0, 0])) / 4
-    assert (mean - Matrix(centre)).expand() == Matrix([0, 0, 0])
+    assert (mean - Matrix([x, y, 0])).expand() == Matrix([0, 0, 0])
+
+
+def test_the_derived_centre_of_a_slab_is_drawn_where_it_was_derived() -> None:
+    x, y = rolled_centre(R, a / 2, Coordinate(theta, "angle"))
+    marks = slab_on_cylinder(R, a, theta, (x, y), M)
+    centre = next(mark for mark in marks if isinstance(mark, Dot) and str(mark.label) == "C")
+    assert list(centre.at) == [x.value, y.value, 0]
+    assert centre.keys == ("x", "y")
+    assert drawing("slab", marks, view="plane").keys == ("x", "y")
+    assert drawing("slab", slab_on_cylinder(R, a, theta), view="plane").keys == ()
 
 
 def test_the_point_of_contact_is_on_the_cylinder_and_on_the_face_of_the_slab() -> None:
-    marks = slab_on_cylinder(R, a, theta)
+    marks = slab_on_cylinder(R, a, theta, rolled_centre(R, a / 2, Coordinate(theta, "angle")))
     contact = Matrix(next(mark.at for mark in marks if isinstance(mark, Dot) and str(mark.label) == "P"))
     assert (contact.dot(contact) - R**2).simplify() == 0
     corners = next(mark.corners for mark in marks if isinstance(mark, Polygon))

@@ -9,9 +9,9 @@ import pytest
 from sympy import Rational, Symbol, sqrt
 
 from derive.expressions import column
-from derive.figures import arc, arrow, axis_of_rotation, cone, drawing, length, outline, point, slab_on_cylinder, top
+from derive.figures import arc, arrow, axis_of_rotation, drawing, length, outline, point, slab_on_cylinder
 from derive.figures.marks import AngleMark, ConeMark, CylinderMark, Drawing, Polygon, Turn
-from derive.mechanics import Cuboid
+from derive.mechanics import Coordinate, Cuboid, rolled_centre
 from derive.render.labels import placed
 from derive.render.notation import Notation
 from derive.render.outlines import Bullet, Patch, Tag, hull
@@ -19,6 +19,7 @@ from derive.render.picture import POINTS_PER_CM
 from derive.render.sketch import sheet_of
 from derive.render.stance import Numbers, best_stance, dot, size_of, stance_from, stand_ins, unit
 from tests.figures.scenery import (
+    CONE,
     NUMBERS,
     M,
     R,
@@ -26,6 +27,7 @@ from tests.figures.scenery import (
     area,
     h,
     heading,
+    leaning,
     pieces_of,
     plane,
     strokes,
@@ -35,14 +37,15 @@ from tests.figures.scenery import (
 from tests.mechanics.block import b, c, omega
 
 UP, RIGHT = column(0, 1, 0), column(1, 0, 0)
-SLAB = drawing("slab", slab_on_cylinder(R, a, theta, weight=M), view="plane")
+ROLLED = rolled_centre(R, a / 2, Coordinate(theta, "angle"))
+SLAB = drawing("slab", slab_on_cylinder(R, a, theta, ROLLED, M), view="plane")
 SCENES = [
     vectors_of_block(),
     vectors_of_block(axis=(1, 1, 0)),
     drawing("axes", outline(Cuboid((a, 2 * a, 3 * a), M)), axis_of_rotation(column(1, 2, 3), rate=omega)),
-    drawing("cone", cone(R, h)),
-    drawing("cone_above", cone(R, h, "above"), point(column(0, 0, h / 4), Symbol("C"))),
-    drawing("top", top(theta, 2 * a, a, a, Symbol("phi_dot"), Symbol("S"), M)),
+    drawing("cone", outline(CONE)),
+    drawing("cone_above", outline(CONE, "base"), point(column(0, 0, h / 4), Symbol("C"))),
+    drawing("top", leaning(precession=Symbol("phi_dot"), spin=Symbol("S"), weight=M)),
     SLAB,
 ]
 
@@ -163,7 +166,7 @@ def test_three_edges_of_a_block_are_hidden_and_meet_in_the_corner_farthest_from_
 
 
 def test_the_sides_of_a_cone_touch_its_rim_and_leave_it_on_one_side() -> None:
-    pieces = pieces_of(drawing("cone", cone(R, h, measured=False)))
+    pieces = pieces_of(drawing("cone", outline(CONE, named=False)))
     straight = [stroke for stroke in strokes(pieces, "edge") if len(stroke.spots) == 2]
     rim = [spot for stroke in strokes(pieces, "edge") if len(stroke.spots) > 2 for spot in stroke.spots]
     assert len(straight) == 2
@@ -174,9 +177,9 @@ def test_the_sides_of_a_cone_touch_its_rim_and_leave_it_on_one_side() -> None:
         assert min(sides) > -0.01 * reach or max(sides) < 0.01 * reach
 
 
-@pytest.mark.parametrize(("apex", "hidden"), [("below", 0), ("above", 1)])
-def test_the_far_half_of_a_rim_is_hidden_only_behind_the_cone(apex: str, hidden: int) -> None:
-    pieces = pieces_of(drawing("cone", cone(R, h, apex, measured=False)))
+@pytest.mark.parametrize(("about", "hidden"), [("apex", 0), ("base", 1)])
+def test_the_far_half_of_a_rim_is_hidden_only_behind_the_cone(about: str, hidden: int) -> None:
+    pieces = pieces_of(drawing("cone", outline(CONE, about, named=False)))
     assert sum(len(stroke.spots) > 2 for stroke in strokes(pieces, "hidden")) in (hidden, 2 * hidden)
 
 

@@ -147,6 +147,28 @@ def test_a_relation_has_two_sides_and_its_mark(mark: str, read_as: str) -> None:
     assert [side.branches[0][0][0] for side in found.sides] == [R, a / 2]
 
 
+TITLES = [
+    r"U(\theta)=",
+    r"U^{\prime\prime}(\theta=0) =",
+    r"U'' =",
+    r"\frac{\partial L}{\partial\dot\theta} =",
+    r"\frac{d}{dt}\frac{\partial L}{\partial\dot\theta} &=",
+    r"\frac{dU}{d\theta} =",
+    r"\frac{d}{dt} L =",
+]
+
+
+@pytest.mark.parametrize("title", TITLES)
+def test_a_left_side_that_only_names_the_answer_is_passed_over(title: str) -> None:
+    found = read(f"{title} M a^2 = M b^2")
+    assert (len(found.sides), found.marks) == (2, ("=", "="))
+
+
+@pytest.mark.parametrize("product", ["n(a+b)", "n(2)a", "(a)", "2(a)", "a(n n)"])
+def test_a_left_side_that_could_be_a_product_is_a_side(product: str) -> None:
+    assert len(read(f"{product} = b").sides) == 2
+
+
 def test_the_place_of_a_side_is_where_it_stands() -> None:
     second = read(r"a = \frac{b}{2}").sides[1]
     assert (second.place.column, second.place.width) == (5, 11)

@@ -74,9 +74,10 @@ REFUSED = [
     # what is no formula
     (r"\foo a", "latex", r"\foo"),
     (r"\frac{d}{dt} a", "latex", r"\frac{d}{dt}"),
-    (r"\frac{\partial M}{\partial\theta}", "latex", r"\partial"),
+    (r"\frac{\partial M}{\partial\theta}", "latex", r"\frac{\partial M}"),
+    (r"a \partial M", "latex", r"\partial"),
     (r"a'", "latex", "'"),
-    (r"a^\prime", "latex", r"\prime"),
+    (r"a^\prime", "latex", "^"),
     (r"\log a", "latex", r"\log"),
     (r"$a$", "latex", "$"),
     ("a % twice", "latex", "%"),

@@ -6,14 +6,15 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from sympy import Symbol, cos, sin
+from sympy import Integer, Rational, Symbol, cos, sin
 
+from derive.expressions import Amount
 from tests.mechanics.slab import I, M, R, a, g, known_slab
 
 Verbs = SimpleNamespace
 COORDINATES, LAGRANGIAN, ROLLING = "mechanics.coordinates", "mechanics.lagrangian", "mechanics.rolling"
 OSCILLATIONS, CONDITIONS, POTENTIALS = "mechanics.oscillations", "mechanics.conditions", "mechanics.potentials"
-CONSTRAINTS = "mechanics.constraints"
+CONSTRAINTS, NUMBERS = "mechanics.constraints", "numbers"
 
 
 def height(verbs: Verbs) -> Any:
@@ -109,6 +110,12 @@ def on_the_border(verbs: Verbs) -> Any:
     return verbs.leading_order(found["potential_energy"], where=verbs.boundary_case(found["minimum"]))
 
 
+def compared(verbs: Verbs) -> Any:
+    """R > a/2 for R = 20 cm and a = 5 cm."""
+    amounts = {R: Amount(Integer(20), "cm", Rational(1, 100)), a: Amount(Integer(5), "cm", Rational(1, 100))}
+    return verbs.comparison_of(known_slab()["stability"], amounts)
+
+
 RUNS: dict[str, Callable[[Verbs], Any]] = {
     "rate_of": lambda verbs: verbs.rate_of(height(verbs)),
     "rolled_centre": lambda verbs: verbs.rolled_centre(R, a / 2, verbs.coordinate("theta")),
@@ -137,6 +144,7 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
     "force_of_constraint": force_up,
     "multipliers_eliminated": eliminated,
     "contact_forces": contact,
+    "comparison_of": compared,
 }
 LAWS: list[tuple[str, str, str, str, str]] = [
     ("rate_of", COORDINATES, "lambda x: TimeRate(x, *moving)", "lambda x: 2 * TimeRate(x, *moving)", "y_rate"),
@@ -459,6 +467,9 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         "-Factors(x, t[0]), Factors(y, n[0])",
         "tangent_force",
     ),
+    # whether a condition is fulfilled
+    ("comparison_of", NUMBERS, '">" if difference.is_positive', '"<" if difference.is_positive', "stability_value"),
+    ("comparison_of", NUMBERS, "explicit(left) - explicit(right)", "explicit(left) * 0", "stability_value"),
 ]
 ROUTES: list[tuple[str, str, str, str, str]] = [
     ("rate_of", COORDINATES, "for _ in range(order):", "for _ in range(order + 1):", "y_rate"),
@@ -573,4 +584,5 @@ ROUTES: list[tuple[str, str, str, str, str]] = [
     ("contact_forces", CONSTRAINTS, "arm[1] * reaction[0] - arm[0]", "arm[1] * reaction[0] + arm[0]", "tangent_force"),
     ("frequency", OSCILLATIONS, "return value, Abs(value)", "return value, -Abs(value)", "frequency"),
     ("leading_order", POTENTIALS, "n).subs(q, place)) != 0)", "n).subs(q, place)) == 0)", "leading_order"),
+    ("comparison_of", NUMBERS, "1 if x > y else -1", "1 if x < y else -1", "stability_value"),
 ]

@@ -1,0 +1,164 @@
+"""Lagrange's equations of systems whose motion is known: pendulums, beads on wires, what has a cyclic coordinate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sympy import Integer, cos, sin, symbols
+
+from derive.errors import Rejected, Unverified
+from derive.evidence import Grade, equal
+from derive.expressions import Relation
+from derive.mechanics import (
+    coordinate,
+    equation_of_motion,
+    generalized_force,
+    generalized_momentum,
+    lagrangian,
+    plane_kinetic_energy,
+    rate_of,
+    weight_energy,
+)
+from tests.mechanics.block import known_block
+from tests.mechanics.motion import THETA, X, b, energies, g, l, m, motion, position
+from tests.mechanics.slab import I as moment
+from tests.mechanics.slab import M, R, a, known_slab
+
+q, q_dot, q_ddot = THETA.symbol, THETA.rate, THETA.acceleration
+x, x_dot, x_ddot = X.symbol, X.rate, X.acceleration
+r, phi = coordinate("r", "length"), coordinate("phi")
+
+PENDULUM = (l * sin(q), -l * cos(q), THETA)
+
+
+def says(found: Relation, left: Any) -> bool:
+    return bool(equal(found, Relation(left, "=", 0)))
+
+
+# --- energies ---
+
+
+def test_the_energies_of_a_pendulum_are_the_known_ones() -> None:
+    T, U = energies(*PENDULUM)
+    assert (T.value - m * l**2 * q_dot**2 / 2).expand() == 0
+    assert U.value == -m * g * l * cos(q)
+    assert (T.step.outcome, T.step.kind) == ("particle", "energy")
+
+
+def test_a_body_that_turns_has_the_energy_of_its_rotation_besides() -> None:
+    T, _ = energies(*PENDULUM, inertia=moment, turning=THETA)
+    assert (T.value - (m * l**2 + moment) * q_dot**2 / 2).expand() == 0
+    assert T.step.outcome == "turning"
+
+
+def test_a_turning_that_is_no_coordinate_of_the_place_is_a_coordinate_all_the_same() -> None:
+    T, U = energies(x, 0, X, inertia=moment, turning=THETA)
+    assert set(lagrangian(T, U).coordinates) == {x, q}
+    assert (T.value - m * x_dot**2 / 2 - moment * q_dot**2 / 2).expand() == 0
+
+
+def test_a_velocity_that_is_not_that_of_the_place_is_refused() -> None:
+    place, other = position("X", l * q, THETA), position("Z", 2 * l * q, THETA)
+    with pytest.raises(Unverified, match="`kinetic_energy`: its second route `mass_points` disagrees"):
+        plane_kinetic_energy(m, [rate_of(other)], [place])
+
+
+def test_the_energies_are_taken_in_their_order_and_are_energies() -> None:
+    T, U = energies(*PENDULUM)
+    with pytest.raises(Unverified):
+        lagrangian(U, T)
+    with pytest.raises(Rejected, match="`lagrangian` needs an energy as its `potential`, but `Z` is a length"):
+        lagrangian(T, position("Z", l))
+    with pytest.raises(Rejected, match="needs an energy"):
+        lagrangian(known_block()["torque"], U)
+
+
+def test_no_potential_is_no_force() -> None:
+    T, U = energies(x, 0, X)
+    assert U.value == 0
+    found = equation_of_motion(lagrangian(T, U), X)
+    assert found.step.outcome == "cyclic"
+    assert says(found.value, m * x_ddot)
+
+
+# --- equations of motion ---
+
+
+def test_a_pendulum_obeys_its_equation() -> None:
+    assert says(motion(*PENDULUM).value, l * q_ddot + g * sin(q))
+
+
+def test_a_physical_pendulum_obeys_the_law_of_moments_about_its_pivot() -> None:
+    found = motion(*PENDULUM, inertia=moment, turning=THETA)
+    assert says(found.value, (moment + m * l**2) * q_ddot + m * g * l * sin(q))
+
+
+def test_a_bead_on_a_parabola_feels_the_slope_and_the_centripetal_term() -> None:
+    found = motion(x, x**2 / (2 * b), X)
+    assert says(found.value, (1 + x**2 / b**2) * x_ddot + x * x_dot**2 / b**2 + g * x / b)
+
+
+def test_a_bead_on_a_straight_wire_has_the_acceleration_of_the_slope() -> None:
+    """Down a wire inclined by 30 degrees: s_ddot = -g/2."""
+    s = coordinate("s", "length")
+    found = motion(s.symbol * cos(Integer(0)), s.symbol, s)
+    assert says(found.value, 2 * s.acceleration + g)
+
+
+def test_a_body_on_a_turning_arm_has_two_equations() -> None:
+    """In polar coordinates: m(r_ddot - r phi_dot^2) = -m g sin phi, d(m r^2 phi_dot)/dt = -m g r cos phi."""
+    L = lagrangian(*energies(r.symbol * cos(phi.symbol), r.symbol * sin(phi.symbol), r, phi))
+    radial, angular = equation_of_motion(L, r, key="radial"), equation_of_motion(L, phi, key="angular")
+    R_, F_ = r.symbol, phi.symbol
+    assert says(radial.value, r.acceleration - R_ * phi.rate**2 + g * sin(F_))
+    by_moments = R_ * phi.acceleration + 2 * r.rate * phi.rate + g * cos(F_)
+    assert says(angular.value, R_ * by_moments)
+    assert not says(angular.value, by_moments)  # r may vanish
+
+
+def test_without_forces_the_angle_is_cyclic_and_its_momentum_is_the_angular_momentum() -> None:
+    place = [
+        position(name, value, r, phi)
+        for name, value in (("X", r.symbol * cos(phi.symbol)), ("Y", r.symbol * sin(phi.symbol)), ("Z", 0))
+    ]
+    T = plane_kinetic_energy(m, [rate_of(part) for part in place], place)
+    L = lagrangian(T, weight_energy(m, g, place))
+    found = equation_of_motion(L, phi)
+    assert found.step.outcome == "cyclic"
+    momentum = generalized_momentum(L, phi)
+    assert momentum.value == m * r.symbol**2 * phi.rate
+    assert generalized_force(L, phi).step.outcome == "zero"
+    assert generalized_force(L, r).value == m * r.symbol * phi.rate**2
+
+
+def test_a_coordinate_that_the_lagrangian_does_not_have_is_refused() -> None:
+    L = lagrangian(*energies(*PENDULUM))
+    with pytest.raises(Rejected) as refusal:
+        equation_of_motion(L, X)
+    (complaint,) = refusal.value.complaints
+    assert complaint.message == "`equation_of_motion`: `lagrangian` does not depend on the coordinate x"
+    assert complaint.help == "it has theta"
+
+
+def test_the_energy_of_the_slab_is_constant_along_its_motion() -> None:
+    """q_dot times the equation of motion is dE/dt."""
+    found = known_slab()
+    energy = found["kinetic_energy"].value + found["potential_energy"].value
+    changes = energy.diff(q) * q_dot + energy.diff(q_dot) * q_ddot
+    assert equal(changes, q_dot * found["equation_of_motion"].value.left).grade is Grade.PROVED
+
+
+def test_the_equation_of_the_slab_is_that_of_the_moments_about_the_contact() -> None:
+    """The contact is at rest: (I + M d^2) q_ddot + M (d^2)'/2 q_dot^2 is the moment of the weight, d its distance."""
+    distance_squared = R**2 * q**2 + a**2 / 4
+    left = (moment + M * distance_squared) * q_ddot + M * distance_squared.diff(q) / 2 * q_dot**2
+    lever = a / 2 * sin(q) - R * q * cos(q)
+    assert says(known_slab()["equation_of_motion"].value, left - M * symbols("g", positive=True) * lever)
+
+
+def test_every_step_of_the_slab_is_proved_but_the_series() -> None:
+    grades = {e.grade for step in known_slab().values() for e in step.step.evidence}
+    assert grades == {Grade.PROVED, Grade.APPROXIMATION}
+    series = [s.key for s in known_slab().values() if any(e.grade is Grade.APPROXIMATION for e in s.step.evidence)]
+    assert series == ["leading_order"]
