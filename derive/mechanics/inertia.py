@@ -344,7 +344,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         law,
         {"entry": entry, "mass": body.mass, "centre": centre},
         routes={"integration": compared_with(directly)},
-        outcome=_outward_outcome(pair) if outward else _moved_outcome(pair, is_round),
+        outcome=_outward_outcome(pair) if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
         put_in=Level.STANDARD,
         parents=[there],
@@ -355,10 +355,6 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
 
 def _outward_outcome(pair: Pair) -> str:
     return "outward_first" if pair == (0, 0) else "outward"
-
-
-def _moved_outcome(pair: Pair, is_round: bool) -> str:
-    return _round_entry_outcome(pair) if is_round else _entry_outcome(pair)
 
 
 def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:
