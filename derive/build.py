@@ -9,7 +9,7 @@ from __future__ import annotations
 import fcntl
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
@@ -17,15 +17,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive.errors import Complaint, DeriveError
-from derive.manifest import Manifest, digest, engine_digest, file_digest, outputs_of
+from derive.manifest import DOCUMENTS, SHEET, SOLUTIONS, Manifest, digest, engine_digest, file_digest, outputs_of
 from derive.output import folder, write, writing
 from derive.render.pdf import Engine, chosen_engine, chosen_name, typeset
 from derive.workers import TIME_LIMIT, Bug, Crew, Job, Outcome
 
 if TYPE_CHECKING:
+    from derive.drawn import Files
     from derive.solution import Rendered
-
-WHOLE = "solutions"
 
 
 @dataclass(frozen=True)
@@ -177,7 +176,7 @@ class _Build:
         from derive.solution import rendered
 
         problem = f"{self.set_id}/{name}"
-        work = partial(rendered, self.root, problem, self.options.detail, self._kept(name))
+        work = partial(rendered, self.root, problem, self.options.detail, self._kept(name), draws=True)
         self._put(Job(f"`{problem}`", work, self.options.limit), partial(self._was_derived, name))
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:
@@ -189,8 +188,21 @@ class _Build:
         paths = {*derived.inputs, f"problems/{self.set_id}/reference.yaml"}
         inputs = {path: self._input_digest(path) for path in sorted(paths)}
         self.manifest.keep(name, derived, self.recipe, inputs)
+        self._check_files(name, derived)
         self._document(name)
         self._whole()
+
+    def _check_files(self, name: str, derived: Rendered) -> None:
+        """Drawings that the problem no longer has are removed; a name is not given to two outputs."""
+        files = [file for file, _ in derived.files]
+        others = {output for other in self.names for output in outputs_of(other)}
+        for file in self.manifest.drawings.get(name, []):
+            if file not in {*files, *others}:
+                (self.outputs / file).unlink(missing_ok=True)
+        self.manifest.drawings[name] = files
+        for file in others & set(files):
+            message = f"the drawing `{file}` of `{name}` would have the name of another output"
+            self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _input_digest(self, path: str) -> str:
         """Of a file as it was when the build began; one that changed since then must be read again next time."""
@@ -199,42 +211,54 @@ class _Build:
         return "edited during the build" if edited else file_digest(file)
 
     def _document(self, name: str) -> None:
-        from derive.solution import problem_document
+        from derive.set_document import problem_document
 
         derived = self.derived[name]
         texts = {f"{name}.txt": derived.text, f"{name}.json": derived.json}
-        self._typeset(name, lambda: problem_document(self.root, derived, self.set_id), texts)
+        if self._record(dict(derived.files)):
+            self._typeset(name, lambda: problem_document(self.root, derived, self.set_id), texts, derived.files)
 
     def _whole(self) -> None:
-        """The document of the set, as soon as its last problem is derived."""
+        """The documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.solution import set_document
+        from derive.set_document import set_document, sheet_document
 
         parts = [self.derived[name] for name in self.names]
-        self._typeset(WHOLE, lambda: set_document(self.root, self.set_id, parts), {})
+        files = tuple(file for part in parts for file in part.files)
+        aux = self.outputs / ".derived" / f"{SOLUTIONS}.aux"  # the page numbers, so that one run is enough next time
+        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.set_id, parts), {}, files, aux)
+        self._typeset(SHEET, lambda: sheet_document(self.root, self.set_id, parts), {}, files)
 
-    def _typeset(self, name: str, document: Callable[[], str], texts: dict[str, str]) -> None:
+    def _typeset(
+        self,
+        name: str,
+        document: Callable[[], str],
+        texts: dict[str, str],
+        files: Files,
+        aux: Path | None = None,
+    ) -> None:
         pdf = f"{name}.pdf"
         try:
             tex = document()
         except DeriveError as error:
             self.result.complaints += error.complaints
             return
-        source = digest(tex, self.engine.identity)
+        source = digest(tex, self.engine.identity, *(content for _, content in files))
         texts = {f"{name}.tex": tex, **texts}
         current = self.manifest.sources.get(pdf) == source and self.manifest.holds(pdf)
         if current and not self.options.force:
             self._record(texts)
             return
         limit = self.options.limit
-        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit)
+        beside = [file for file in files if file[0].endswith(".pdf")]
+        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit, aux=aux, beside=beside)
         job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
         """The text and the source follow their PDF, so that what lies side by side belongs together."""
-        if pdf == f"{WHOLE}.pdf" and outcome.error:
+        if pdf.removesuffix(".pdf") in DOCUMENTS and outcome.error:
             self.whole_failed = outcome
             return
         if not self._took(outcome):
@@ -245,18 +269,22 @@ class _Build:
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         self._record(texts)
 
-    def _record(self, texts: dict[str, str]) -> None:
+    def _record(self, contents: Mapping[str, str | bytes]) -> bool:
+        """Write outputs of a problem; whether the disk took them."""
         try:
-            for name, text in texts.items():
-                if write(self.outputs / name, text):
+            for name, content in contents.items():
+                if write(self.outputs / name, content):
                     self.result.changed.append(self.outputs / name)
                 self.manifest.outputs[name] = file_digest(self.outputs / name)
         except DeriveError as error:
             self.result.complaints += error.complaints
+            return False
+        return True
 
     def _stamp(self) -> None:
         """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
-        outputs = " ".join(f"build/{self.set_id}/{o}" for name in [*self.names, WHOLE] for o in outputs_of(name))
+        names = [output for name in [*self.names, *DOCUMENTS] for output in self.manifest.outputs_of(name)]
+        outputs = " ".join(f"build/{self.set_id}/{name}" for name in names)
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         facts = f"outputs_of_{self.set_id} := {outputs}\noptions_of_{self.set_id} := {options}\n"
         write(self.outputs / ".outputs.mk", facts)

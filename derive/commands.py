@@ -20,6 +20,7 @@ from derive.terminal import complain, table, tell
 
 if TYPE_CHECKING:
     from derive.build import Report
+    from derive.drawn import Files
     from derive.solution import Rendered
     from derive.workers import Outcome
 
@@ -104,25 +105,27 @@ def _list(arguments: argparse.Namespace) -> int:
 
 
 def _solve(arguments: argparse.Namespace) -> int:
-    from derive import solution
+    from derive.set_document import problem_document
+    from derive.solution import rendered
     from derive.workers import Job, done
 
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     with _waiting(f"deriving {problem_id}"):
-        work = partial(solution.rendered, root, problem_id, arguments.detail)
-        rendered: Rendered = done(Job(f"`{problem_id}`", work, limit))
-    complain(rendered.warnings)
+        draws = arguments.format == "pdf"
+        work = partial(rendered, root, problem_id, arguments.detail, draws=draws)
+        solved: Rendered = done(Job(f"`{problem_id}`", work, limit))
+    complain(solved.warnings)
     set_id = problem_id.partition("/")[0]
     if arguments.format == "pdf":
-        return _solve_pdf(arguments, root, problem_id, solution.problem_document(root, rendered, set_id))
-    text = rendered.text if arguments.format == "text" else rendered.json
+        return _solve_pdf(arguments, root, problem_id, problem_document(root, solved, set_id), solved.files)
+    text = solved.text if arguments.format == "text" else solved.json
     if arguments.format == "latex":
-        text = solution.problem_document(root, rendered, set_id)
+        text = problem_document(root, solved, set_id)
     _deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
     return 0
 
 
-def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str) -> int:
+def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
     from tempfile import TemporaryDirectory
 
     from derive.build import set_folder
@@ -136,7 +139,7 @@ def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: 
     outputs = set_folder(root, set_id)
     with _waiting(f"typesetting {problem_id}"), TemporaryDirectory() as folder:
         target = Path(folder) / f"{name}.pdf"
-        work = partial(typeset, tex, target, engine, timeout=limit, log=outputs / "log")
+        work = partial(typeset, tex, target, engine, timeout=limit, log=outputs / "log", beside=files)
         done(Job(f"the pages of `{problem_id}`", work, limit + 10))
         pdf = target.read_bytes()
     output = arguments.output or str(outputs / f"{name}{suffix}.pdf")

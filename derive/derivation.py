@@ -126,6 +126,7 @@ def _step_to_data(step: Step) -> dict[str, Any]:
         "kind": step.kind,
         "words": step.words,
         "coordinates": [[encoded(q), kind] for q, kind in step.coordinates],
+        "stands_for": step.stands_for,
     }
 
 
@@ -149,4 +150,5 @@ def _step_from_data(data: dict[str, Any]) -> Step:
         kind=data["kind"],
         words=tuple((name, key) for name, key in data["words"]),
         coordinates=tuple((decoded(q), kind) for q, kind in data["coordinates"]),
+        stands_for=tuple(data["stands_for"]),
     )

@@ -12,20 +12,25 @@ from typing import Any
 
 from sympy import preorder_traversal
 
+from derive.checks import Checks, checks_of
+from derive.depiction import caption_numbers, depictions
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
-from derive.evidence import Evidence, Grade
+from derive.evidence import Grade
 from derive.expressions import Amount, Relation, Truncated
+from derive.figures.marks import Recorded
 from derive.homogeneity import dimension_table
 from derive.parts import Part
 from derive.problem import ANY_OUTCOME, Problem
 from derive.reference import Told
+from derive.references import References, found_before
 from derive.source import did_you_mean
-from derive.step import Form, Level, Step
+from derive.step import NUMBERS, Form, Level, Step
 from derive.wording import (
     AXIS_NAMES,
     Chain,
+    Math,
     Node,
     Phrases,
     Ref,
@@ -36,6 +41,8 @@ from derive.wording import (
     joined,
     name_of,
     names_of_step,
+    notes_apart,
+    stated_once,
     told,
 )
 
@@ -94,13 +101,17 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Answer:
-    """A boxed result: symbol = exact value, and its rounded value if it has one."""
+    """A boxed result: symbol = exact value, or another relation between them; its numbers, each after its sign.
+
+    There is a note where the symbols of several answers are alike.
+    """
 
     key: str
     symbol: Any
     value: Any
-    rounded: Any | None
-    relation: str = "approx"
+    relation: str = "equals"
+    numbers: tuple[tuple[str, Any], ...] = ()
+    note: tuple[Node, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -108,7 +119,20 @@ class Answers:
     answers: tuple[Answer, ...]
 
 
-Block = Paragraph | Display | Answers
+@dataclass(frozen=True)
+class Illustration:
+    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+
+    key: str
+    stem: str
+    alt: tuple[Node, ...]
+    number: int | None
+    caption: tuple[Node, ...]
+    at: str
+    rests_on: tuple[str, ...] = ()
+
+
+Block = Paragraph | Display | Answers | Illustration
 
 
 @dataclass(frozen=True)
@@ -127,9 +151,13 @@ class Document:
     title: tuple[Node, ...]
     points: Fraction | None
     statement: tuple[Node, ...]
+    illustrations: tuple[Illustration, ...]
     parts: tuple[PartPage, ...]
+    checks: Checks
     closing: tuple[Node, ...]
     numbers: Mapping[str, int]
+    symbols: Mapping[str, Any]
+    shown_in: Mapping[str, str]  # step -> label of the part that shows it
     dimensions: Mapping[Any, Dimension | None] = field(repr=False)
     warnings: tuple[Complaint, ...] = ()
 
@@ -141,9 +169,14 @@ def document_of(
     words: Phrases,
     level: Level,
     compared: Sequence[Told] = (),
+    others: Mapping[str, int] | None = None,
+    drawings: Sequence[Recorded] = (),
 ) -> tuple[Document, list[Complaint]]:
-    """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous."""
-    writer = _Writer(problem, derivation, values, words, level)
+    """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
+
+    `others` are the numbers of the set's problems, to which prose may refer.
+    """
+    writer = _Writer(problem, derivation, values, words, level, others or {}, drawings)
     return writer.document([c for c in compared if c.here]), writer.faults
 
 
@@ -151,24 +184,42 @@ class _Writer:
     """Walks the parts once, giving numbers to equations and words to steps."""
 
     def __init__(
-        self, problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases, level: Level
+        self,
+        problem: Problem,
+        derivation: Derivation,
+        values: Mapping[str, Step],
+        words: Phrases,
+        level: Level,
+        others: Mapping[str, int],
+        drawings: Sequence[Recorded],
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
+        self.drawings = drawings
         self.numbers: dict[str, int] = {}
+        self.shown_in: dict[str, str] = {}
         every = [*derivation.steps, *values.values()]
         self.dimensions, unlike = dimension_table(problem.dimensions, every)
         # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
         self.faults = [replace(fault, place=problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
+        self.references = References(
+            problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
+        )
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
         self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
+        answered = [derivation.step(key) for part in problem.parts for key in part.answers]
+        self.notes = notes_apart(answered, words)
 
     def document(self, compared: Sequence[Told]) -> Document:
         problem = self.problem
-        title = self._told(problem.title.pieces)
-        statement = self._told(problem.statement.pieces)
-        parts = tuple(self._part(i, part) for i, part in enumerate(problem.parts))
+        title = told(problem.title.pieces, self.page_names, self._unknown)
+        self.references.check_title(problem.title.mentions, self.page_names)
+        statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"])
+        illustrations = self._illustrations()
+        parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        self.references.check(self.numbers, self.symbols)
+        checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
         self._check_keys("wording", problem.wording)
         self._check_keys("show", problem.show)
         return Document(
@@ -176,9 +227,13 @@ class _Writer:
             title=title,
             points=problem.points,
             statement=statement,
+            illustrations=tuple(illustrations),
             parts=parts,
-            closing=self._closing(compared),
+            checks=checks,
+            closing=checks.closing(self.words),
             numbers=self.numbers,
+            symbols={**self.symbols, **{value.key: value.symbol for value in self.values.values()}},
+            shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=tuple(
                 Complaint("not-shown", f"`{key}` is established but no answer rests on it", severity="warning")
@@ -195,7 +250,9 @@ class _Writer:
         return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
-        return told(pieces, {**self.page_names, **(names or {})}, self._unknown)
+        names = {**self.page_names, **(names or {})}
+        self.references.note(pieces, names)
+        return told(pieces, names, self._unknown, self.references.node)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
@@ -204,38 +261,62 @@ class _Writer:
         )
 
     def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
+        in_another_case = {key for step in self.derivation.steps for key in step.stands_for}
         for key in named:
-            if key not in self.symbols:
+            if key not in self.symbols and key not in in_another_case:
                 help_line = did_you_mean(key, self.symbols)
                 place = self.problem.place_of(section, key)
                 self.faults.append(
                     Complaint("unknown-key", f"no step on this page is called `{key}`", place, help=help_line)
                 )
 
+    # --- drawings ---
+
+    def _illustrations(self) -> list[Illustration]:
+        found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
+        self.faults += faults
+        stem = self.problem.id.rpartition("/")[2]
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in found]
+
     # --- parts ---
 
-    def _part(self, index: int, part: Part) -> PartPage:
-        blocks: list[Block] = []
+    def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
+        label = chr(ord("a") + index)
+        blocks: list[Block] = self._found_before(part)
+        ends: dict[str, int] = {}
         for key in self.derivation.parts[index]:
+            self.shown_in[key] = label
             self._append(blocks, self.derivation.step(key))
-        measured = [v for key in part.answers if (v := self.values.get(key)) and v.outcome != "exact"]
-        for i, value in enumerate(measured):
+            ends[key] = len(blocks)
+        steps = len(blocks)
+        values = [v for key in part.answers if (v := self.values.get(key)) and v.key not in self.numbers]
+        for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
-        return PartPage(chr(ord("a") + index), self._told(part.ask.pieces), part.points, _punctuated(blocks))
+        own = [illustration for illustration in illustrations if illustration.at == label]
+        return PartPage(
+            label, self._told(part.ask.pieces), part.points, _illustrated(_punctuated(blocks), own, ends, steps)
+        )
+
+    def _found_before(self, part: Part) -> list[Block]:
+        """What an earlier part has answered already, with the numbers of the equations."""
+        before = [self.derivation.step(key) for key in part.answers if key in self.shown_in]
+        return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.numbers, self.words)]
+
+    @property
+    def _and(self) -> str:
+        return str(self.words.labels["and"])
 
     def _answer(self, key: str) -> Answer:
         step = self.derivation.step(key)
         value = self.values.get(key)
-        rounded = None
-        if value is not None:
-            rounded = value.chain[-1].expr
+        forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
+        numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
         if isinstance(step.result, Truncated):
-            return Answer(key, step.symbol, step.result, None, "approx")
+            return Answer(key, step.symbol, step.result, "approx")
         if isinstance(step.result, Relation):
-            return Answer(key, step.result.left, step.result.right, None, step.result.word)
-        relation = "equals" if value is not None and value.chain[-1].because == "value" else "approx"
-        return Answer(key, step.symbol, step.result, rounded, relation if rounded is not None else "equals")
+            return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
+        return Answer(key, step.symbol, step.result, "equals", numbers, self.notes.get(key, ()))
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
@@ -271,7 +352,7 @@ class _Writer:
         new = [m for m in self.problem.measured if self.problem.amounts[m.symbol] in used - self.converted]
         self.converted |= used
         items = [conversion(m, self.problem.amounts[m.symbol], self.problem.figures) for m in new]
-        return joined(items, self.words.labels["and"])
+        return joined(items, self._and)
 
     def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
         level = Level.FULL if mode == "full" else self.level
@@ -283,13 +364,16 @@ class _Writer:
         return tuple(lines)
 
     def _line(self, step: Step, form: Form, before: str | None) -> Line:
-        template = "" if before is None else self.words.reason(step, form.because, before)
+        stands_alone = before is None and not isinstance(form.expr, Relation)
+        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, template)
+        if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
+            return Line(None, _sign_before(form), form.expr.right, reason)
         if isinstance(form.expr, Relation):
             return Line(form.expr.left, form.expr.word, form.expr.right, reason)
         return Line(
             left=step.symbol if before is None else None,
-            relation="approx" if form.because in {"rounded", "series"} else "equals",
+            relation=_sign_before(form),
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
@@ -304,35 +388,28 @@ class _Writer:
             for key in step.inputs
             if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
         ]
-        if "refs" in template and not refs:
-            return ()
         refs.sort(key=lambda ref: self.numbers[ref.key])
-        return filled(template, {**self.page_names, "refs": joined(refs, self.words.labels["and"])})
+        equations = [ref for ref in refs if self.symbols[ref.key] is None]
+        if "refs" in template and not refs or "equations" in template and not equations:
+            return ()
+        last = self._and
+        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        return filled(
+            template, {**self.page_names, **own, "refs": joined(refs, last), "equations": joined(equations, last)}
+        )
 
     # --- how it was checked ---
 
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
 
-    def _closing(self, compared: Sequence[Told]) -> tuple[Node, ...]:
-        evidence = [e for step in [*self.derivation.steps, *self.values.values()] for e in step.evidence]
-        lines = [e for e in evidence if e.claim.startswith("line ")]
-        routes = [e for e in evidence if not e.claim.startswith("line ") and e.grade is not Grade.DEFINITION]
-        names = {
-            "lines": len(lines),
-            "lines_by_grade": self._by_grade(lines),
-            "routes": len(routes),
-            "routes_by_grade": self._by_grade(routes),
-            "definitions": sum(e.grade is Grade.DEFINITION for e in evidence),
-            "compared": len(compared),
-            "agree": sum(c.outcome.startswith("agrees") for c in compared),
-            "errata": sum(c.outcome == "erratum" for c in compared),
-        }
-        return filled(self.words.labels["closing"], names)
 
-    def _by_grade(self, evidence: list[Evidence]) -> str:
-        counts = {grade: sum(e.grade is grade for e in evidence) for grade in Grade}
-        return ", ".join(f"{n} {self.words.grades[grade]}" for grade, n in counts.items() if n)
+def _sign_before(form: Form) -> str:
+    return "approx" if form.because in {"rounded", "series"} else "equals"
+
+
+def _right_side(value: Any) -> Any:
+    return value.right if isinstance(value, Relation) else value
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
@@ -341,10 +418,22 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         if isinstance(block, Display) and isinstance(following, Paragraph):
             first = following.nodes[0]
-            if isinstance(first, Text) and first.text[:1].islower():
+            if isinstance(first, Text) and first.text.lstrip()[:1].islower():
                 block = replace(block, end=",")
         result.append(block)
     return tuple(result)
+
+
+def _illustrated(
+    blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
+) -> tuple[Block, ...]:
+    """Each drawing after the step that completes it; at the end of the part if that is its last, or none of its."""
+    places = [max((ends[key] for key in drawing.rests_on if key in ends), default=steps) for drawing in own]
+    found: list[Block] = []
+    for i, block in enumerate(blocks):
+        found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]
+        found.append(block)
+    return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place >= steps))
 
 
 def _around_chain(nodes: tuple[Node, ...]) -> tuple[tuple[Node, ...], tuple[Node, ...]]:

@@ -23,7 +23,7 @@ _NODES = (
     "Dot", "Norm", "Cross", "CarriedRate", "BodyRate", "Group", "Factors", "Terms", "Ratio", "Root", "Bracket",
     "Amount", "MatrixAmount", "MassIntegral", "Outer", "Partial", "TimeRate", "Slope", "At",
     "Truncated",
-    "Relation",
+    "Relation", "Component",
 )
 # fmt: on
 _CLASSES: dict[str, Any] = {

@@ -189,6 +189,9 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return Verdict(Grade.PROVED, "identical")
     if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
+    for sign in (1, -1):
+        if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
+            return Verdict(Grade.PROVED, "polynomial normal form")
     if left.residual == 0 or right.residual == 0:
         if left.mark != right.mark:
             return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
@@ -220,10 +223,12 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """x^2 > y^2 says the same as x > y when neither x nor y is negative."""
+    """x^2 > y^2, or a positive multiple of it, says the same as x > y when neither x nor y is negative."""
     for squares, roots in ((left, right), (right, left)):
-        if all(side.is_nonnegative for side in roots.sides):
-            if all(vanishes(root**2 - square) for root, square in zip(roots.sides, squares.sides, strict=True)):
+        difference = roots.left**2 - roots.right**2
+        if difference != 0 and all(side.is_nonnegative for side in roots.sides):
+            factor = _ratio(squares.residual, difference)
+            if factor.is_positive and vanishes(squares.residual - factor * difference):
                 return True
     return False
 

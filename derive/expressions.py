@@ -26,10 +26,13 @@ from sympy import (
     Symbol,
     Tuple,
     diff,
+    nan,
     sqrt,
 )
 from sympy.core.symbol import Str
 from sympy.matrices import ImmutableMatrix
+
+from derive.integrals import definite, has_root
 
 Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has no common type for them
 
@@ -131,22 +134,24 @@ class Cross(VectorNode):
 
 
 class CarriedRate(VectorNode):
-    """dA/dt in space of a vector A that turns with angular velocity omega and is constant in the body.
+    """dA/dt in space of a vector A that turns with angular velocity omega. Arguments: A, omega, and the coordinates
+    that move; without any, A is constant in the body.
 
     Evaluated by carrying A round and differentiating, not by omega x A: A(t) = R(t) A, where the columns of R(t) are
     the body's axes after the time t. The rotation is Euler's: rotate about z and y until omega lies along z, turn by
     |omega| t, rotate back.
     """
 
-    def _evaluated(self, a: Matrix, omega: Matrix) -> ImmutableMatrix:
+    def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:
+        in_body = Matrix([explicit(TimeRate(component, *moving)) for component in a])
         rate = sqrt(sum((w**2 for w in omega), Integer(0)))
         if rate == 0:
-            return column(0, 0, 0)
+            return ImmutableDenseMatrix(in_body)
         t = Symbol("t", real=True)
         to_z = _rotation_onto_z(omega / rate)
         turn = Matrix([[_c(rate * t), -_s(rate * t), 0], [_s(rate * t), _c(rate * t), 0], [0, 0, 1]])
         # The turn alone depends on time, so it alone is differentiated.
-        return ImmutableDenseMatrix(to_z.T * diff(turn, t).subs(t, 0) * to_z * Matrix(a))
+        return ImmutableDenseMatrix(in_body + to_z.T * diff(turn, t).subs(t, 0) * to_z * Matrix(a))
 
 
 def _c(x: Expr) -> Expr:
@@ -171,10 +176,20 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
 
 
 class BodyRate(VectorNode):
-    """dA/dt as seen in the body, of a vector A that is constant there."""
+    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without any, A is constant there."""
 
-    def _evaluated(self, a: Matrix) -> ImmutableMatrix:
-        return column(*(diff(component, Symbol("t", real=True)) for component in a))
+    def _evaluated(self, a: Matrix, *moving: Symbol) -> ImmutableMatrix:
+        return column(*(explicit(TimeRate(component, *moving)) for component in a))
+
+
+class Component(ScalarNode):
+    """The component of a vector along an axis. Arguments: the vector, the axis as text."""
+
+    def __new__(cls, v: Any, axis: str | Str) -> Component:
+        return super().__new__(cls, v, Str(axis) if isinstance(axis, str) else axis)  # type: ignore[no-any-return]
+
+    def doit(self, **hints: Any) -> Expr:
+        return explicit(self.args[0])[AXES.index(self.args[1].name)]
 
 
 class Group(ScalarNode):
@@ -409,14 +424,17 @@ def _carried_out(expr: Basic) -> Value:
 
 
 def _definite(integral: Integral) -> Expr:
-    """A definite integral; powers are integrated as powers, for which SymPy's integrator is slow."""
-    value = explicit(integral.function)
-    for x, lower, upper in integral.limits:
-        terms = [term.as_coeff_exponent(x) for term in Add.make_args(value.expand())]
-        if not all(n.is_Integer and n >= 0 and not c.has(x) for c, n in terms):
-            return integral.doit()
-        value = Add(*(c * (upper ** (n + 1) - lower ** (n + 1)) / (n + 1) for c, n in terms))
-    return value.expand()
+    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy.
+
+    An integral over a root of its variable that is of no such kind is left undefined, which equals nothing: there
+    SymPy may be wrong, or not come back.
+    """
+    integrand = explicit(integral.function)
+    value = definite(integrand, integral.limits)
+    if value is not None:
+        return value
+    ends = [end for _, *limits in integral.limits for end in limits]
+    return nan if any(has_root(part) for part in [integrand, *ends]) else integral.doit()
 
 
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:

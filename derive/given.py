@@ -11,10 +11,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, NoReturn, TypeAlias, get_args
 
-from sympy import Expr, Integer, Rational, Symbol
+from sympy import Expr, Integer, Rational, Symbol, pi
 
 from derive.dimensions import NUMBER, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.errors import Place
+from derive.expressions import Amount
 from derive.mechanics.direction import Direction
 from derive.reading import RESERVED, Declared, rational, read_expression
 from derive.source import Faults, Node, Scalar, Sequence, did_you_mean, rejected, shape_of
@@ -30,6 +31,8 @@ _POSITIVE = {
     "area",
     "volume",
     "density",
+    "surface density",
+    "line density",
     "speed",
     "acceleration",
     "angular speed",
@@ -46,6 +49,12 @@ _NUMBER_UNIT = re.compile(
 )
 
 
+def plural(kind: str) -> str:
+    """Moments of inertia, angular speeds."""
+    noun, of, rest = kind.partition(" of ")
+    return f"{noun}s{of}{rest}"
+
+
 @dataclass(frozen=True)
 class Kind:
     """What a parameter of `solve()` may be: `name` in the script, `each` in `symbols:`, letters for numbers."""
@@ -57,7 +66,7 @@ class Kind:
 
     @property
     def wanted(self) -> str:
-        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {self.each}s"
+        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {plural(self.each)}"
 
 
 Mass: TypeAlias = Annotated[Expr, Kind("Mass", "mass", ("M", "m"))]
@@ -69,15 +78,33 @@ AngularSpeed: TypeAlias = Annotated[Expr, Kind("AngularSpeed", "angular speed", 
 Speed: TypeAlias = Annotated[Expr, Kind("Speed", "speed", ("v", "u"))]
 Acceleration: TypeAlias = Annotated[Expr, Kind("Acceleration", "acceleration", ("g", "a"))]
 Density: TypeAlias = Annotated[Expr, Kind("Density", "density", ("rho", "sigma"))]
+SurfaceDensity: TypeAlias = Annotated[Expr, Kind("SurfaceDensity", "surface density", ("sigma", "mu"))]
+LineDensity: TypeAlias = Annotated[Expr, Kind("LineDensity", "line density", ("lambda_l", "mu"))]
 Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
+MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I_0", "J_0"))]
+MomentsOfInertia: TypeAlias = Annotated[
+    tuple[Expr, Expr, Expr], Kind("MomentsOfInertia", "moment of inertia", ("A", "B", "C"), 3)
+]
 SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
 Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
 
-MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I", "I_1", "I_2"))]
-
 _DIRECTION = Kind("Direction", "direction", (), 3)
-_MEASURES = (Mass, Length, Lengths, Time, Angle, AngularSpeed, Speed, Acceleration, Density, Force)
-_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, SpringConstant, MomentOfInertia, Number)), _DIRECTION)
+_MEASURES = (
+    Mass,
+    Length,
+    Lengths,
+    Time,
+    Angle,
+    AngularSpeed,
+    Speed,
+    Acceleration,
+    Density,
+    SurfaceDensity,
+    LineDensity,
+    Force,
+)
+_OTHERS = (MomentOfInertia, MomentsOfInertia, SpringConstant, Number)
+_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, *_OTHERS)), _DIRECTION)
 KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
 
 
@@ -107,13 +134,17 @@ class Measured:
 
 @dataclass(frozen=True)
 class Given:
-    """One key of `given:`: what goes to `solve()`, the numbers behind its letters, and its word if it is one."""
+    """One key of `given:`: what goes to `solve()`, the numbers behind its letters, and its word if it is one.
+
+    A value that is used exactly, such as pi/4, is `written` as it was given, 45 deg.
+    """
 
     name: str
     kind: Kind
     value: Any
     measured: tuple[Measured, ...] = ()
     word: str | None = None
+    written: Amount | None = None
 
 
 @dataclass(frozen=True)
@@ -190,6 +221,13 @@ def read_measured(key: Scalar, node: Node, symbols: Mapping[str, Declared]) -> M
     return Measured(declared.symbol, value.number, value.unit, value.si)
 
 
+def read_value(name: str, node: Node, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
+    """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
+    wanted = _Wanted(name, kind, notes)
+    value = _value(_scalar(node, wanted), wanted, symbols)
+    return value.si if isinstance(value, _Number) else value
+
+
 def _read_one(
     name: str, node: Node, kind: Kind, symbols: Mapping[str, Declared], faults: Faults, notes: tuple[str, ...]
 ) -> tuple[Expr | _Number, ...] | Direction:
@@ -198,7 +236,7 @@ def _read_one(
         return _direction(node, wanted, symbols)
     if kind.count == 1:
         return (_value(_scalar(node, wanted), wanted, symbols),)
-    items = _three(node, wanted, f"{kind.count} {kind.each}s", "write it as `[a, b, c]`")
+    items = _three(node, wanted, f"{kind.count} {plural(kind.each)}", "write it as `[a, b, c]`")
     values = []
     own = Faults()
     for item in items:
@@ -364,6 +402,9 @@ class _Letters:
 def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction, letters: _Letters) -> Given:
     if isinstance(value, Direction):
         return Given(name, kind, value, (), value.name)
+    if isinstance(value[0], _Number) and kind.each == "angle" and _is_exact_angle(value[0].si):
+        number = value[0]
+        return Given(name, kind, number.si, written=Amount(number.number, number.unit, number.si / number.number))
     measured: dict[Expr, Measured] = {}
     exprs: list[Expr] = []
     smallest = _common_measure(value)
@@ -386,6 +427,12 @@ def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction,
             measured[size] = Measured(letters.letter(kind), entry.number * sign, entry.unit, size)
         exprs.append(sign * times * measured[size].symbol)
     return Given(name, kind, exprs[0] if kind.count == 1 else tuple(exprs), tuple(measured.values()))
+
+
+def _is_exact_angle(angle: Expr) -> bool:
+    """30, 45, 60, 90 degrees and their multiples, whose sines are single roots; not 0, which has no unit to show."""
+    parts = angle / pi
+    return bool(parts.is_Rational and parts != 0 and (4 * parts).is_Integer | (6 * parts).is_Integer)
 
 
 def _common_measure(value: tuple[Expr | _Number, ...]) -> _Number | None:

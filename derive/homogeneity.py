@@ -74,10 +74,14 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, ex.TimeRate):
         moving = dimension_of(expr.args[0], table)
         return None if moving is None else moving / dimension_of_kind("time")
+    if isinstance(expr, ex.Component):
+        return dimension_of(expr.args[0], table)
     if isinstance(expr, ex.BodyRate):
         vector = dimension_of(expr.args[0], table)
         return None if vector is None else vector / dimension_of_kind("time")
-    if isinstance(expr, Mul | MatMul | ex.Factors | ex.Dot | ex.Cross | ex.Outer | ex.CarriedRate):
+    if isinstance(expr, ex.CarriedRate):
+        return _product(dimension_of(arg, table) for arg in expr.args[:2])
+    if isinstance(expr, Mul | MatMul | ex.Factors | ex.Dot | ex.Cross | ex.Outer):
         return _product(dimension_of(arg, table) for arg in expr.args)
     if isinstance(expr, ex.Ratio):
         above, below = (dimension_of(arg, table) for arg in expr.args)
@@ -178,8 +182,13 @@ def _opened_names(step: Step, table: Table) -> Table:
     """Names that a definition brings in, such as the components of any angular velocity, have its kind's dimension."""
     if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
         return {}
-    free: set[Basic] = set().union(*(form.expr.free_symbols for form in step.chain))
+    free: set[Basic] = set().union(*(form.expr.free_symbols - _integrated(form.expr) for form in step.chain))
     return {name: dimension_of_kind(step.kind) for name in free if name not in table}
+
+
+def _integrated(expr: Any) -> set[Basic]:
+    """The variables of integration of an integral over the mass, which are no names of its own."""
+    return {x for whole in expr.atoms(ex.MassIntegral) for x, *_ in whole.args[5:]}
 
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
@@ -202,6 +211,8 @@ def _names_of(step: Step, dimension: Dimension | None) -> Table:
     names: Table = {} if step.symbol is None else {step.symbol: dimension}
     if isinstance(step.symbol, MatrixSymbol) and step.symbol.shape == (3, 1):
         names.update(dict.fromkeys(ex.component_names(step.symbol.name), dimension))
+    if isinstance(step.symbol, MatrixBase):
+        names.update(dict.fromkeys(step.symbol, dimension))
     return names
 
 

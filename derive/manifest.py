@@ -16,7 +16,8 @@ from typing import Any
 
 from derive.output import write
 
-PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc")
+PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc", "matplotlib")
+SOLUTIONS, SHEET = DOCUMENTS = ("solutions", "problems")  # of a whole set: with the solutions, and for students
 _PACKAGE = Path(__file__).parent
 
 
@@ -64,6 +65,7 @@ class Manifest:
     inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> path -> digest of content
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     sources: dict[str, str] = field(default_factory=dict)  # pdf -> digest of its TeX and engine
+    drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
@@ -89,8 +91,12 @@ class Manifest:
             self.complete
             and self._unchanged(self.set_inputs, root)
             and all(self.is_derived(name, recipe, root) for name in self.problems)
-            and all(self.holds(name) for problem in [*self.problems, "solutions"] for name in outputs_of(problem))
+            and all(self.holds(name) for part in [*self.problems, *DOCUMENTS] for name in self.outputs_of(part))
         )
+
+    def outputs_of(self, problem: str) -> list[str]:
+        """All outputs of a problem, those that every problem has and its drawings."""
+        return [*outputs_of(problem), *self.drawings.get(problem, [])]
 
     def holds(self, output: str) -> bool:
         """Whether that output is there and as it was written."""
@@ -116,6 +122,6 @@ class Manifest:
 
 
 def outputs_of(name: str) -> list[str]:
-    """The outputs of a problem, or of the whole set as `solutions`."""
-    suffixes = ("pdf", "tex") if name == "solutions" else ("pdf", "tex", "txt", "json")
+    """The outputs of a problem, or of a document of the whole set."""
+    suffixes = ("pdf", "tex") if name in DOCUMENTS else ("pdf", "tex", "txt", "json")
     return [f"{name}.{suffix}" for suffix in suffixes]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdify, preorder_traversal
@@ -10,7 +10,7 @@ from sympy import Add, Expr, Integer, MatrixBase, Mul, Rational, Symbol, lambdif
 from derive.expressions import Amount, Factors, MatrixAmount, Ratio, Relation, Root, bound, explicit, scaled
 from derive.rounding import rounded_form
 from derive.step import Form, Level, Quantity, establish
-from derive.tidy import factored_matrix
+from derive.tidy import factored_matrix, tidied
 
 HALF = Rational(1, 2)
 FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<="}  # the marks under which an inequality is so
@@ -18,51 +18,70 @@ SHORT = 9  # numbers; a formula with more of them is not written out again
 
 
 def value_of(
-    answer: Quantity, amounts: Mapping[Symbol, Amount], unit: str, factor: Expr, figures: int, key: str | None = None
+    answer: Quantity,
+    amounts: Mapping[Symbol, Amount],
+    unit: str,
+    factor: Expr,
+    figures: int,
+    key: str | None = None,
+    more: Sequence[tuple[str, Expr]] = (),
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left, or if the
     numbers make it imaginary, as the frequency of what does not oscillate.
 
-    answer    any quantity
+    answer    any quantity; of a relation that has one letter on its left side, the right side
     amounts   symbol -> its number with a unit
     unit      as text, and `factor`, what one of it is in the SI
+    more      other units in which it is given too, each with its factor
     Second route: the exact expression in the machine's floating-point arithmetic.
     Outcomes: measured (numbers were put in), exact.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
-    letters = _free(answer.value)
-    if isinstance(answer.value, Relation):
+    value, within = _valued(answer.value)
+    letters = _free(value)
+    if not letters <= set(amounts) or value == 0:
         return None
-    if not letters <= set(amounts):
-        return None
-    if not letters and all(entry.is_Integer for entry in _entries(answer.value)):
+    if not letters and all(entry.is_Integer for entry in _entries(value)):
         return None
     numbers = {letter: amounts[letter] for letter in letters}
-    if isinstance(answer.value, MatrixBase):
-        common, rest = factored_matrix(answer.value)
+    if isinstance(value, MatrixBase):
+        common, rest = factored_matrix(value)
         substituted = bound(rest, numbers) if common == 1 else scaled(bound(common, numbers), bound(rest, numbers))
     else:
-        substituted = bound(_under_one_root(answer.value), numbers)
+        substituted = bound(_under_one_root(value), numbers)
     exact = explicit(substituted)
     if any(entry.is_real is False for entry in _entries(exact)):
         return None
-    shown = _with_unit(exact, unit, factor, figures)
-    lossless = explicit(shown) == exact
+    shown = [_with_unit(exact, *each, figures) for each in ((unit, factor), *more)]
     return establish(
         "numbers.value",
         answer.symbol,
-        lambda: substituted,
+        lambda: within(substituted),
         {},
-        routes={"floats": lambda result: _by_floats(answer.value, letters, amounts, explicit(result))},
+        routes={"floats": lambda result: _by_floats(value, letters, amounts, _valued(explicit(result))[0])},
         outcome="measured" if letters else "exact",
         key=key or f"{answer.key}_value",
         kind=answer.step.kind,
         put_in=None,
         show_result=False,
         law_shown=Level.BRIEF if _amounts_in(substituted) <= SHORT else Level.FULL,
-        after=[Form(shown, "value" if lossless else "rounded")],
+        after=[Form(within(each), "value" if explicit(each) == exact else "rounded") for each in shown],
         parents=[answer],
+        arranged=tidied if within is _as_it_is else explicit,
     )
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
+    """What of a result takes a number, and how the number stands in the result: R > a/2 has one on its right."""
+    if not isinstance(value, Relation):
+        return value, _as_it_is
+    if isinstance(value.left, Symbol) and not value.right.has(value.left):
+        return value.right, lambda number: Relation(value.left, value.mark, number)
+    return Integer(0), _as_it_is
 
 
 def _under_one_root(value: Expr) -> Expr:

@@ -19,9 +19,9 @@ _POINTS = re.compile(r"[0-9]{1,4}(\.[05])?")
 
 @dataclass(frozen=True)
 class AnswerForm:
-    """How a number is to be given; `None` leaves it to the problem."""
+    """How a number is to be given, in one unit or in several; nothing leaves it to the problem."""
 
-    unit: str | None = None
+    units: tuple[str, ...] = ()
     figures: int | None = None
 
 
@@ -101,14 +101,22 @@ def _forms(node: Node, answers: tuple[str, ...], faults: Faults) -> dict[str | N
 
 def _form(node: Mapping, faults: Faults) -> AnswerForm:
     check_keys(node, FORM_KEYS, "a form", faults)
-    unit = node.get("unit")
-    if unit is not None and not isinstance(unit, Scalar):
-        wrong_type(faults, "`unit`", "a unit", unit)
-    elif unit is not None:
+    return AnswerForm(_units(node.get("unit"), faults), read_figures(node.get("figures"), faults))
+
+
+def _units(node: Node | None, faults: Faults) -> tuple[str, ...]:
+    """One unit, or a list of them: `rpm`, `[rad/s, rpm]`."""
+    if node is None:
+        return ()
+    items = node.items if isinstance(node, Sequence) else (node,)
+    if not items or any(not isinstance(item, Scalar) for item in items):
+        wrong_type(faults, "`unit`", "a unit", node)
+        return ()
+    units = [item for item in items if isinstance(item, Scalar)]
+    for unit in units:
         with faults:
             read_unit(unit.text, unit.place)
-    text = unit.text.strip() if isinstance(unit, Scalar) else None
-    return AnswerForm(text, read_figures(node.get("figures"), faults))
+    return tuple(unit.text.strip() for unit in units)
 
 
 def read_points(node: Node | None, faults: Faults) -> Fraction | None:

@@ -17,9 +17,11 @@ from sympy import Integer, Symbol
 
 from derive.dimensions import KINDS, Dimension, unit_of_kind
 from derive.errors import Complaint, Misused, Place, Rejected
-from derive.expressions import Amount
+from derive.expressions import Amount, explicit
 from derive.given import Given, Measured, read_givens, read_measured, symbol_of_kind
+from derive.measured import numbers_known
 from derive.parts import Part, points_text, read_parts, read_points
+from derive.placement import Placement, read_placements
 from derive.prose import Prose, read_prose
 from derive.reading import RESERVED, Declared
 from derive.schema import (
@@ -40,6 +42,7 @@ ANY_OUTCOME = ""
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 _SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
 _SCRIPT = re.compile(r"[A-Za-z0-9_-]{1,64}\.py")
+DOCUMENTS = ("solutions", "problems")  # what a build calls the documents of the whole set
 _NOT_PROBLEMS = ("set", "reference")
 
 
@@ -60,6 +63,7 @@ class Problem:
     wording: Table[str, Table[str, Prose]]
     show: Table[str, str]
     figures: int
+    drawings: tuple[Placement, ...]
     script: Script = field(repr=False)
     script_path: str
     places: Table[str, Place] = field(repr=False)
@@ -90,6 +94,13 @@ class Problem:
         """The number behind each letter that has one, in the coherent SI unit."""
         units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in self.measured}
         return {m.symbol: Amount(m.si, units[m.symbol], Integer(1)) for m in self.measured}
+
+    @property
+    def texts(self) -> tuple[Prose, ...]:
+        """All prose that is printed."""
+        wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
+        captions = (placement.caption for placement in self.drawings if placement.caption)
+        return (self.title, self.statement, *(part.ask for part in self.parts), *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
@@ -131,7 +142,8 @@ def _meant(problem_id: str, known: list[str]) -> str:
 
 def run_solve(problem: Problem) -> object:
     """What the script's `solve()` returns for what is given."""
-    return run(problem.script, {given.name: given.value for given in problem.givens})
+    with numbers_known({letter: explicit(amount) for letter, amount in problem.amounts.items()}):
+        return run(problem.script, {given.name: given.value for given in problem.givens})
 
 
 class ProblemReader:
@@ -153,6 +165,7 @@ class ProblemReader:
         points = self.points(parts)
         wording, show = self.wording(), self.show()
         figures = read_figures(self.node.get("figures"), self.faults) or DEFAULT_FIGURES
+        drawings = read_placements(self.mapping("drawings"), symbols, len(parts), self.faults)
         source, topic = (read_text(self.node, key, self.faults) for key in ("source", "topic"))
         self.faults.stop()
         assert title is not None
@@ -172,6 +185,7 @@ class ProblemReader:
             wording=wording,
             show=show,
             figures=figures,
+            drawings=drawings,
             script=script,
             script_path=script_path,
             places=self.places,
@@ -320,6 +334,11 @@ class ProblemSet:
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
 
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The number of each problem in the set, by its name."""
+        return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
+
 
 def set_ids(root: Path) -> list[str]:
     """Every folder below `problems/` that says it is a set."""
@@ -358,9 +377,15 @@ def _listed(node: Node | None, set_id: str, known: list[str], faults: Faults) ->
     for item in node.items:
         if not isinstance(item, Scalar) or item.empty:
             wrong_type(faults, "a problem of the set", "a name", item)
+        elif item.text in DOCUMENTS:
+            message = f"a problem cannot be called `{item.text}`, for a document of the set has that name"
+            faults.error("reserved-name", message, item.place, help="rename its files")
         elif item.text not in names:
             help_line = did_you_mean(item.text, names)
             message = f"there is no problem `{item.text}` in this set"
+            if item.text in known and not item.text.startswith(f"{set_id}/"):
+                message = f"`{item.text}` is a problem of another set"
+                help_line = f"copy its files to `problems/{set_id}/` and list it by its name alone"
             faults.error("no-such-problem", message, item.place, help=help_line)
         elif f"{set_id}/{item.text}" in found:
             faults.error("duplicate-problem", f"`{item.text}` is listed twice", item.place)

@@ -1,5 +1,6 @@
 """Prose as an instructor writes it: plain text in which `<<name>>` stands for something that was derived.
 
+`<<eq torque>>` is the number of that step's equation, `<<problem top>>` that of another problem of the set.
 Text is data. It has no mathematics, TeX or template commands of its own; whoever prints it escapes it.
 """
 
@@ -12,15 +13,24 @@ from functools import cached_property
 from derive.errors import Place
 from derive.source import Faults, Node, Scalar, abridged, shape_of
 
-_MENTION = re.compile(r"<<\s*(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)")
+EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
+
+_MENTION = re.compile(
+    r"<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
+    r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
+    r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
+    re.ASCII,
+)
+_HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
 
 
 @dataclass(frozen=True)
 class Mention:
-    """A `<<name>>`, and where it stands."""
+    """A `<<name>>`, and where it stands; `of` is what it refers to if not to the name: `eq`, `problem`, `figure`."""
 
     name: str
     place: Place
+    of: str = ""
 
 
 @dataclass(frozen=True)
@@ -44,7 +54,8 @@ class Prose:
         for match in _MENTION.finditer(self.scalar.text):
             pieces.append(self.scalar.text[end : match.start()])
             place = self.scalar.place_within(match.start(), len(match[0]))
-            pieces.append(Mention(match["name"] or "", place))
+            of = PROBLEM if match["problem"] else match["of"] or ""
+            pieces.append(Mention(match["name"] or match["problem"] or "", place, of))
             end = match.end()
         pieces.append(self.scalar.text[end:])
         return tuple(piece for piece in pieces if piece)
@@ -66,7 +77,7 @@ def read_prose(node: Node, what: str, faults: Faults) -> Prose | None:
     for match in _MENTION.finditer(node.text):
         if odd := match["odd"]:
             place = node.place_within(match.start(), len(odd))
-            faults.error("mention", f"`{abridged(odd)}` is not a mention", place, help="write one name, as `<<mass>>`")
+            faults.error("mention", f"`{abridged(odd)}` is not a mention", place, help=_HOW)
     comment = re.match(r"[ \t]+#", node.source.text[node.end :])
     if comment and node.style == "":
         place = node.source.place(node.end + comment.end() - 1)

@@ -15,23 +15,18 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from typing import NoReturn
 
-from sympy import Expr, Integer, Rational, Symbol, cos, exp, expand, nan, oo, pi, sin, sqrt, tan, zoo
+from sympy import Expr, cos, exp, pi, sin, sqrt, tan
 
-from derive.dimensions import NUMBER, Dimension, dimension_of_kind, kind_with_article, named
-from derive.errors import Complaint, Rejected
+from derive.dimensions import NUMBER, Dimension
+from derive.errors import Complaint
 from derive.source import Faults, Scalar, did_you_mean
+from derive.terms import Arithmetic, Declared, Term, rational
+
+__all__ = ["FUNCTIONS", "MAX_DEPTH", "MAX_LENGTH", "RESERVED", "Declared", "rational", "read_expression"]
 
 MAX_LENGTH = 300
 MAX_DEPTH = 40
-MAX_DIGITS = 30
-MAX_TEN_POWER = 50
-MAX_EXPONENT = 12
-MAX_SIZE = 4096
-MAX_TERMS = 1_000_000
-MAX_EXP_ARGUMENT = 100
 
 FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {"sqrt": sqrt, "sin": sin, "cos": cos, "tan": tan, "exp": exp}
 RESERVED = ("pi", *FUNCTIONS)
@@ -65,19 +60,6 @@ _WHY_NOT = {
 
 
 @dataclass(frozen=True)
-class Declared:
-    """A symbol that the file declares, and of what kind it is."""
-
-    name: str
-    symbol: Symbol
-    kind: str
-
-    @property
-    def dimension(self) -> Dimension:
-        return dimension_of_kind(self.kind)
-
-
-@dataclass(frozen=True)
 class _Token:
     kind: str
     text: str
@@ -88,32 +70,14 @@ class _Token:
         return self.start + len(self.text)
 
 
-@dataclass(frozen=True)
-class _Term:
-    """A value under construction: what it is, where it stands, and how large it could become."""
-
-    expr: Expr
-    dimension: Dimension
-    start: int
-    end: int
-    size: int = 1
-    terms: int = 1
-    kind: str | None = None
-
-    @property
-    def is_a(self) -> str:
-        return kind_with_article(self.kind) if self.kind else named(self.dimension)
-
-
 def read_expression(scalar: Scalar, symbols: Mapping[str, Declared]) -> tuple[Expr, Dimension]:
     """The value and dimension of an expression in the declared symbols, or `Rejected` with what is wrong with it."""
     return _Parser(scalar, symbols).whole()
 
 
-class _Parser:
+class _Parser(Arithmetic):
     def __init__(self, scalar: Scalar, symbols: Mapping[str, Declared]):
-        self.scalar = scalar
-        self.text = scalar.text
+        super().__init__(scalar)
         self.symbols = symbols
         self.at = 0
         if not self.text.strip():
@@ -125,13 +89,6 @@ class _Parser:
         self.tokens = [token for token in found if token.kind != "space"]
         self.tokens.append(_Token("end", "", len(self.text.rstrip())))
         self.check_vocabulary()
-
-    def refuse(self, code: str, message: str, start: int, end: int | None = None, help: str | None = None) -> NoReturn:
-        raise Rejected(self.complaint(code, message, start, end, help))
-
-    def complaint(self, code: str, message: str, start: int, end: int | None, help: str | None) -> Complaint:
-        place = self.scalar.place_within(start, max(1, (end or start + 1) - start))
-        return Complaint(code, message, place, (), help)
 
     # -- words ----------------------------------------------------------------------------------------------------
 
@@ -192,30 +149,18 @@ class _Parser:
             self.refuse("expression", f"`{self.token.text}` is not expected here", self.token.start, self.token.end)
         return term.expr, term.dimension
 
-    def sum(self, depth: int) -> _Term:
+    def sum(self, depth: int) -> Term:
         left = self.product(depth)
         while sign := self.taken("+", "-"):
             right = self.product(depth)
-            if left.dimension != right.dimension:
-                verb = "added" if sign == "+" else "subtracted"
-                message = f"`{self.shown(left)}` is {left.is_a}, but `{self.shown(right)}` is {right.is_a}"
-                self.refuse("dimension", f"{message}: they cannot be {verb}", right.start, right.end)
-            size, terms = max(left.size, right.size) + 1, left.terms + right.terms
-            self.bound(left.start, right.end, size, terms)
-            value = left.expr + right.expr if sign == "+" else left.expr - right.expr
-            left = _Term(value, left.dimension, left.start, right.end, size, terms)
+            left = self.added(left, right, sign)
         return left
 
-    def product(self, depth: int) -> _Term:
+    def product(self, depth: int) -> Term:
         left = self.unary(depth)
         while sign := self.taken("*", "/"):
             right = self.unary(depth)
-            if sign == "/":
-                right = self.reciprocal(right)
-            size, terms = left.size + right.size, left.terms * right.terms
-            self.bound(left.start, right.end, size, terms)
-            dimension = left.dimension * right.dimension
-            left = _Term(left.expr * right.expr, dimension, left.start, right.end, size, terms)
+            left = self.multiplied(left, self.reciprocal(right) if sign == "/" else right)
         if self.token.kind in ("number", "name") or self.token.text == "(":
             before, here = self.tokens[self.at - 1], self.token
             after = here.text.removesuffix("(") + "(...)" * (here.text == "(" or here.text in FUNCTIONS)
@@ -223,54 +168,28 @@ class _Parser:
             self.refuse("expression", f"an operator is missing before `{here.text}`", here.start, here.end, help_line)
         return left
 
-    def reciprocal(self, term: _Term) -> _Term:
-        if _vanishes(term):
-            message = "division by zero" if self.shown(term) == "0" else f"division by zero: `{self.shown(term)}` is 0"
-            self.refuse("division-by-zero", message, term.start, term.end)
-        return replace(term, expr=1 / term.expr, dimension=NUMBER / term.dimension)
-
-    def unary(self, depth: int) -> _Term:
+    def unary(self, depth: int) -> Term:
         here = self.token
         if depth > MAX_DEPTH:
             self.refuse("too-large", f"this expression is nested more than {MAX_DEPTH} deep", here.start)
         if sign := self.taken("-", "+"):
             term = self.unary(depth + 1)
-            value = -term.expr if sign == "-" else term.expr
-            return replace(term, expr=value, start=here.start, kind=None if sign == "-" else term.kind)
+            return self.negated(term, here.start) if sign == "-" else replace(term, start=here.start)
         base = self.atom(depth + 1)
-        return self.power(base, self.unary(depth + 1)) if self.taken("**") else base
+        return self.raised(base, self.unary(depth + 1)) if self.taken("**") else base
 
-    def power(self, base: _Term, exponent: _Term) -> _Term:
-        """`base**exponent`, once it is known to be small; `9**9**9` ends here before it is worked out."""
-        number = exponent.expr
-        if not isinstance(number, Rational):
-            message = f"the exponent `{self.shown(exponent)}` is not a number such as 2 or 1/2"
-            self.refuse(
-                "dimension" if exponent.dimension != NUMBER else "expression", message, exponent.start, exponent.end
-            )
-        if abs(number) > MAX_EXPONENT or number.q > MAX_EXPONENT:
-            message = f"the exponent is too large: {MAX_EXPONENT} is the most"
-            self.refuse("too-large", message, exponent.start, exponent.end)
-        whole = max(1, -(-abs(number.p) // number.q))
-        size, terms = base.size * whole, base.terms**whole
-        self.bound(base.start, exponent.end, size, terms)
-        if number < 0 and _vanishes(base):
-            self.refuse("division-by-zero", f"division by zero: `{self.shown(base)}` is 0", base.start, base.end)
-        term = replace(base, expr=base.expr**number, start=base.start, end=exponent.end, size=size, terms=terms)
-        return self.real(replace(term, dimension=base.dimension ** _fraction(number), kind=None))
-
-    def atom(self, depth: int) -> _Term:
+    def atom(self, depth: int) -> Term:
         token = self.token
         self.at += 1
         if token.kind == "number":
-            return self.number(token)
+            return self.number(token.text, token.start, token.end)
         if token.text in FUNCTIONS:
             return self.call(token, depth)
         if token.kind == "name":
             if token.text == "pi":
-                return _Term(pi, NUMBER, token.start, token.end)
+                return Term(pi, NUMBER, token.start, token.end)
             declared = self.symbols[token.text]
-            return _Term(declared.symbol, declared.dimension, token.start, token.end, kind=declared.kind)
+            return Term(declared.symbol, declared.dimension, token.start, token.end, kind=declared.kind)
         if token.text == "(":
             inner = replace(self.sum(depth), start=token.start)
             return replace(inner, end=self.closed(token))
@@ -284,7 +203,7 @@ class _Parser:
             self.refuse("expression", "this `(` is never closed", opening.start)
         return end
 
-    def call(self, name: _Token, depth: int) -> _Term:
+    def call(self, name: _Token, depth: int) -> Term:
         opening = self.token
         if not self.taken("("):
             self.refuse(
@@ -294,54 +213,4 @@ class _Parser:
         if self.token.text == ",":
             self.refuse("expression", f"`{name.text}` takes one value", self.token.start)
         end = self.closed(opening)
-        if name.text == "sqrt":
-            root = replace(inner, dimension=inner.dimension ** _fraction(Rational(1, 2)))
-        elif inner.dimension != NUMBER:
-            taken = "a number" if name.text == "exp" else "an angle or a number"
-            message = f"`{name.text}` takes {taken}, but `{self.shown(inner)}` is {inner.is_a}"
-            self.refuse("dimension", message, inner.start, inner.end)
-        else:
-            root = replace(inner, terms=1)
-        if name.text == "exp" and inner.expr.is_number and abs(inner.expr.evalf()) > MAX_EXP_ARGUMENT:
-            self.refuse("too-large", f"`exp` of more than {MAX_EXP_ARGUMENT} is too large", inner.start, inner.end)
-        return self.real(replace(root, expr=FUNCTIONS[name.text](inner.expr), start=name.start, end=end, kind=None))
-
-    def number(self, token: _Token) -> _Term:
-        digits, _, power = token.text.lower().partition("e")
-        if len(digits) > MAX_DIGITS or len(power) > 4 or abs(int(power or 0)) > MAX_TEN_POWER:
-            message = f"a number may have {MAX_DIGITS} digits, and a power of ten up to {MAX_TEN_POWER}"
-            self.refuse("too-large", message, token.start, token.end)
-        value = rational(token.text)
-        size = max(value.p.bit_length(), value.q.bit_length(), 1)
-        return _Term(value, NUMBER, token.start, token.end, size)
-
-    # -- bounds ---------------------------------------------------------------------------------------------------
-
-    def bound(self, start: int, end: int, size: int, terms: int) -> None:
-        if size > MAX_SIZE or terms > MAX_TERMS:
-            self.refuse("too-large", "this would be too large when worked out", start, end)
-
-    def real(self, term: _Term) -> _Term:
-        if term.expr.has(zoo, nan, oo):
-            self.refuse("division-by-zero", f"`{self.shown(term)}` is infinite", term.start, term.end)
-        if term.expr.is_real is False:
-            self.refuse("not-real", f"`{self.shown(term)}` is not a real number", term.start, term.end)
-        return term
-
-    def shown(self, term: _Term) -> str:
-        return " ".join(self.text[term.start : term.end].split())
-
-
-def rational(text: str) -> Rational:
-    """A decimal number exactly: `1.5` is 3/2, `1e-3` is 1/1000."""
-    digits, _, power = text.lower().partition("e")
-    whole, _, places = digits.partition(".")
-    return Rational(int((whole + places) or 0)) * Integer(10) ** (int(power or 0) - len(places))
-
-
-def _fraction(number: Rational) -> Fraction:
-    return Fraction(int(number.p), int(number.q))
-
-
-def _vanishes(term: _Term) -> bool:
-    return bool(term.expr.is_zero) or (1 < term.terms < 64 and expand(term.expr) == 0)
+        return self.applied(name.text, FUNCTIONS[name.text], inner, name.start, end)

@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Expr, Float, Integer, MatrixBase, Rational
 
-from derive.expressions import Amount, Factors, MatrixAmount, explicit
+from derive.expressions import Amount, Factors, MatrixAmount, Relation, explicit
 
 SPARE = 25  # digits beyond those asked for, so that rounding sees the true neighbourhood
 
@@ -64,6 +64,8 @@ def decimal_text(number: Rounded) -> str:
 def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | None:
     """The first rounded number that is further from its exact value than rounding can explain.
 
+    Of a relation it is the right side that is rounded.
+
     The exact value is taken by mpmath from compiled code; `rounded` takes it by SymPy's own `evalf`.
     """
     for number, factor, value in _pairs(shown, exact):
@@ -81,6 +83,8 @@ def _half_a_unit(number: Rounded) -> Rational:
 
 def _pairs(shown: Any, exact: Any) -> list[tuple[Any, Expr, Expr]]:
     factor: Expr = Integer(1)
+    if isinstance(shown, Relation):
+        shown, exact = shown.right, exact.right
     if isinstance(shown, Amount | MatrixAmount):
         shown, factor = shown.args[0], shown.args[2]
     if isinstance(shown, Factors):  # a rounded number in front of letters

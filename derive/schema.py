@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.dimensions import KINDS
-from derive.source import Faults, Mapping, Node, Scalar, abridged, nearest, shape_of
+from derive.source import Faults, Mapping, Node, Scalar, Sequence, abridged, nearest, shape_of
 from derive.units import UNIT_NAMES
 
 SHOWN = ("full", "result", "hidden")
@@ -19,6 +19,7 @@ DEFAULT_FIGURES = 4
 _TEXT = {"type": "string"}
 _SCALAR = {"type": ["string", "number"]}
 _POINTS = {"type": "number", "minimum": 0, "multipleOf": 0.5}
+_UNIT = {"type": "string", "examples": list(UNIT_NAMES)}
 _FIGURES = {"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}
 
 
@@ -32,7 +33,10 @@ class Key:
 
 
 FORM_KEYS: Table[str, Key] = {
-    "unit": Key("unit of the number, such as `degree` or `N m`", {"type": "string", "examples": list(UNIT_NAMES)}),
+    "unit": Key(
+        "unit of the number, such as `degree` or `N m`, or a list of units",
+        {"anyOf": [_UNIT, {"type": "array", "items": _UNIT, "minItems": 1}]},
+    ),
     "figures": Key("significant figures of the number", _FIGURES),
 }
 
@@ -64,6 +68,21 @@ PART_KEYS: Table[str, Key] = {
     ),
 }
 
+DRAWING_KEYS: Table[str, Key] = {
+    "at": Key("where it stands: `statement`, the letter of a part, or `hidden`", _TEXT),
+    "caption": Key("what it shows, in prose", _TEXT),
+    "width": Key("how wide it is without its labels, such as `5 cm`", _TEXT),
+    "values": Key("numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", _mapping_of(_SCALAR)),
+    "range": Key(
+        "the two ends of a plot, such as `[-60 deg, 60 deg]`",
+        {"type": "array", "items": _SCALAR, "minItems": 2, "maxItems": 2},
+    ),
+    "cases": Key(
+        "the numbers of each curve of a plot, panel by panel",
+        {"type": "array", "items": _mapping_of(_SCALAR), "minItems": 1},
+    ),
+}
+
 PROBLEM_KEYS: Table[str, Key] = {
     "title": Key("the heading of the problem", _TEXT, required=True),
     "solve": Key("the script beside this file whose `solve()` derives the answers", _TEXT, required=True),
@@ -82,6 +101,7 @@ PROBLEM_KEYS: Table[str, Key] = {
     ),
     "show": Key("how much of a step is shown, by the step's key", _mapping_of({"enum": list(SHOWN)})),
     "figures": Key("significant figures where `form` says nothing", _FIGURES),
+    "drawings": Key("where the drawings of the script stand, by their names", _mapping_of(_object(DRAWING_KEYS))),
     "source": Key("where the problem comes from", _TEXT),
     "topic": Key("what it is about, for lists", _TEXT),
     "note": Key("a closing remark, in prose", _TEXT),
@@ -96,10 +116,59 @@ SET_KEYS: Table[str, Key] = {
 }
 
 
+_VALUE = {"anyOf": [_SCALAR, {"type": "array", "minItems": 3, "maxItems": 3}]}
+
+ERRATUM_KEYS: Table[str, Key] = {
+    "why": Key("what is wrong, in a few words", _TEXT, required=True),
+    "right": Key("the value that it should state", _VALUE, required=True),
+}
+
+ENTRY_KEYS: Table[str, Key] = {
+    "part": Key("the part of the document", _SCALAR),
+    "answer": Key("the key of the step that has this value", _TEXT, required=True),
+    "states": Key("the value: an expression, 3 of them, or 3 rows of 3", _VALUE),
+    "latex": Key("the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared", _SCALAR),
+    "to": Key(
+        "decimals agree to so many figures; a list has one number for each entry, or for each of two branches",
+        {"anyOf": [_FIGURES, {"type": "array", "items": _FIGURES, "minItems": 1}]},
+    ),
+    "in": Key("the unit of the stated value", {"type": "string", "examples": list(UNIT_NAMES)}),
+    "with": Key(
+        "letters for which the document has put in numbers; those of `values` are put in on both sides",
+        {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
+    ),
+    "times": Key("the document's equation is the derived one multiplied by this", _SCALAR),
+    "erratum": Key("the document is wrong here", _object(ERRATUM_KEYS)),
+}
+
+GROUP_KEYS: Table[str, Key] = {
+    "problem": Key("the problem of this set that the document solves", _TEXT, required=True),
+    "symbols": Key(
+        "letters of the document and their kinds, also those that steps bring in", _mapping_of({"enum": list(KINDS)})
+    ),
+    "given": Key(
+        "what the document starts from, as in the problem's file", PROBLEM_KEYS["given"].schema, required=True
+    ),
+    "letters": Key("letters of the document that are called otherwise here: `I_1: I_xx`", _mapping_of(_TEXT)),
+    "values": Key("numbers for letters, put in where a stated value lacks the letter", _mapping_of(_SCALAR)),
+    "entries": Key(
+        "the values that the document states", {"type": "array", "items": _object(ENTRY_KEYS), "minItems": 1}, True
+    ),
+}
+
+
 def problem_schema() -> str:
     """The JSON schema that an editor uses to complete and to check a problem while it is written."""
-    schema = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "A problem", **_object(PROBLEM_KEYS)}
-    return json.dumps(schema, indent=2) + "\n"
+    return _schema("A problem", _object(PROBLEM_KEYS))
+
+
+def reference_schema() -> str:
+    """The same for what a document states."""
+    return _schema("What a document states", {"type": "array", "items": _object(GROUP_KEYS), "minItems": 1})
+
+
+def _schema(title: str, schema: dict[str, Any]) -> str:
+    return json.dumps({"$schema": "http://json-schema.org/draft-07/schema#", "title": title, **schema}, indent=2) + "\n"
 
 
 def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
@@ -118,7 +187,7 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
 
 def wrong_type(faults: Faults, what: str, wanted: str, node: Node, help: str | None = None) -> None:
     """The complaint that something is of another shape than its key asks for."""
-    if isinstance(node, Scalar) and node.empty:
+    if isinstance(node, Scalar) and node.empty or isinstance(node, Sequence) and not node.items:
         faults.error("missing-value", f"{what} must be {wanted}, but it is empty", node.place, help=help)
     else:
         faults.error("wrong-type", f"{what} must be {wanted}, but it is {shape_of(node)}", node.place, help=help)

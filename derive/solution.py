@@ -5,25 +5,28 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from sympy import Integer, Symbol
+from sympy import Expr, Integer, Symbol
 
 from derive.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
 from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
+from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
-from derive.expressions import rate
+from derive.expressions import Relation, rate
+from derive.figures.marks import drawings_recorded
 from derive.numbers import coefficient_of, comparison_of, value_of
 from derive.parts import Part, points_text
 from derive.problem import Problem, load_problem, problem_set, run_solve
+from derive.prose import PROBLEM
 from derive.reference import comparisons
 from derive.render.contract import contract
 from derive.render.latex import unprintable
-from derive.render.latex_page import problem_latex, whole_latex
+from derive.render.latex_page import problem_latex
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text, page_text
 from derive.source import did_you_mean
@@ -31,52 +34,74 @@ from derive.stated import reference_path
 from derive.step import Level, Quantity, Step, recorded
 from derive.stored import Solved, keep, key_of, recalled
 from derive.units import read_unit
-from derive.wording import AXIS_NAMES, Phrases, Text, given_words, phrases, told
+from derive.wording import AXIS_NAMES, Text, given_words, phrases, told
 
 
 @dataclass(frozen=True)
 class Rendered:
-    """One problem, solved and printed."""
+    """One problem, solved and printed.
+
+    latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked
+    counts                  the numbers of how it was checked, see `Checks.counts`
+    """
 
     id: str
     title: str
     points: str
     latex: str
+    title_latex: str
+    sheet: str
+    checked: str
     text: str
     json: str
     warnings: tuple[Complaint, ...]
     inputs: tuple[str, ...]
     grades: dict[str, int]
+    counts: dict[str, int]
     agreed: bool
+    files: Files = ()
 
 
-def rendered(root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None) -> Rendered:
+def rendered(
+    root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
 
-    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold.
+    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold;
+    `draws` says whether the files of its drawings are wanted too.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
     words = phrases(template_folder(root))
     solved, failures = _solved(problem, kept)
     derivation, values = solved.derivation, solved.values
-    document, faults = document_of(problem, derivation, values, words, Level(detail or "standard"), solved.compared)
+    problem = _answered_by(problem, derivation.steps)
+    heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
+    others = heading.numbers if heading else {}
+    level = Level(detail or "standard")
+    document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
     if faults:
         raise Rejected(faults)
     notation = Notation(document.dimensions)
+    fragments = problem_latex(document, words, notation, template_folder(root))
     return Rendered(
         id=problem_id,
         title=inline_text(document.title, notation),
         points="" if problem.points is None else points_text(problem.points),
-        latex=problem_latex(document, words, notation, template_folder(root)),
+        latex=fragments.solution,
+        title_latex=fragments.title,
+        sheet=fragments.sheet,
+        checked=fragments.checked,
         text=page_text(document, words, notation),
         json=contract(
             problem, derivation, values, document, notation, reference=[told.facts for told in solved.compared]
         ),
         warnings=(*document.warnings, *failures),
-        inputs=(*problem.inputs, reference_path(problem)),
+        inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),
+        counts=document.checks.counts(),
         agreed=not failures,
+        files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
     )
 
 
@@ -86,10 +111,11 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
     solved = recalled(kept, key) if kept else None
     if solved is not None:
         return solved, ()
-    derivation, values, known = _derived(problem)
+    with drawings_recorded() as drawings:
+        derivation, values, known = _derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.told() for c in compared))
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(drawings))
     if kept and not failures:
         keep(kept, key, solved)
     return solved, failures
@@ -97,10 +123,8 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
 
 def _check_characters(problem: Problem) -> None:
     """Prose may only have characters that can be printed."""
-    texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
-    texts += [prose for by_outcome in problem.wording.values() for prose in by_outcome.values()]
     faults = []
-    for prose in texts:
+    for prose in problem.texts:
         at = unprintable(prose.scalar.text)
         if at is not None:
             message = f"`{prose.scalar.text[at]}` cannot be printed"
@@ -108,6 +132,10 @@ def _check_characters(problem: Problem) -> None:
             faults.append(Complaint("character", message, prose.scalar.place_within(at), help=help_line))
     if faults:
         raise Rejected(faults)
+
+
+def _refers_to_problems(problem: Problem) -> bool:
+    return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
 
 
 def headline(root: Path, problem_id: str) -> tuple[str, str]:
@@ -126,6 +154,7 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
     with recorded() as established:
         answers = returned_quantities(run_solve(problem), problem.script.returns)
     known = with_ancestors(answers, problem.script.returns)
+    problem = _answered_by(problem, (quantity.step for quantity in known.values()))
     _check_answers(problem, known)
     _check_letters(problem, known)
     derivation = derivation_of([part.answers for part in problem.parts], known, established)
@@ -136,6 +165,22 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
             if value is not None and value.step.chain not in [other.chain for other in values.values()]:
                 values[key] = value.step  # two answers may be the same condition, which is compared once
     return derivation, values, known
+
+
+def _answered_by(problem: Problem, steps: Iterable[Step]) -> Problem:
+    """The problem with each answer that has no step of its own answered by the step that stands for it."""
+    found = list(steps)
+    own = {step.key for step in found}
+    instead = {key: step.key for step in found for key in step.stands_for if key not in own}
+    if not instead:
+        return problem
+
+    def answered(part: Part) -> Part:
+        places = {instead.get(key, key): place for key, place in part.places.items()}
+        forms = {instead.get(key, key) if key else None: form for key, form in part.forms.items()}
+        return replace(part, answers=tuple(places), places=places, forms=forms)
+
+    return replace(problem, parts=tuple(answered(part) for part in problem.parts))
 
 
 def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
@@ -177,17 +222,30 @@ def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
 def _value(problem: Problem, part: Part, answer: Quantity) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
-    kind = answer.step.kind or "number"
-    unit, factor = unit_of_kind(kind), Integer(1)
-    if form.unit is not None:
-        asked = read_unit(form.unit, part.ask.place)
+    if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
+        return None
+    kind = _kind_of(problem, answer)
+    units: list[tuple[str, Expr]] = []
+    for unit in form.units:
+        asked = read_unit(unit, part.ask.place)
         if asked.dimension != dimension_of_kind(kind):
-            message = f"`{answer.key}` is {kind_with_article(kind)}, which is not measured in `{form.unit}`"
+            message = f"`{answer.key}` is {kind_with_article(kind)}, which is not measured in `{unit}`"
             raise Rejected(Complaint("wrong-unit", message, part.place_of(answer.key)))
-        unit, factor = form.unit, asked.factor
+        units.append((unit, asked.factor))
+    first, *more = units or [(unit_of_kind(kind), Integer(1))]
     figures = form.figures or problem.figures
-    value = value_of(answer, problem.amounts, unit, factor, figures) or comparison_of(answer, problem.amounts)
+    # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
+    compared = None if units else comparison_of(answer, problem.amounts)
+    value = compared or value_of(answer, problem.amounts, *first, figures, more=more)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
+
+
+def _kind_of(problem: Problem, answer: Quantity) -> str:
+    """The kind of what a number is put in for: in a relation such as R > a/2 that of R."""
+    if isinstance(answer.value, Relation):
+        letter = problem.symbols.get(str(answer.value.left))
+        return letter.kind if letter else "number"
+    return answer.step.kind or "number"
 
 
 def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int]:
@@ -196,39 +254,6 @@ def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int
         for evidence in step.evidence:
             counts[evidence.grade.value] += 1
     return counts
-
-
-# --- whole documents ---
-
-
-def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
-    """A complete .tex of one problem, numbered as in its set."""
-    heading = problem_set(root, set_id)
-    ids = [name if "/" in name else f"{set_id}/{name}" for name in heading.problems]
-    number = ids.index(problem.id) + 1 if problem.id in ids else ""
-    head = _head(root, heading, cover="")
-    return whole_latex(template_folder(root), head, [problem.latex.replace("@NUMBER@", str(number))])
-
-
-def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
-    """A complete .tex of the set: cover block, then its problems in order."""
-    heading = problem_set(root, set_id)
-    facts = [heading.course, heading.instructor, heading.date]
-    head = _head(root, heading, cover=", ".join(str(fact) for fact in facts if fact) or heading.title)
-    fragments = [problem.latex.replace("@NUMBER@", str(i)) for i, problem in enumerate(problems, 1)]
-    return whole_latex(template_folder(root), head, fragments)
-
-
-def _head(root: Path, heading: Any, cover: str) -> dict[str, str]:
-    words: Phrases = phrases(template_folder(root))
-    running = " \u00b7 ".join(str(part) for part in (heading.course, heading.title) if part)
-    return {
-        "title": heading.title,
-        "pdf_title": heading.title,
-        "running": running,
-        "kind": words.labels["solutions"],
-        "cover": cover,
-    }
 
 
 def template_folder(root: Path) -> Path:

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, NoReturn
 
-from sympy import Expr, MatrixSymbol, Symbol, diff
+from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, diff
 from sympy.core.symbol import Str
 
 from derive.dimensions import kind_with_article
@@ -27,6 +27,8 @@ from derive.evidence import Evidence, Grade, Verdict, equal
 from derive.exact import vanishes
 from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
+
+BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
 
 
 class Level(StrEnum):
@@ -39,6 +41,9 @@ class Level(StrEnum):
     def shows(self, other: Level) -> bool:
         order = list(Level)
         return order.index(other) <= order.index(self)
+
+
+NUMBERS = ("value", "rounded")  # why a form stands at the end of a chain: the number in a unit, exact or rounded
 
 
 @dataclass(frozen=True)
@@ -61,7 +66,8 @@ class Step:
     """What was established: the symbol, the chain that leads to its value, and how we know.
 
     The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
-    that the step brings in, with their kinds.
+    that the step brings in, with their kinds. `stands_for` are keys of steps that there would be in another case: two
+    roots where there is only one.
     """
 
     key: str
@@ -75,6 +81,7 @@ class Step:
     kind: str | None = None
     words: tuple[tuple[str, str], ...] = ()
     coordinates: tuple[tuple[Symbol, str], ...] = ()
+    stands_for: tuple[str, ...] = ()
 
     @property
     def result(self) -> Any:
@@ -123,6 +130,11 @@ class Quantity:
     __truediv__ = __rtruediv__ = __pow__ = __rpow__ = __neg__ = __matmul__ = _no_arithmetic
 
 
+def lettered(quantity: Quantity) -> Quantity:
+    """The quantity known by its letter alone: what rests on it keeps the letter, until values are put in."""
+    return replace(quantity, value=quantity.symbol, parents=(quantity,))
+
+
 Law = Callable[..., Any]
 Route = Callable[[Any], tuple[Any, Any]]
 
@@ -153,7 +165,9 @@ def establish(
     context: Mapping[str, Any] | None = None,
     words: Mapping[str, str] | None = None,
     coordinates: Mapping[Symbol, str] | None = None,
+    stands_for: Sequence[str] = (),
     arranged: Callable[[Any], Any] = tidied,
+    motion: Mapping[Symbol, Expr] | None = None,
 ) -> Quantity:
     """Make a step, or refuse.
 
@@ -165,7 +179,9 @@ def establish(
     routes    claim -> function of the result, giving two values that must be equal
     outcome   a word, or a function of the result that gives one; it selects the phrase
     words     name -> key of a term that phrases put into words ("about": "corner")
+    stands_for   keys that answers may ask for although in this case there is only this step
     arranged  how the result is written; it changes no value
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
@@ -177,7 +193,7 @@ def establish(
 
     formula, substituted = law(*names), law(*given)
     bindings = _bindings([*quantities.values(), *parents])
-    result = arranged(bound(explicit(substituted), bindings))
+    result = arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **(motion or {})}))
     _check_letter(key, symbol, result)
     chain = _without_repeats(
         [
@@ -185,11 +201,12 @@ def establish(
             Form(formula, "law", law_shown),
             *([Form(substituted, "put_in", put_in)] if put_in else []),
             *between,
-            *([Form(result, "result")] if show_result else []),
+            *([Form(result, "motion" if motion else "result")] if show_result else []),
             *after,
-        ]
+        ],
+        symbol,
     )
-    evidence = [_line_evidence(key, chain, i, bindings) for i in range(1, len(chain))]
+    evidence = [_line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
     evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
@@ -207,6 +224,7 @@ def establish(
         kind=kind,
         words=tuple((words or {}).items()),
         coordinates=tuple((coordinates or {}).items()),
+        stands_for=tuple(stands_for),
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {})
     record = _established.get()
@@ -270,10 +288,13 @@ def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
     return Evidence("definition", Grade.DEFINITION, rule)
 
 
-def _without_repeats(forms: Sequence[Form]) -> list[Form]:
-    """A form that looks just like the one before it says nothing; the lower level of the two is kept."""
+def _without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
+    """A form that looks just like the one before it says nothing; the lower level of the two is kept.
+
+    Nor does one that is only the symbol of the step, unless there is no other.
+    """
     kept: list[Form] = []
-    for form in forms:
+    for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
             level = min(kept[-1].level, form.level, key=list(Level).index)
             kept[-1] = replace(kept[-1], level=level)
@@ -292,20 +313,30 @@ def _bindings(quantities: Sequence[Quantity]) -> dict[Any, Any]:
         if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
             names = component_names(quantity.symbol.name)
             values.update(zip(names, list(quantity.value), strict=True))
+        elif isinstance(quantity.symbol, MatrixBase):  # several things established together, such as I_1, I_2, I_3
+            values.update(zip(quantity.symbol, quantity.value, strict=True))
     # A name may not stand for something that holds that very name (a general omega has components omega_x, ...).
     return {name: value for name, value in values.items() if name != value}
 
 
-def _line_evidence(key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any]) -> Evidence:
-    left, right = (explicit(bound(form.expr, bindings)) for form in chain[i - 1 : i + 1])
+def _line_evidence(
+    key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
+) -> Evidence:
+    form, before = chain[i], chain[i - 1]
+    if form.because in NUMBERS:  # each number of a result is compared with the result, not with the number before it
+        before = next(other for other in reversed(chain[:i]) if other.because not in NUMBERS)
+    left, right = (explicit(bound(each.expr, bindings)) for each in (before, form))
     claim = f"line {i + 1} equals line {i}"
-    if chain[i].because == "rounded":
-        return _rounding_evidence(key, claim, left, chain[i].expr)
-    if isinstance(chain[i].expr, Truncated):
-        return _series_evidence(key, claim, left, chain[i].expr)
-    verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in chain[i].nonzero])
+    if form.because == "rounded":
+        return _rounding_evidence(key, claim, left, form.expr)
+    if isinstance(form.expr, Truncated):
+        return _series_evidence(key, claim, left, form.expr)
+    if form.because == "motion":
+        claim = f"{claim} {BY_MOTION}"
+        left, right = bound(left, motion), bound(right, motion)
+    verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:
-        raise _refused(key, f"line {i + 1} ({chain[i].because}) does not follow from line {i}", left, right, verdict)
+        raise _refused(key, f"line {i + 1} ({form.because}) does not follow from line {i}", left, right, verdict)
     return Evidence(claim, verdict.grade, verdict.detail)
 
 

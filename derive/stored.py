@@ -14,6 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from derive.derivation import Derivation, from_json, to_json
+from derive.errata import Erratum
+from derive.figures.kept import drawings_from_data, drawings_to_data
+from derive.figures.marks import Recorded
 from derive.manifest import digest, package_version
 from derive.output import write
 from derive.problem import Problem
@@ -24,11 +27,12 @@ from derive.step import Step
 
 @dataclass(frozen=True)
 class Solved:
-    """A problem's steps, the steps that give its answers their numbers, and what its reference says of them."""
+    """A problem's steps, those that give its answers their numbers, what its reference says of them, its drawings."""
 
     derivation: Derivation
     values: Mapping[str, Step]
     compared: tuple[Told, ...]
+    drawings: tuple[Recorded, ...] = ()
 
 
 def key_of(problem: Problem) -> str:
@@ -50,8 +54,9 @@ def recalled(file: Path, key: str) -> Solved | None:
             return None
         kept = json.loads(sealed["steps"])
         values = from_json(kept["values"])
-        told = tuple(Told(facts, here) for facts, here in kept["compared"])
-        return Solved(from_json(kept["derivation"]), dict(zip(kept["answers"], values.steps, strict=True)), told)
+        told = tuple(Told(f, here, Erratum.decoded(e) if e else None) for f, here, e in kept["compared"])
+        answers = dict(zip(kept["answers"], values.steps, strict=True))
+        return Solved(from_json(kept["derivation"]), answers, told, drawings_from_data(kept["drawings"]))
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
@@ -61,7 +66,8 @@ def keep(file: Path, key: str, solved: Solved) -> None:
         "derivation": to_json(solved.derivation),
         "answers": list(solved.values),
         "values": to_json(Derivation(tuple(solved.values.values()), ())),
-        "compared": [[told.facts, told.here] for told in solved.compared],
+        "compared": [[t.facts, t.here, t.erratum and t.erratum.encoded()] for t in solved.compared],
+        "drawings": drawings_to_data(solved.drawings),
     }
     steps = json.dumps(kept)
     write(file, json.dumps({"key": key, "seal": digest(key, steps), "steps": steps}))

@@ -22,6 +22,7 @@ from derive.dimensions import Dimension, unit_of_kind
 from derive.errors import Complaint, Place, Rejected
 from derive.expressions import AXES, Amount, scalar
 from derive.given import Given, Measured
+from derive.prose import Mention
 from derive.rounding import rounded_form
 from derive.step import Step
 
@@ -58,13 +59,23 @@ class Ref:
 
 
 @dataclass(frozen=True)
+class ProblemRef:
+    """Another problem of the set, in words: Problem 3."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Chain:
     """Where the lines of the step go."""
 
 
+ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, and does not print
+
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
-Node = Text | Math | DimensionMark | Unit | Ref | Chain
+Node = Text | Math | DimensionMark | Unit | Ref | ProblemRef | Chain
 
 
 @dataclass(frozen=True)
@@ -75,6 +86,7 @@ class Phrases:
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]
+    drawings: Mapping[str, str]
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
 
@@ -169,12 +181,23 @@ def _environment() -> ImmutableSandboxedEnvironment:
     )
 
 
-def told(pieces: Sequence[Any], names: Mapping[str, Any], missing: Callable[[str, Place], None]) -> tuple[Node, ...]:
-    """An instructor's prose with its mentions filled; an unknown name is reported and left out."""
+def told(
+    pieces: Sequence[Any],
+    names: Mapping[str, Any],
+    missing: Callable[[str, Place], None],
+    referred: Callable[[Mention], Node | None] = lambda mention: None,
+) -> tuple[Node, ...]:
+    """An instructor's prose with its mentions filled; an unknown name is reported and left out.
+
+    `referred` is what a mention of an equation or a problem stands for, if it stands for anything.
+    """
     nodes: list[Node] = []
     for piece in pieces:
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif piece.of:
+            node = referred(piece)
+            nodes += [node] if node else []
         elif piece.name in names:
             value = names[piece.name]
             nodes.extend(
@@ -209,7 +232,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         "result": Math(step.result),
     }
     names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in step.roles})
-    names.update({name: word if name == "point" else words.term(word) for name, word in step.words})
+    names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
         names["dimension"] = DimensionMark(dimension)
@@ -218,10 +241,24 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     return names
 
 
+def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Node, ...]]:
+    """What is said beside answers of one symbol: a general result, and what it becomes in a case."""
+    notes: dict[str, tuple[Node, ...]] = {}
+    for step in steps:
+        phrase = words.labels["in_case"].get(step.rule)
+        general = [g for g in steps if g.key in step.inputs and step.symbol is not None and g.symbol == step.symbol]
+        if phrase and general:
+            notes[general[0].key] = (Text(words.labels["in_general"]),)
+            notes[step.key] = filled(phrase, names_of_step(step, words, None))
+    return notes
+
+
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Node, ...]:
     """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
+    if given.written is not None:
+        return (Math(given.written),)
     if given.kind.name == "Direction":
         return *words.term("components"), Text(f" {words.labels['along']} "), Math(tuple(given.value.components))
     amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in measured}
@@ -234,6 +271,28 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     if not behind:
         return names
     return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
+
+
+def stated_once(nodes: Sequence[Node], last: str) -> tuple[Node, ...]:
+    """Prose in which the number of a letter is told only where the letter comes first: `a = 10 cm`, then `a`.
+
+    `last` is the word before the letters behind an expression: in `a/2 with a = 10 cm` it goes with them.
+    """
+    kept: list[Node] = []
+    known: set[Any] = set()
+    for i, node in enumerate(nodes):
+        kept.append(node)
+        letter, sign = (kept[-3:-1]) if len(kept) > 2 else (None, None)
+        if not (sign == Text(" = ") and isinstance(letter, Math) and isinstance(node, Math)):
+            continue
+        if not isinstance(node.expr, Amount) or letter.expr not in known:
+            known.add(letter.expr)
+            continue
+        del kept[-2:]
+        alone = kept[-2:-1] == [Text(f" {last} ")] and nodes[i + 1 : i + 2] != (Text(" and "),)
+        if alone:
+            del kept[-2:]
+    return tuple(kept)
 
 
 def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Node, ...]:

@@ -41,9 +41,12 @@ class Rendered:
     inputs: tuple[str, ...]
     grades: dict[str, int]
     agreed: bool
+    files: tuple[tuple[str, bytes], ...] = ()
 
 
-def rendered(root: Path, problem_id: str, detail: str | None, kept: Path | None = None) -> Rendered:
+def rendered(
+    root: Path, problem_id: str, detail: str | None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
     path = f"problems/{problem_id}.yaml"
     said = (root / path).read_text().strip()
     if said == "loop":
@@ -71,6 +74,7 @@ def rendered(root: Path, problem_id: str, detail: str | None, kept: Path | None 
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
         agreed=said != "differs",
+        files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),) if draws and "draws" in said else (),
     )
 
 
@@ -85,6 +89,10 @@ def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
 
 def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
     return "".join(problem_document(root, problem, set_id) for problem in problems)
+
+
+def sheet_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
+    return "".join(f"questions of {problem.id}\n" for problem in problems)
 
 
 class Course:
@@ -141,9 +149,11 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 
 def replace_derivation(monkeypatch: Any) -> None:
-    """Put the stand-in where `derive.solution` is imported from."""
-    fake = ModuleType("derive.solution")
-    for function in (rendered, headline, problem_document, set_document):
-        setattr(fake, function.__name__, function)
-    monkeypatch.setitem(sys.modules, "derive.solution", fake)
-    monkeypatch.setattr(derive, "solution", fake, raising=False)
+    """Put the stand-ins where `derive.solution` and `derive.set_document` are imported from."""
+    modules = {"solution": (rendered, headline), "set_document": (problem_document, set_document, sheet_document)}
+    for name, functions in modules.items():
+        fake = ModuleType(f"derive.{name}")
+        for function in functions:
+            setattr(fake, function.__name__, function)
+        monkeypatch.setitem(sys.modules, fake.__name__, fake)
+        monkeypatch.setattr(derive, name, fake, raising=False)

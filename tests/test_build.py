@@ -16,7 +16,7 @@ from fake_course import Course, stand_in_course
 
 from derive.build import Options, Report, built_set
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
-from derive.manifest import outputs_of
+from derive.manifest import DOCUMENTS, outputs_of
 from derive.output import write
 from derive.workers import Bug, Crew, Job, done
 
@@ -36,7 +36,7 @@ def codes(report: Report) -> list[str]:
 
 def test_a_first_build_makes_every_output(course: Course) -> None:
     report = build(course)
-    assert set(course.contents()) == {name for part in ("one", "two", "solutions") for name in outputs_of(part)}
+    assert set(course.contents()) == {name for part in ("one", "two", *DOCUMENTS) for name in outputs_of(part)}
     assert (report.derived, report.problems, report.failed) == (2, 2, False)
     assert "first" in (course.outputs / "solutions.pdf").read_text()
     assert (course.outputs / "one.txt").read_text() == "first ω\n"
@@ -56,7 +56,7 @@ def test_an_edit_derives_and_typesets_only_its_problem_and_the_set(course: Cours
     course.problem("two", "edited")
     build(course)
     assert course.derived() == ["hw1/two None"]
-    assert course.typeset() == ["solutions.tex", "two.tex"]
+    assert course.typeset() == ["solutions.tex", "two.tex"], "the students' sheet reads as before"
     assert "edited" in (course.outputs / "solutions.pdf").read_text()
 
 
@@ -76,7 +76,7 @@ def test_a_touched_file_is_no_change(course: Course) -> None:
     assert course.derived() == []
 
 
-@pytest.mark.parametrize("name", ["one.pdf", "one.txt", "two.json", "solutions.pdf", "solutions.tex"])
+@pytest.mark.parametrize("name", ["one.pdf", "one.txt", "two.json", "solutions.pdf", "solutions.tex", "problems.pdf"])
 def test_a_deleted_output_comes_back(course: Course, name: str) -> None:
     build(course)
     before = course.contents()
@@ -108,7 +108,7 @@ def test_the_order_in_the_set_changes_only_the_set(course: Course) -> None:
     course.derived(), course.typeset()
     course.heading("two", "one")
     build(course)
-    assert (course.derived(), course.typeset()) == ([], ["solutions.tex"])
+    assert (course.derived(), course.typeset()) == ([], ["problems.tex", "solutions.tex"])
     assert (course.outputs / "solutions.tex").read_text().index("second") < 40
 
 
@@ -125,7 +125,7 @@ def test_a_template_an_engine_and_a_detail_each_count_as_a_change(course: Course
     course.typeset()
     shutil.copy(course.root / "bin" / "pdflatex", course.root / "bin" / "lualatex")
     build(course, Options(engine="lualatex"))
-    assert course.typeset() == ["one.tex", "solutions.tex", "two.tex"]
+    assert course.typeset() == ["one.tex", "problems.tex", "solutions.tex", "two.tex"]
 
 
 def test_a_reference_that_appears_is_a_change(course: Course) -> None:

@@ -170,7 +170,7 @@ def test_every_string_of_the_json_reads_back_whatever_the_letters(
 
 def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
     page = json.loads(rendered(course_in(tmp_path), "hw9/block").json)
-    assert list(page) == ["problem", "title", "points", "given", "parts", "answers", "steps", "reference"]
+    assert list(page) == ["problem", "title", "points", "given", "parts", "answers", "drawings", "steps", "reference"]
     assert {frozenset(part) for part in page["parts"]} == {frozenset({"label", "points", "answers"})}
     assert {frozenset(answer) for answer in page["answers"].values()} == {
         frozenset({"symbol", "sympy", "latex", "unit", "number"})

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Integer, Rational, Symbol, pi
+from sympy import Expr, Integer, Rational, Symbol, pi
 
 from derive.errors import Rejected
+from derive.expressions import explicit
 from derive.given import (
     KINDS,
     Angle,
@@ -115,7 +116,7 @@ def test_letters_never_run_out() -> None:
 
 def test_numbers_are_exact() -> None:
     assert given("900 rpm", "AngularSpeed").measured[0].si == 30 * pi
-    assert given("45 deg", "Angle").measured[0].si == pi / 4
+    assert given("40 deg", "Angle").measured[0].si == 2 * pi / 9
     assert given("1/3 m", "Length").measured[0].si == Rational(1, 3)
     assert given("1e-3 m", "Length").measured[0].number == Rational(1, 1000)
 
@@ -130,9 +131,18 @@ def test_zero_needs_no_letter() -> None:
     assert (found.value, found.measured) == (0, ())
 
 
+@pytest.mark.parametrize(
+    ("text", "value"), [("45 deg", pi / 4), ("30 deg", pi / 6), ("120 deg", 2 * pi / 3), ("-90 deg", -pi / 2)]
+)
+def test_an_angle_whose_sine_is_a_single_root_is_used_exactly(text: str, value: Expr) -> None:
+    found = given(text, "Angle")
+    assert (found.value, found.measured) == (value, ())
+    assert found.written is not None and explicit(found.written) == value
+
+
 def test_letters_for_sizes_are_positive_and_the_others_real() -> None:
     assert given("2 kg", "Mass", {}).value.is_positive
-    angle = given("-45 deg", "Angle").value
+    angle = given("-40 deg", "Angle").value
     assert angle.is_real
     assert angle.is_positive is None
 

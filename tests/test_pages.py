@@ -9,7 +9,8 @@ import pytest
 from pypdf import PdfReader
 
 from derive.render.pdf import chosen_engine, typeset
-from derive.solution import problem_document, rendered, set_document
+from derive.set_document import problem_document, set_document
+from derive.solution import rendered
 from tests.course import course_in
 
 
@@ -65,11 +66,13 @@ def test_the_set_has_a_cover_block_and_its_problem(tmp_path: Path) -> None:
     assert "Ablockturningaboutalongdiagonal" in text
 
 
-def test_a_wide_formula_is_made_to_fit(tmp_path: Path) -> None:
+def test_a_wide_sum_is_broken_and_stays_as_large_as_the_rest(tmp_path: Path) -> None:
     edits = {"[a, 2*a, 3*a]": "[a, b, c]", "{a: length,": "{a: length, b: length, c: length,"}
     root = course_in(tmp_path, edits)
     solution = rendered(root, "hw9/block")
-    assert r"\fit{" in solution.latex
+    assert r"\Bigl(" in solution.latex
+    shrunk = re.findall(r"\\fit\{.*", solution.latex)
+    assert all(r"\sqrt" in line for line in shrunk), "a root cannot be broken"
     target = root / "block.pdf"
     typeset(problem_document(root, solution, "hw9"), target, chosen_engine(None))
     assert target.stat().st_size > 50_000

@@ -16,7 +16,7 @@ from sympy import Rational, pi
 from derive.errors import DeriveError, Misused, Rejected
 from derive.problem import ANY_OUTCOME, Problem, load_problem, problem_ids, problem_set, run_solve, set_ids
 from derive.prose import Mention, read_prose
-from derive.schema import PROBLEM_KEYS, problem_schema
+from derive.schema import PROBLEM_KEYS, problem_schema, reference_schema
 from derive.source import Faults, Scalar, Source
 
 PROBLEM = """\
@@ -137,8 +137,8 @@ def test_values_put_numbers_on_declared_letters_and_keep_those_letters_from_othe
 
 def test_a_form_is_for_all_answers_of_a_part_or_for_one(tmp_path: Path) -> None:
     _, angle, torque = loaded(tmp_path).parts
-    assert (angle.form_of("angle_between").unit, angle.form_of("angle_between").figures) == ("degree", 4)
-    assert (torque.form_of("torque").unit, torque.form_of("magnitude").unit) == (None, "N m")
+    assert (angle.form_of("angle_between").units, angle.form_of("angle_between").figures) == (("degree",), 4)
+    assert (torque.form_of("torque").units, torque.form_of("magnitude").units) == ((), ("N m",))
 
 
 def test_wording_is_by_outcome_or_for_any(tmp_path: Path) -> None:
@@ -233,7 +233,7 @@ def test_a_fault_of_the_script_is_told_with_those_of_the_problem(tmp_path: Path)
     [
         (("parts:\n", "parts: none\nparty:\n"), "unknown-key"),
         (("  - ask: Find the inertia tensor about the centre.\n", "  - \n"), "missing-key"),
-        (("answer: angle_between", "answer: []"), "wrong-type"),
+        (("answer: angle_between", "answer: []"), "missing-value"),
         (("answer: [torque, magnitude]", "answer: [magnitude, magnitude]"), "duplicate-answer"),
         (("form: {magnitude: {unit: N m}}", "form: {torq: {unit: N m}}"), "unknown-key"),
         (("form: {magnitude: {unit: N m}}", "form: {magnitude: {}, torque: N m}"), "wrong-type"),
@@ -352,6 +352,11 @@ def test_a_set_that_does_not_exist_is_met_with_the_nearest(tmp_path: Path) -> No
 def test_the_schema_for_editors_is_current() -> None:
     file = Path(__file__).parents[1] / "templates" / "problem.schema.json"
     assert file.read_text(encoding="utf-8") == problem_schema(), "write `derive.schema.problem_schema()` to that file"
+
+
+def test_the_schema_of_references_is_current() -> None:
+    file = Path(__file__).parents[1] / "templates" / "reference.schema.json"
+    assert file.read_text(encoding="utf-8") == reference_schema(), "write `derive.schema.reference_schema()` to it"
 
 
 def test_the_schema_knows_every_key_and_what_is_required() -> None:

@@ -24,6 +24,15 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         {"[a, 2*a, 3*a]": "[2 cm, 4 cm, 6 cm]", "mass: M\n": "mass: 1.5 kg\n", "rate: omega": "rate: 900 rpm"},
         None,
     ),
+    "cone": ({}, None),
+    "cone-brief": ({}, "brief"),
+    "cone-isotropic": ({"height: h": "height: 2*R"}, None),
+    "cone-numbers": ({"radius: R": "radius: 4 cm", "height: h": "height: 10 cm", "mass: M": "mass: 300 g"}, "brief"),
+    "euler": ({}, None),
+    "euler-full": ({}, "full"),
+    "euler-symmetric": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_z]"}, None),
+    "euler-isotropic": ({"moments: [I_x, I_y, I_z]": "moments: [I_x, I_x, I_x]"}, None),
+    "euler-numbers": ({"moments: [I_x, I_y, I_z]": "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"}, None),
     "slab": ({}, None),
     "slab-full": ({}, "full"),
     "slab-thick": ({"radius: R\n": "radius: a/4\n"}, None),
@@ -39,6 +48,11 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         },
         None,
     ),
+    "top": ({}, None),
+    "top-slow": ({"900 rpm": "200 rpm"}, "brief"),
+    "top-horizontal": ({"45 deg": "90 deg"}, "brief"),
+    "top-beyond": ({"45 deg": "120 deg"}, "brief"),
+    "top-letters": ({"tilt: 45 deg": "tilt: theta", "S: angular speed,": "S: angular speed, theta: angle,"}, "brief"),
 }
 
 

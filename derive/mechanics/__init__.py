@@ -1,7 +1,17 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
 from derive.mechanics.bodies import Cuboid, centre_of_mass, density
+from derive.mechanics.composed import (
+    Composed,
+    Part,
+    axial_moment,
+    centre_distance,
+    part_moment,
+    total_mass,
+    transverse_moment,
+)
 from derive.mechanics.conditions import boundary_case, positive_where
+from derive.mechanics.conservation import rate_under
 from derive.mechanics.constraints import (
     Tie,
     contact_forces,
@@ -12,9 +22,18 @@ from derive.mechanics.constraints import (
     tie,
 )
 from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
+from derive.mechanics.cyclic import conserved_momentum
 from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude
-from derive.mechanics.inertia import inertia_tensor, moved_to
+from derive.mechanics.equations import at, let, magnitude, squared_magnitude, with_values
+from derive.mechanics.free_rotation import (
+    RigidBody,
+    changing_angular_velocity,
+    euler_equations,
+    principal_tensor,
+    rate_in_body,
+    rate_in_space,
+)
+from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
     generalized_force,
@@ -26,6 +45,15 @@ from derive.mechanics.lagrangian import (
 )
 from derive.mechanics.oscillations import frequency, frequency_squared, linearised
 from derive.mechanics.potentials import curvature_at, leading_order, slope
+from derive.mechanics.precession import (
+    no_steady_precession,
+    precession_condition,
+    precession_rates,
+    steady_precession,
+    steady_rates,
+)
+from derive.mechanics.principal import principal_axes, principal_moments
+from derive.mechanics.quadratics import discriminant, roots_of
 from derive.mechanics.rolling import rolled_centre
 from derive.mechanics.rotation import (
     angle_between,
@@ -36,25 +64,62 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
+from derive.mechanics.sleeping import effective_potential, sleeping_spin, upright_rate
+from derive.mechanics.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.special_cases import isotropic_where
+from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
+from derive.mechanics.tops import (
+    EulerAngles,
+    Top,
+    centre_height,
+    constant_spin,
+    euler_angles,
+    tilt_equation,
+    top_kinetic_energy,
+    turning_rate,
+)
 
 __all__ = [
+    "Ball",
+    "Composed",
+    "Cone",
     "Coordinate",
     "Cuboid",
+    "Cylinder",
     "Direction",
+    "Disc",
+    "EulerAngles",
+    "Hoop",
+    "Part",
+    "Plate",
+    "RigidBody",
+    "Rod",
     "Tie",
+    "Top",
+    "agreement",
     "angle_between",
     "angular_momentum",
     "any_angular_velocity",
     "at",
+    "axial_moment",
     "boundary_case",
+    "centre_distance",
+    "centre_height",
     "centre_of_mass",
+    "changing_angular_velocity",
+    "conserved_momentum",
+    "constant_spin",
     "contact_forces",
     "coordinate",
     "cosine_between",
     "curvature_at",
     "density",
+    "discriminant",
+    "effective_potential",
     "equation_of_motion",
     "equation_with_multipliers",
+    "euler_angles",
+    "euler_equations",
     "force_of_constraint",
     "free_lagrangian",
     "frequency",
@@ -62,6 +127,7 @@ __all__ = [
     "generalized_force",
     "generalized_momentum",
     "inertia_tensor",
+    "isotropic_where",
     "kinetic_energy",
     "lagrangian",
     "leading_order",
@@ -71,13 +137,36 @@ __all__ = [
     "momentum_rate",
     "moved_to",
     "multipliers_eliminated",
+    "no_steady_precession",
+    "part_moment",
     "plane_kinetic_energy",
     "positive_where",
+    "precession_condition",
+    "precession_rates",
+    "principal_axes",
+    "principal_moments",
+    "principal_tensor",
+    "rate_in_body",
+    "rate_in_space",
     "rate_of",
+    "rate_under",
     "rolled_centre",
+    "roots_of",
+    "sleeping_spin",
     "slope",
     "spin",
+    "squared_magnitude",
+    "steady_precession",
+    "steady_rates",
     "tie",
+    "tilt_equation",
+    "top_kinetic_energy",
     "torque",
+    "total_mass",
+    "transverse_moment",
+    "turning_rate",
+    "upright_rate",
+    "volume",
     "weight_energy",
+    "with_values",
 ]

@@ -20,7 +20,8 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
     letter   the letter to solve for: the quantity has one term with it, or with its square, and others without
     or_zero  whether zero is allowed too
     Second route: the sign of the quantity where the letter is a little above the bound, and a little below.
-    Outcomes: conditional, always, never, vanishing: the last three where the sign does not depend on the letters.
+    Outcomes: conditional; squared (solved for the square of the letter only, because the sign of its bound is not
+    known); always, never, vanishing where the sign does not depend on the letters.
     Errors: the inequality cannot be solved for that letter.
     Source: none needed: algebra of inequalities.
     """
@@ -33,7 +34,9 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
     turned = mark if (rising > 0) == (sign > 0) else TURNED[mark]
     core = spread(sign * core)
     steps = [Form(Relation(core, mark, 0), "positive_factors", Level.STANDARD)]
-    if power == 2:
+    has_root = power == 1 or bool(bound.is_positive)
+    alone = letter if has_root else letter**2
+    if power == 2 and has_root:
         steps.append(Form(Relation(letter**2, turned, tidied(bound**2)), "solved", Level.STANDARD))
     above = 1 if turned == mark else -1
     return establish(
@@ -43,16 +46,17 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
         {"quantity": of},
         put_in=Level.STANDARD,
         between=steps,
-        after=[Form(Relation(letter, turned, bound), "solved")],
+        after=[Form(Relation(alone, turned, bound), "solved")],
         show_result=False,
         routes={
-            "above": lambda _: _with_its_sign(value, letter, bound, beyond=True, sign=above),
-            "below": lambda _: _with_its_sign(value, letter, bound, beyond=False, sign=-above),
+            "above": lambda _: _with_its_sign(value, alone, bound, beyond=True, sign=above),
+            "below": lambda _: _with_its_sign(value, alone, bound, beyond=False, sign=-above),
         },
-        outcome="conditional",
+        outcome="conditional" if has_root else "squared",
+        words={"strictly": "not_negative" if or_zero else "positive"},
         key=key,
-        context={"letter": letter, "bound": bound, "of": of},
-        arranged=lambda _: Relation(letter, turned, bound),
+        context={"letter": letter, "bound": bound, "of": of} if has_root else {"of": of},
+        arranged=lambda _: Relation(alone, turned, bound),
     )
 
 
@@ -95,7 +99,10 @@ def _chosen(letter: Expr, core: Expr, of: Quantity) -> tuple[Symbol, tuple[Expr,
 
 
 def _bound(core: Expr, letter: Symbol) -> tuple[Expr, int, int] | None:
-    """Where the core vanishes, the power of the letter, and whether the core rises (1) or falls (-1) with it."""
+    """Where the core vanishes, the power of the letter, and whether the core rises (1) or falls (-1) with it.
+
+    Of a square whose sign is not known, no root is taken.
+    """
     polynomial = core.as_poly(letter)
     powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
     if powers not in ([1, 0], [2, 0]):
@@ -103,9 +110,11 @@ def _bound(core: Expr, letter: Symbol) -> tuple[Expr, int, int] | None:
     leading, rest = polynomial.all_coeffs()[0], polynomial.all_coeffs()[-1]
     rising = 1 if leading.is_positive else -1 if leading.is_negative else 0
     bound = tidied(-rest / leading)
-    if not rising or not bound.is_positive:
+    if not rising or (powers[0] == 1 and not bound.is_positive):
         return None
-    return (spread(bound) if powers[0] == 1 else tidied(sqrt(bound))), powers[0], rising
+    if powers[0] == 2 and bound.is_positive:
+        bound = tidied(sqrt(bound))
+    return (spread(bound) if powers[0] == 1 else bound), powers[0], rising
 
 
 def _unsolvable(of: Quantity, letter: Expr) -> Rejected:
@@ -113,10 +122,14 @@ def _unsolvable(of: Quantity, letter: Expr) -> Rejected:
     return Rejected(Complaint("no-condition", message, help="give another of the letters it depends on"))
 
 
-def _with_its_sign(value: Expr, letter: Symbol, bound: Expr, beyond: bool, sign: int) -> tuple[Expr, Expr]:
+def _with_its_sign(value: Expr, alone: Expr, bound: Expr, beyond: bool, sign: int) -> tuple[Expr, Expr]:
     """The value beside its bound, and its size with the sign that it should have."""
-    beside = bound * (1 + Dummy("u", positive=True)) ** (1 if beyond else -1)
-    there = tidied(value.subs(letter, beside))
+    little = Dummy("u", positive=True)
+    if alone.is_Symbol:
+        beside = bound * (1 + little) ** (1 if beyond else -1)
+    else:  # S^2 a little beside its bound
+        alone, beside = alone.base, sqrt(bound + (little if beyond else -little))
+    there = tidied(value.subs(alone, beside))
     return there, sign * Abs(there)
 
 

@@ -56,9 +56,9 @@ def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
 
 
 def kind_of_rate(kind: str) -> str:
-    """A length changes at a speed, an angle at an angular speed."""
-    if kind in {"angle", "number"}:
-        return "angular speed"
+    """A length changes at a speed, an angle at an angular speed, an angular momentum by a torque."""
+    if kind in {"angle", "number", "angular momentum"}:
+        return "torque" if kind == "angular momentum" else "angular speed"
     faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))
     if faster is None:
         raise Rejected(Complaint("no-such-kind", f"the rate of a quantity of the kind `{kind}` has no name"))

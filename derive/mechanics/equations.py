@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixSymbol, Mul
+from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import Dot, Factors, Group, Norm, Root, Terms, bound, component_names, explicit, scalar
+from derive.mechanics.arrangement import by_terms
 from derive.mechanics.rotation import length_by_turning
 from derive.step import Form, Level, Quantity, compared_with, establish
 from derive.tidy import size_and_rest
@@ -63,6 +64,39 @@ def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
     return kept or [Integer(0)]
 
 
+def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
+    """The value of a general result once the letters in it have values.
+
+    general   a scalar in letters, any unit
+    values    what some of its letters stand for
+    Second route: the law itself, evaluated with these values from the start.
+    Errors: the general result contains none of these letters.
+    Source: none needed: substitution.
+    """
+    known = {q.symbol: q.value for q in values}
+    if not general.value.free_symbols & set(known):
+        names = " and ".join(f"`{q.key}`" for q in values)
+        raise Rejected(Complaint("nothing-to-put-in", f"`{general.key}` does not depend on {names}"))
+
+    def anew() -> Any:
+        behind = {q.symbol: bound(explicit(q.value), known) for q in general.parents if q.symbol not in known}
+        return explicit(bound(bound(general.step.chain[0].expr, behind), known))
+
+    return establish(
+        "equations.with_values",
+        general.symbol,
+        lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
+        {"general": general, **{q.key: q for q in values}},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_here",
+        kind=general.step.kind,
+        arranged=by_terms,
+        context=general.context,
+    )
+
+
 def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     """Length of a vector, |v| = sqrt(v.v).
 
@@ -85,6 +119,28 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
         outcome=lambda length: "zero" if length == 0 else "generic",
         key=key,
         kind=of.step.kind,
+    )
+
+
+def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
+    """Square of a vector's length, |v|^2 = v.v.
+
+    of      vector (3), any unit
+    Second route: turn the vector until it lies along one axis and square its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    v = of.value
+    return establish(
+        "equations.squared_magnitude",
+        Pow(Norm(of.symbol), 2),
+        lambda v: Dot(v, v),
+        {"vector": of},
+        put_in=Level.FULL,
+        routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
+        outcome=lambda square: "zero" if square == 0 else "generic",
+        key=key,
+        context={"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {},
     )
 
 

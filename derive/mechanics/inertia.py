@@ -5,10 +5,11 @@ I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) te
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
-from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol
+from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol, cos, sin
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import (
@@ -24,41 +25,55 @@ from derive.expressions import (
     tensor,
     vector,
 )
-from derive.mechanics.bodies import Cuboid, Point
+from derive.mechanics.bodies import Body
 from derive.mechanics.integration import worked_integral
+from derive.mechanics.regions import Point, Region
 from derive.step import Level, Quantity, compared_with, entry_name, establish
 
-PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
+Pair = tuple[int, int]
+
+PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
+ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # what symmetry about the z axis leaves: across it and along it
 
 
-def inertia_tensor(body: Cuboid, about: str = "centre", symbol: str | None = None, key: str | None = None) -> Quantity:
+def inertia_tensor(
+    body: Body,
+    about: str = "centre",
+    coordinates: str | None = None,
+    symbol: str | None = None,
+    key: str | None = None,
+) -> Quantity:
     """Inertia tensor about a point, J = integral of (r.r 1 - r r) dm.
 
-    body    mass M, uniform density
-    about   "corner" or "centre"; axes along the edges
-    Each of the six entries is a step of its own.
+    body         mass M, uniform density
+    about        a point that the body has: "centre", "corner", "apex", ...; axes those of the body
+    coordinates  "cartesian" or "cylindrical", where the body has both
+    Each of the six entries is a step of its own; of a body that is round about z, the two that symmetry leaves.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
     centre of mass is the body's.
-    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic.
-    Errors: no such point.
+    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; of a
+    body that is round about z, round or round_isotropic.
+    Errors: no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     point = body.point(about)
+    region = body.within(point, coordinates)
     name = symbol or ("I" if about == "centre" else "J")
     key = key or "inertia_tensor"
-    by_definition = _definition(body, point, name, key)
-    entries = {pair: _entry_by_integration(body, point, name, key, pair, by_definition) for pair in PAIRS}
+    by_definition = _definition(body, point, region, name, key)
+    pairs = pairs_left_by_symmetry(body, point)
+    entries = {pair: _entry_by_integration(body, point, region, name, key, pair, by_definition) for pair in pairs}
     return establish(
         "inertia.inertia_tensor",
         tensor(name),
-        lambda *six: _symmetric(six),
+        lambda *found: _assembled(pairs, found),
         _by_pair(entries),
         routes={
             "definition": compared_with(lambda: by_definition.value),
             "particles": lambda tensor: _moment_about_any_axis(tensor, body, point),
-            "balanced": lambda _: (_first_moment(body, point), body.mass * (body.middle.position - point.position)),
+            "balanced": lambda _: (_first_moment(body, point), body.mass * point.seen(body.middle.position)),
         },
-        outcome=_shape,
+        outcome=_round_shape if pairs == ROUND else _shape,
         kind="moment of inertia",
         put_in=None,
         context={"body": body, "about": point},
@@ -67,16 +82,21 @@ def inertia_tensor(body: Cuboid, about: str = "centre", symbol: str | None = Non
     )
 
 
-def _definition(body: Cuboid, point: Point, name: str, key: str) -> Quantity:
+def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
+    """The entries to be worked out: of a round body seen from its axis, I_yy is I_xx and the products vanish."""
+    return ROUND if body.is_round and point.position[0] == point.position[1] == 0 else PAIRS
+
+
+def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
     """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
     return establish(
         "inertia.definition",
         tensor(name),
-        lambda _: _law(body, point, body.density.symbol),
+        lambda _: _law(region, body.density.symbol),
         {"r": vector("r")},
         definition=True,
         kind="moment of inertia",
-        parents=[body.density],
+        parents=[body.density, *body.radii(point, region)],
         put_in=None,
         show_result=False,
         words={"about": point.name},
@@ -84,23 +104,26 @@ def _definition(body: Cuboid, point: Point, name: str, key: str) -> Quantity:
     )
 
 
-def _law(body: Cuboid, point: Point, density: Expr) -> Any:
+def _law(region: Region, density: Expr) -> Any:
     """The integral of (r.r 1 - r r) dm, not carried out."""
     r = vector("r")
     integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
-    return body.mass_integral(integrand, point.position, density)
+    return region.with_section_put_in().mass_integral(integrand, density)
 
 
-def _as_defined(body: Cuboid, point: Point) -> Any:
-    return explicit(_law(body, point, body.density.value))
+def _as_defined(body: Body, point: Point) -> Any:
+    return explicit(_law(body.region(point), body.density.value))
 
 
-def _by_pair(entries: dict[tuple[int, int], Quantity]) -> dict[str, Quantity]:
+def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
     return {"xyz"[i] + "xyz"[j]: quantity for (i, j), quantity in entries.items()}
 
 
-def _symmetric(six: Any) -> Any:
-    at = dict(zip(PAIRS, six, strict=True))
+def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
+    """The symmetric tensor of its entries; what is not among them symmetry about z gives."""
+    at = dict(zip(pairs, found, strict=True))
+    if pairs == ROUND:
+        at |= {(1, 1): at[(0, 0)], (0, 1): Integer(0), (0, 2): Integer(0), (1, 2): Integer(0)}
     return ImmutableDenseMatrix(3, 3, lambda i, j: at[(min(i, j), max(i, j))])
 
 
@@ -111,63 +134,87 @@ def _shape(tensor: Any) -> str:
     return {1: "isotropic", 2: "two_equal"}.get(different, "diagonal")
 
 
-def _entry_outcome(pair: tuple[int, int]) -> str:
+def _round_shape(tensor: Any) -> str:
+    return "round_isotropic" if tensor[0, 0] == tensor[2, 2] else "round"
+
+
+def _entry_outcome(pair: Pair) -> str:
     """The first moment and the first product are introduced; the others follow on."""
     kind = "moment" if pair[0] == pair[1] else "product"
     return f"first_{kind}" if pair in ((0, 0), (0, 1)) else kind
 
 
+def _round_entry_outcome(pair: Pair) -> str:
+    return "along" if pair == (2, 2) else "across"
+
+
 def _entry_by_integration(
-    body: Cuboid, point: Point, name: str, key: str, pair: tuple[int, int], definition: Quantity
+    body: Body, point: Point, region: Region, name: str, key: str, pair: Pair, definition: Quantity
 ) -> Quantity:
     """One entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
     i, j = pair
-    at = [limit[0] for limit in body.limits(point.position)]
-    weight = sum((x**2 for k, x in enumerate(at) if k != i), Integer(0)) if i == j else -at[i] * at[j]
-    integral = body.integral(weight, point.position)
+    weight = entry_weight(region, pair)
     rho = body.density
-    law = _with_sign_in_front(integral)
+    is_round = pairs_left_by_symmetry(body, point) == ROUND
     return establish(
         "inertia.entry",
         entry_name(name, i, j),
-        law,
-        {"density": rho},
-        between=worked_integral(integral, rho.symbol, body.volume),
+        _with_sign_in_front(region, weight),
+        {"density": rho, "square": weight},
+        between=worked_integral(region, weight, rho.symbol, body.size),
         routes={"particles": compared_with(lambda: _entry_from_particles(body, point, pair))},
-        outcome=_entry_outcome(pair),
+        outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
         put_in=None,
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
         words={"about": point.name},
-        parents=[definition],
+        parents=[definition, *body.radii(point, region)],
     )
 
 
-def _with_sign_in_front(integral: Any) -> Callable[[Expr], Expr]:
-    function = integral.function
-    if function.could_extract_minus_sign():
-        return lambda rho: Factors(-rho, integral.func(-function, *integral.limits))
-    return lambda rho: Factors(rho, integral)
+def entry_weight(region: Region, pair: Pair) -> Expr:
+    """What is integrated over the mass: the squared distance from the axis, or minus the product of two coordinates."""
+    i, j = pair
+    at = region.position
+    weight = sum((x**2 for k, x in enumerate(at) if k != i), Integer(0)) if i == j else -at[i] * at[j]
+    return _without_angles(weight)
 
 
-def _moment_from_particles(body: Cuboid, point: Point, n: Any) -> Expr:
+def _without_angles(weight: Expr) -> Expr:
+    """r^2 cos^2 + r^2 sin^2 is written r^2; what depends on the angle stays as it is."""
+    if not weight.atoms(sin, cos):
+        return weight
+    plain = weight.expand().replace(
+        lambda e: e.is_Pow and isinstance(e.base, cos) and e.exp == 2, lambda e: 1 - sin(e.base.args[0]) ** 2
+    )
+    plain = plain.expand()
+    return weight if plain.atoms(sin, cos) else plain
+
+
+def _with_sign_in_front(region: Region, weight: Expr) -> Callable[[Expr, Expr], Expr]:
+    if weight.could_extract_minus_sign():
+        return lambda rho, _: Factors(-rho, region.integral(-weight))
+    return lambda rho, _: Factors(rho, region.integral(weight))
+
+
+def _moment_from_particles(body: Body, point: Point, n: Any) -> Expr:
     """The moment of inertia about the axis through the point along n: mass times distance squared, summed."""
     total: Expr = Integer(0)
     for mass, place in body.particles():
-        arm = explicit(Cross(n, place - point.position))
+        arm = explicit(Cross(n, point.seen(place)))
         total += mass * explicit(Dot(arm, arm))
     return total
 
 
-def _first_moment(body: Cuboid, point: Point) -> Any:
+def _first_moment(body: Body, point: Point) -> Any:
     """The sum of m r over the particles, r from the point: M times where the centre of mass is seen from there."""
     total = column(0, 0, 0)
     for mass, place in body.particles():
-        total = total + mass * (place - point.position)
+        total = total + mass * point.seen(place)
     return total
 
 
-def _entry_from_particles(body: Cuboid, point: Point, pair: tuple[int, int]) -> Expr:
+def _entry_from_particles(body: Body, point: Point, pair: Pair) -> Expr:
     """n.I n at n = e_i + e_j less the two moments is twice the entry I_ij."""
     axes = [column(*(int(k == axis) for k in range(3))) for axis in pair]
     if pair[0] == pair[1]:
@@ -176,7 +223,7 @@ def _entry_from_particles(body: Cuboid, point: Point, pair: tuple[int, int]) -> 
     return (both - sum(alone)) / 2
 
 
-def _moment_about_any_axis(tensor: Any, body: Cuboid, point: Point) -> tuple[Expr, Expr]:
+def _moment_about_any_axis(tensor: Any, body: Body, point: Point) -> tuple[Expr, Expr]:
     n = column(*component_names("n"))
     return explicit(Dot(n, tensor * n)), _moment_from_particles(body, point, n)
 
@@ -185,64 +232,75 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     """Inertia tensor about the centre of mass, I = J - M (c.c 1 - c c), from J about another point of the body.
 
     tensor_there    tensor (3, 3), kg m^2, about a point of the body
-    centre          vector (3), m: the body's centre of mass in its axes
+    centre          vector (3), m: the body's centre of mass, from that point and in the same axes
     Second route: each entry, and the tensor as a whole, by direct integration about the centre; the trace as twice the
     integral of r.r dm.
     Outcomes: as `inertia_tensor`.
-    Errors: the tensor is already about the centre of mass.
+    Errors: the tensor is already about the centre of mass; the centre is counted from another point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
-    body: Cuboid = tensor_there.context["body"]
+    body: Body = tensor_there.context["body"]
     start: Point = tensor_there.context["about"]
     if start.position == body.middle.position:
         message = f"`{tensor_there.key}` is already about the centre of mass"
         raise Rejected(Complaint("already-there", message, help="start from another point, or use the tensor as it is"))
-    entries = {pair: _entry_moved(tensor_there, centre, symbol, key, pair) for pair in PAIRS}
+    _check_start(tensor_there, centre, start)
+    there = replace(body.middle, axes=start.axes)
+    pairs = pairs_left_by_symmetry(body, start)
+    entries = {pair: _entry_moved(tensor_there, centre, there, symbol, key, pair) for pair in pairs}
     return establish(
         "inertia.moved_to",
         tensor(symbol),
-        lambda *six: _symmetric(six),
+        lambda *found: _assembled(pairs, found),
         _by_pair(entries),
         routes={
-            "integration": compared_with(lambda: _as_defined(body, body.middle)),
-            "trace": lambda result: (result.trace(), 2 * _square_of_distance(body, body.middle)),
+            "integration": compared_with(lambda: _as_defined(body, there)),
+            "trace": lambda result: (result.trace(), 2 * body.over_mass(lambda r: Dot(r, r), there)),
         },
-        outcome=_shape,
+        outcome=_round_shape if pairs == ROUND else _shape,
         kind="moment of inertia",
         parents=[body.density],
         put_in=None,
-        context={"body": body, "about": body.middle},
+        context={"body": body, "about": there},
         words={"about": "centre", "start": start.name},
         key=key,
     )
 
 
-def _square_of_distance(body: Cuboid, point: Point) -> Expr:
-    """The integral of r.r dm about a point."""
-    at = [limit[0] for limit in body.limits(point.position)]
-    return body.density.value * explicit(body.integral(sum(x**2 for x in at), point.position))
+def _check_start(tensor_there: Quantity, centre: Quantity, start: Point) -> None:
+    """Parallel axes hold from the point of the tensor: the centre must be counted from there."""
+    counted_from = centre.context.get("from")
+    if counted_from != start:
+        told = f"from the {counted_from.name}" if isinstance(counted_from, Point) else "from another point"
+        message = f"`{tensor_there.key}` is about the {start.name}, but `{centre.key}` is counted {told}"
+        help_line = f'use centre_of_mass(body, origin="{start.name}")'
+        raise Rejected(Complaint("another-origin", message, help=help_line))
 
 
 def _components(v: Any) -> tuple[Any, ...]:
     return component_names(v.name) if isinstance(v, MatrixSymbol) else tuple(v)
 
 
-def _entry_moved(there: Quantity, centre: Quantity, name: str, key: str, pair: tuple[int, int]) -> Quantity:
+def _entry_moved(there: Quantity, centre: Quantity, middle: Point, name: str, key: str, pair: Pair) -> Quantity:
     """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z)."""
     i, j = pair
-    body: Cuboid = there.context["body"]
+    body: Body = there.context["body"]
+    start: Point = there.context["about"]
+    is_round = pairs_left_by_symmetry(body, start) == ROUND
     entry = next(parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}"))
+    # From a point of the axis of a round body, the distance along the axis is all there is.
+    apart = [k for k in range(3) if k != i and not (is_round and centre.value[k] == 0)]
 
     def law(at_start: Expr, mass: Expr, c: Any) -> Expr:
         c = _components(c)
         if i == j:
-            return Terms(at_start, -Factors(mass, Terms(*(c[k] ** 2 for k in range(3) if k != i))))
+            squares = [c[k] ** 2 for k in apart]
+            shift = squares[0] if len(squares) == 1 else Terms(*squares)
+            return Terms(at_start, -Factors(mass, shift)) if squares else at_start
         return Terms(at_start, Factors(mass, c[i], c[j]))
 
     def directly() -> Expr:
-        at = [limit[0] for limit in body.limits(body.middle.position)]
-        weight = sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j]
-        return body.density.value * explicit(body.integral(weight, body.middle.position))
+        return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], middle)
 
     return establish(
         "inertia.entry_moved",
@@ -250,10 +308,40 @@ def _entry_moved(there: Quantity, centre: Quantity, name: str, key: str, pair: t
         law,
         {"entry": entry, "mass": body.mass, "centre": centre},
         routes={"integration": compared_with(directly)},
-        outcome=_entry_outcome(pair),
+        outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
         put_in=Level.STANDARD,
         parents=[there],
-        words={"start": there.context["about"].name},
+        words={"start": start.name},
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
+    )
+
+
+def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:
+    """Two ways to the same tensor agree, I' = I.
+
+    found   tensor (3, 3), kg m^2
+    again   the tensor of the same body about the same point, found in another way, perhaps along axes that are turned
+    Second route: the tensor found in the other way, turned to the axes of the first.
+    Outcomes: generic; turned, where z was counted the other way.
+    Errors: the tensors are not of one body about one point.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    points = [tensor.context["about"] for tensor in (found, again)]
+    if found.context["body"] != again.context["body"] or points[0].position != points[1].position:
+        message = f"`{found.key}` and `{again.key}` are not tensors of one body about one point"
+        raise Rejected(Complaint("not-the-same", message))
+    turn = points[0].axes.T * points[1].axes
+    return establish(
+        "inertia.agreement",
+        again.symbol,
+        lambda first, _: first,
+        {"found": found, "again": again},
+        routes={"other_way": compared_with(lambda: turn * again.value * turn.T)},
+        outcome="generic" if turn.is_Identity else "turned",
+        kind="moment of inertia",
+        put_in=None,
+        context=found.context,
+        words={"about": points[0].name},
+        key=key,
     )

@@ -72,7 +72,7 @@ def plane_kinetic_energy(
 
 
 def weight_energy(
-    mass: Expr, gravity: Expr, place: Sequence[Quantity], symbol: str = "U", key: str = "potential_energy"
+    mass: Expr | Quantity, gravity: Expr, place: Sequence[Quantity], symbol: str = "U", key: str = "potential_energy"
 ) -> Quantity:
     """Potential energy of the weight, U = M g y, with y the last component of the place, upwards from the origin.
 
@@ -85,7 +85,7 @@ def weight_energy(
     height = place[-1]
     coordinates = list({q: None for part in place for q in part.coordinates})
     at = tuple(part.value for part in place)
-    down = (*(Integer(0) for _ in at[:-1]), -mass * gravity)
+    down = (*(Integer(0) for _ in at[:-1]), -(mass.value if isinstance(mass, Quantity) else mass) * gravity)
     matter = Matter((), (Load(down, at),), tuple(coordinates))
 
     def work_of_weight(potential: Expr) -> tuple[Expr, Expr]:

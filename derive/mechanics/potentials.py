@@ -6,7 +6,7 @@ from sympy import Add, Expr, Integer, Pow, Symbol, diff, factorial, series
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import At, Relation, Slope, Terms, Truncated, explicit
-from derive.mechanics.arrangement import spread
+from derive.mechanics.arrangement import spread_or_by_terms
 from derive.mechanics.coordinates import only_coordinate
 from derive.mechanics.oscillations import sign_of
 from derive.step import Form, Level, Quantity, compared_with, establish
@@ -37,9 +37,13 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quanti
         routes={"expanded": compared_with(lambda: _coefficient(potential.value, q, q, order) * factorial(order))},
         outcome=named if order < 3 else "higher",
         key=key or f"{potential.key}_{named}",
-        arranged=spread,
+        arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
         context={"potential": potential, "coordinate": q},
     )
+
+
+def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
+    return Add(*(tidied(diff(term, q, order)) for term in Add.make_args(value)))
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
@@ -71,7 +75,7 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
         routes={"expanded": compared_with(lambda: 2 * _coefficient(potential.value, q, place, 2))},
         outcome=sign_of,
         key=key,
-        arranged=spread,
+        arranged=spread_or_by_terms,
         parents=[potential],
     )
 
@@ -130,7 +134,7 @@ def leading_order(
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,
-        arranged=spread,
+        arranged=spread_or_by_terms,
         context={"where": where},
     )
 

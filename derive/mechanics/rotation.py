@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from sympy import Expr, Integer, MatAdd, Pow, Rational, acos, cos, pi, sin
@@ -25,7 +26,8 @@ from derive.expressions import (
     scaled,
     vector,
 )
-from derive.mechanics.bodies import Cuboid, Point
+from derive.mechanics.bodies import Body
+from derive.mechanics.regions import Point
 from derive.step import Form, Level, Quantity, compared_with, establish, is_zero, require_kind
 from derive.tidy import factored_matrix, size_and_rest, tidied
 
@@ -95,13 +97,15 @@ def _turned_onto_first(p: Expr, q: Expr) -> Expr:
 
 def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     """The integral over the body of a function of the position from the point of the tensor, times dm."""
-    body: Cuboid = inertia.context["body"]
+    body: Body = inertia.context["body"]
     point: Point = inertia.context["about"]
-    r = column(*(limit[0] for limit in body.limits(point.position)))
-    values = explicit(integrand(r))
-    if hasattr(values, "applyfunc"):
-        return values.applyfunc(lambda f: body.density.value * explicit(body.integral(f, point.position)))
-    return body.density.value * explicit(body.integral(values, point.position))
+    return body.over_mass(integrand, point)
+
+
+def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
+    """The acceleration of the place r of the body, omega_dot x r + omega x (omega x r)."""
+    turning = explicit(BodyRate(omega.value, *omega.coordinates))
+    return lambda r: explicit(Cross(turning, r)) + explicit(Cross(omega.value, Cross(omega.value, r)))
 
 
 def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
@@ -139,6 +143,7 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
     def by_speeds() -> Expr:
         return _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), Cross(omega.value, r))) / 2
 
+    acceleration = _acceleration(omega)
     product = scaled(*factored_matrix(tidied(applied(inertia.value, omega.value))))
     return establish(
         "rotation.kinetic_energy",
@@ -151,6 +156,7 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
         key=key,
         kind="energy",
         words=words,
+        context={"rate": lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r)))},
     )
 
 
@@ -165,6 +171,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
     words = _check_point("angular_momentum", inertia, omega)
+    acceleration = _acceleration(omega)
     by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
     return establish(
         "rotation.angular_momentum",
@@ -176,7 +183,10 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         key=key,
         kind="angular momentum",
         words=words,
-        context={"about": words["about"]},
+        context={
+            "about": words["about"],
+            "rate": lambda: _over_the_body(inertia, lambda r: Cross(r, acceleration(r))),
+        },
     )
 
 

@@ -19,14 +19,14 @@ from sympy.printing.str import StrPrinter
 from derive import expressions as ex
 from derive.derivation import Derivation
 from derive.dimensions import unit_of_kind
-from derive.document import Document
+from derive.document import Document, Illustration
 from derive.parts import points_text
 from derive.problem import Problem
 from derive.render.latex import latex
 from derive.render.notation import Notation
 from derive.render.text_page import inline_text
 from derive.rounding import Rounded, decimal_text
-from derive.step import Form, Step
+from derive.step import NUMBERS, Form, Step
 
 
 class _PlainSymPy(StrPrinter):
@@ -159,10 +159,22 @@ def contract(
             for page, part in zip(document.parts, problem.parts, strict=True)
         ],
         "answers": {key: _answer(step, values.get(key), notation) for key, step in answers.items()},
+        "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
         "steps": [_step(step, notation) for step in [*derivation.steps, *values.values()]],
         "reference": list(reference),
     }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def _drawing(drawing: Illustration, notation: Notation) -> dict[str, Any]:
+    return {
+        "key": drawing.key,
+        "at": drawing.at,
+        "number": drawing.number,
+        "caption": inline_text(drawing.caption, notation),
+        "alt": inline_text(drawing.alt, notation),
+        "files": [f"{drawing.stem}.pdf", f"{drawing.stem}.svg"],
+    }
 
 
 def _points(points: Any) -> int | float | None:
@@ -182,12 +194,15 @@ def _given(given: Any) -> Any:
 
 
 def _answer(step: Step, value: Step | None, notation: Notation) -> dict[str, Any]:
+    forms = [form for form in value.chain if form.because in NUMBERS] if value else []
+    first, *others = [_number(form.expr) for form in forms] or [None]
     return {
         "symbol": _symbol(step, notation),
         "sympy": sympy_text(step.result),
         "latex": latex(notation.result(step.result)),
         "unit": unit_of_kind(step.kind) if step.kind else "",
-        "number": _number(value),
+        "number": first,
+        **({"also": others} if others else {}),
     }
 
 
@@ -196,11 +211,13 @@ def _symbol(step: Step, notation: Notation) -> str:
     return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
-def _number(value: Step | None) -> dict[str, Any] | None:
-    """The rounded value; nothing for a relation or while letters are left in it."""
-    if value is None or isinstance(value.result, ex.Relation) or value.result.free_symbols:
+def _number(value: Any) -> dict[str, Any] | None:
+    """The rounded value, or nothing while letters are left in it; of a relation, that on its right."""
+    shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
+    if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
+        return None  # a comparison of two numbers
+    if shown.free_symbols:
         return None
-    shown, unit = value.result, ""
     if isinstance(shown, ex.Amount | ex.MatrixAmount):
         shown, unit = shown.args[0], shown.args[1].name
     entries = list(shown) if isinstance(shown, MatrixBase) else [shown]

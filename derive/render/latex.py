@@ -46,6 +46,10 @@ MARKS = {
     "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",
+    "open": r"\Bigl(",
+    "close": r"\Bigr)",
+    "start": "",
+    "on": r"\qquad ",
 }
 
 
@@ -77,7 +81,8 @@ class _Printer:
             case Raised(base, power):
                 return f"{self.show(base)}^{{{self.show(power)}}}"
             case Lowered(base, word):
-                return rf"{self.show(base)}_{{\mathrm{{{word}}}}}"
+                subscript = word if len(word) == 1 else rf"\mathrm{{{word}}}"
+                return f"{self.show(base)}_{{{subscript}}}"
             case RootSign(inside):
                 return rf"\sqrt{{{self.show(inside)}}}"
             case Fenced(inside, kind):
@@ -159,22 +164,27 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 
 
 def _name(name: Name) -> str:
-    letter = rf"\{name.base}" if name.base in GREEK else name.base
-    if len(name.base) > 1 and name.base not in GREEK:
-        letter = rf"\mathit{{{name.base}}}"
+    base = name.base.rstrip("'")
+    primes = name.base[len(base) :]
+    letter = rf"\{base}" if base in GREEK else base
+    if len(base) > 1 and base not in GREEK:
+        letter = rf"\mathit{{{base}}}"
     if name.style == "vector":
         letter = rf"\bm{{{letter}}}"
     elif name.style == "tensor":
         letter = rf"\mathbf{{{letter}}}"
     if name.dots:
         letter = rf"\{'d' * name.dots}ot{{{letter}}}"
+    letter = f"{{{letter}{primes}}}" if primes else letter  # in braces, so that it can be squared
     return f"{letter}_{{{_subscript(name.subscript)}}}" if name.subscript else letter
 
 
 def _subscript(text: str) -> str:
     if text in GREEK:
         return rf"\{text}"
-    return "".join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in text.split("_"))
+    parts = text.split("_")
+    between = "," if any(len(part) > 2 for part in parts) else ""
+    return between.join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in parts)
 
 
 def unit_latex(text: str) -> str:

@@ -2,33 +2,60 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from sympy import Expr, MatrixBase
 
+from derive.checks import Ways
 from derive.dimensions import Dimension
-from derive.document import Answer, Display, Document, PartPage
+from derive.document import Answer, Display, Document, Illustration, PartPage
+from derive.errata import Erratum
 from derive.parts import points_text
+from derive.placement import STATEMENT
 from derive.render.latex import MARKS, escaped, latex, unit_latex
 from derive.render.layout import Layout
-from derive.render.lines import Printed, printed_lines
+from derive.render.lines import Printed, answer_lines, printed_lines
 from derive.render.notation import Notation
-from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
+from derive.render.text_page import inline_text
+from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
 
 WIDTH = 60.0
+BOX = 70.0
 
 
-def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> str:
-    """The fragment of one problem, without preamble; `@NUMBER@` stands for its number in the set."""
-    return _environment(folder).get_template("problem.tex.j2").render(page=_Page(document, words, notation))
+@dataclass(frozen=True)
+class Fragments:
+    """One problem without preamble, for the documents that it stands in; `@NUMBER@` is its number in the set."""
+
+    title: str
+    solution: str
+    sheet: str
+    checked: str
 
 
-def whole_latex(folder: Path, head: Mapping[str, Any], fragments: Sequence[str]) -> str:
-    """A complete document: preamble, cover block, problems."""
-    return _environment(folder).get_template("document.tex.j2").render(head=head, fragments=fragments)
+def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> Fragments:
+    page, questions = _Page(document, words, notation), _Questions(document, words, notation)
+
+    def fragment(template: str, what: _Page) -> str:
+        return _environment(folder).get_template(template).render(page=what)
+
+    return Fragments(
+        page.title(),
+        fragment("problem.tex.j2", page),
+        fragment("questions.tex.j2", questions),
+        fragment("checked.tex.j2", page),
+    )
+
+
+def whole_latex(folder: Path, template: str, facts: Mapping[str, Any]) -> str:
+    """A complete document."""
+    return _environment(folder).get_template(template).render(facts)
 
 
 @cache
@@ -48,6 +75,7 @@ def _environment(folder: Path) -> Environment:
         autoescape=False,  # TeX, not HTML: every text goes through `escaped`
     )
     environment.filters["text"] = escaped
+    environment.filters["bookmark"] = bookmark_text
     return environment
 
 
@@ -94,7 +122,9 @@ class _Page:
             case Unit(text):
                 return f"${unit_latex(text)}$"
             case Ref(key):
-                return self._reference(self.document.numbers[key])
+                return self._reference(key)
+            case ProblemRef(of, text):
+                return rf"\problemlink{{{dotted(of)}}}{{{escaped(text)}}}"
         return ""
 
     def _inline_layout(self, expr: Any) -> Layout:
@@ -102,8 +132,16 @@ class _Page:
             return self.notation.list_of(expr)
         return self.notation.result(expr)
 
-    def _reference(self, number: int) -> str:
+    def _reference(self, key: str) -> str:
+        number = self.document.numbers[key]
         return rf"\hyperlink{{{_anchor(self.document.id, number)}}}{{({number})}}"
+
+    def anchor(self) -> str:
+        return dotted(self.document.id)
+
+    def plain(self, nodes: Sequence[Node], columns: int = 200) -> str:
+        """For bookmarks, which are no TeX."""
+        return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
 
     def display(self, display: Display) -> str:
         """The rows of an align environment; the last row of each step is numbered."""
@@ -115,22 +153,34 @@ class _Page:
         return " \\\\\n".join(steps)
 
     def _row(self, printed: Printed, stop: str) -> str:
-        left = latex(printed.left) if printed.left else ""
-        fitted = r"\fit{%s}" if printed.width > WIDTH else "%s"
-        sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
-        body = f"{left} &{sides}{stop}"
+        body = self._formula(printed, r"\fit{%s}" if printed.width > WIDTH else "%s") + stop
         reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
         if printed.number is None:
             return body + (rf" \tag*{{{reason}\blanknumber}}" if reason else r" \notag")
         anchor = rf"\anchor{{{_anchor(self.document.id, printed.number)}}}"
         return body + rf" \tag*{{{reason}\eqnumber{{{printed.number}}}}}{anchor}"
 
+    def _formula(self, printed: Printed, fitted: str = "%s", mark: str = "&") -> str:
+        """The line; `mark` is where lines below each other are aligned."""
+        left = fitted % latex(printed.left) if printed.left else ""
+        sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
+        return f"{left} {mark}{sides}"
+
     def answer(self, answer: Answer) -> str:
-        left = latex(self.notation.layout(answer.symbol))
-        right = latex(self.notation.result(answer.value))
-        if answer.rounded is None:
-            return f"{left} {MARKS[answer.relation].strip()} {right}"
-        return f"{left} = {right} {MARKS[answer.relation].strip()} {latex(self.notation.layout(answer.rounded))}"
+        lines = answer_lines(answer, self.notation, BOX)
+        note = rf" \quad\text{{{self.inline(answer.note)}}}" if answer.note else ""
+        if len(lines) == 1:
+            return self._formula(lines[0], mark="") + note
+        rows = " \\\\\n".join(self._formula(line) for line in lines)
+        return rf"\begin{{aligned}}{rows}\end{{aligned}}{note}"
+
+    def in_statement(self) -> Sequence[Illustration]:
+        return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
+
+    def drawing(self, drawing: Illustration) -> str:
+        """The file, what stands in its place where it is missing, and its caption."""
+        number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
+        return rf"{{{drawing.stem}.pdf}}{{{self.inline(drawing.alt)}}}{{{number}}}{{{self.inline(drawing.caption)}}}"
 
     def margin(self, display: Display) -> str:
         lines = [escaped(self.words.grades[display.grade])]
@@ -138,12 +188,55 @@ class _Page:
             lines.append(escaped(f"{self.words.labels['second_route']}: {display.routes[0]}"))
         return r"\\ ".join(lines)
 
+    def ways(self) -> Sequence[Ways]:
+        return self.document.checks.ways
+
+    def named(self, key: str) -> str:
+        """A step by its symbol, or by the number of its equation."""
+        symbol = self.document.symbols.get(key)
+        if symbol is not None:
+            return self._node(Math(symbol))
+        return self._reference(key) if key in self.document.numbers else escaped(key)
+
+    def more(self, count: int) -> str:
+        return self.inline(filled(self.words.labels["checked_page"]["more"], {"count": count}))
+
+    def errata(self) -> Sequence[Erratum]:
+        return self.document.checks.errata
+
+    def equation_of(self, erratum: Erratum, value: Any) -> str:
+        """`L = (...)` as the document has it, or as it should be."""
+        if isinstance(value, MatrixBase) and value.shape[1] == 1:
+            value = tuple(value)
+        right = latex(self._inline_layout(value), inline=True)
+        symbol = self.document.symbols.get(erratum.answer)
+        if isinstance(value, Expr) and erratum.answer in self.document.symbols and symbol is None:
+            return f"{right} = 0"  # an equation is stated by what vanishes in it
+        return right if symbol is None else f"{latex(self.notation.layout(symbol), inline=True)} = {right}"
+
     def closing(self) -> str:
         return rf"\textbf{{{escaped(self.words.labels['checked'])}}} {self.inline(self.document.closing)}"
 
 
+class _Questions(_Page):
+    """The same without what is derived: an equation is referred to by the part that asks for it."""
+
+    def _reference(self, key: str) -> str:
+        return escaped(f"{self.words.labels['part']} ({self.document.shown_in.get(key, '')})")
+
+
+def dotted(problem_id: str) -> str:
+    """The name of a problem's place in a document."""
+    return problem_id.replace("/", ".")
+
+
 def _anchor(problem_id: str, number: int) -> str:
-    return f"{problem_id.replace('/', '.')}.{number}"
+    return f"{dotted(problem_id)}.{number}"
+
+
+def bookmark_text(text: str) -> str:
+    """Plain text for the title of a PDF or of a bookmark, where there are no fonts and no mathematics."""
+    return "".join(escaped(c) if c.isascii() else rf"\unichar{{{ord(c)}}}" for c in text)
 
 
 def _dimension(dimension: Dimension) -> str:

@@ -196,3 +196,39 @@ def named(name: str) -> Name:
     if not dots and re.fullmatch(r"d*dot", sub):
         sub, dots = "", sub
     return Name(match["base"], sub, dots.count("d") if dots else 0)
+
+
+def width(layout: Layout) -> float:
+    """About how many characters wide a layout is in print."""
+    match layout:
+        case Number(digits):
+            return len(digits)
+        case Name(_, subscript, _, _):
+            return 1.2 + 0.7 * len(subscript)
+        case Word(text):
+            return 0.9 * len(text)
+        case Mark(kind):
+            return {"space": 0.4, "dot": 1.2, "open": 0.8, "close": 0.8}.get(kind, 2)
+        case Row(items):
+            return sum(width(item) for item in items)
+        case Fraction(above, below):
+            return max(width(above), width(below)) + 0.6
+        case Raised(base, power):
+            return width(base) + 0.7 * width(power)
+        case Lowered(base, word):
+            return width(base) + 0.6 * len(word)
+        case RootSign(inside):
+            return width(inside) + 1.5
+        case Fenced(inside, _):
+            return width(inside) + 1.6
+        case Limits(inside, lower, upper):
+            return width(inside) + 1.6 + 0.7 * max(width(lower), width(upper))
+        case Evaluated(inside, where):
+            return width(inside) + 0.3 + 0.7 * width(where)
+        case IntegralSign(lower, upper):
+            return 2.0 + (0.5 * max(width(lower), width(upper)) if lower and upper else 0)
+        case Applied(name, argument, power):
+            return 0.9 * len(name) + 0.5 + width(argument) + (0.7 * width(power) if power else 0)
+        case Array(rows):
+            columns = [max(width(line[j]) for line in rows) for j in range(len(rows[0]))]
+            return sum(columns) + 2.0 * (len(columns) - 1) + 2.6

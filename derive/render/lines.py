@@ -1,30 +1,16 @@
-"""Which forms of a chain share a line: as many as fit, a form with a reason ending its line."""
+"""Which forms of a chain share a line: as many as fit, a form with a reason ending its line; long ones take several."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from derive.document import Equations, Line
-from derive.render.layout import (
-    Applied,
-    Array,
-    Evaluated,
-    Fenced,
-    Fraction,
-    IntegralSign,
-    Layout,
-    Limits,
-    Lowered,
-    Mark,
-    Name,
-    Number,
-    Raised,
-    RootSign,
-    Row,
-    Word,
-)
+from derive.document import Answer, Equations, Line
+from derive.render.breaking import broken
+from derive.render.layout import Layout, width
 from derive.render.notation import Notation
 from derive.wording import Node, Text
+
+INDENT = 4.0  # of a line that goes on
 
 
 @dataclass(frozen=True)
@@ -48,7 +34,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
         side = (line.relation, right_side(line, notation))
         last = packed[-1] if packed else None
         if line.left is not None and packed:
-            packed.append(Printed(notation.layout(line.left), (side,), line.reason))
+            packed.append(Printed(notation.side(line.left), (side,), line.reason))
             continue
         if last and last.sides[-1][1] == side[1] and line.relation == "equals":
             continue  # what is laid out alike is one line to the reader
@@ -56,11 +42,41 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
         if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
             packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
         else:
-            left = notation.layout(line.left) if line.left is not None else None
+            left = notation.side(line.left) if line.left is not None else None
             packed.append(Printed(left, (side,), line.reason))
-    end = packed[-1]
-    packed[-1] = Printed(end.left, end.sides, end.reason, equations.number)
-    return packed
+    lines = [line for whole in packed for line in _fitted(whole, limit)]
+    lines[-1] = replace(lines[-1], number=equations.number)
+    return lines
+
+
+def answer_lines(answer: Answer, notation: Notation, limit: float) -> list[Printed]:
+    """A boxed result on as few lines as it takes."""
+    sides = [(answer.relation, notation.result(answer.value))]
+    sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]
+    whole = Printed(notation.side(answer.symbol), tuple(sides), ())
+    if whole.width <= limit:
+        return [whole]
+    begun = replace(whole, sides=whole.sides[:1])
+    return [*_fitted(begun, limit), *(Printed(None, (side,), ()) for side in sides[1:])]
+
+
+def _fitted(line: Printed, limit: float) -> list[Printed]:
+    """A line that is too long as several, if it can be broken; what it says at its end stays at its end."""
+    if line.width <= limit or len(line.sides) > 1:
+        return [line]
+    ((relation, side),) = line.sides
+    if line.left is not None and width(line.left) > width(side):
+        room = limit - 2 - width(side)
+        first, *others = broken(line.left, room, room - INDENT)
+        begun, ends = Printed(None, (("start", first),), ()), line.sides
+    else:
+        room = limit - 2 - (width(line.left) if line.left is not None else 0)
+        first, *others = broken(side, room, room - INDENT)
+        begun, ends = Printed(line.left, ((relation, first),), ()), line.sides[:0]
+    if not others:
+        return [line]
+    *between, last = (Printed(None, (("on", piece),), ()) for piece in others)
+    return [begun, *between, replace(last, sides=(*last.sides, *ends), reason=line.reason)]
 
 
 def reason_width(reason: tuple[Node, ...]) -> float:
@@ -70,39 +86,3 @@ def reason_width(reason: tuple[Node, ...]) -> float:
 
 def right_side(line: Line, notation: Notation) -> Layout:
     return notation.result(line.right) if line.presented else notation.layout(line.right)
-
-
-def width(layout: Layout) -> float:
-    """About how many characters wide a layout is in print."""
-    match layout:
-        case Number(digits):
-            return len(digits)
-        case Name(_, subscript, _, _):
-            return 1.2 + 0.7 * len(subscript)
-        case Word(text):
-            return 0.9 * len(text)
-        case Mark(kind):
-            return {"space": 0.4, "dot": 1.2}.get(kind, 2)
-        case Row(items):
-            return sum(width(item) for item in items)
-        case Fraction(above, below):
-            return max(width(above), width(below)) + 0.6
-        case Raised(base, power):
-            return width(base) + 0.7 * width(power)
-        case Lowered(base, word):
-            return width(base) + 0.6 * len(word)
-        case RootSign(inside):
-            return width(inside) + 1.5
-        case Fenced(inside, _):
-            return width(inside) + 1.6
-        case Limits(inside, lower, upper):
-            return width(inside) + 1.6 + 0.7 * max(width(lower), width(upper))
-        case Evaluated(inside, where):
-            return width(inside) + 0.3 + 0.7 * width(where)
-        case IntegralSign(lower, upper):
-            return 2.0 + (0.5 * max(width(lower), width(upper)) if lower and upper else 0)
-        case Applied(name, argument, power):
-            return 0.9 * len(name) + 0.5 + width(argument) + (0.7 * width(power) if power else 0)
-        case Array(rows):
-            columns = [max(width(line[j]) for line in rows) for j in range(len(rows[0]))]
-            return sum(columns) + 2.0 * (len(columns) - 1) + 2.6

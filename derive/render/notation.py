@@ -32,7 +32,6 @@ from sympy.core.numbers import Exp1, Pi
 
 from derive import expressions as ex
 from derive.dimensions import Dimension
-from derive.expressions import scaled
 from derive.render.layout import (
     CROSS,
     DOT,
@@ -66,27 +65,18 @@ from derive.render.products import (
     either_sign,
     number_and_letters,
     positive_first,
+    present,
     rank_of_dimension,
     root_cancelled,
+    roots_last,
     roots_together,
     side_by_side,
     sign_and_size,
 )
 from derive.rounding import Rounded, decimal_text
-from derive.tidy import factored_matrix
 
 SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
 FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
-
-
-def present(value: Any) -> Any:
-    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
-    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
-        return value
-    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
-        return value
-    factor, rest = factored_matrix(value)
-    return value if factor == 1 else scaled(factor, rest)
 
 
 class Notation:
@@ -133,12 +123,10 @@ class Notation:
             content, rest = expr.primitive()
             if content != 1 and content.q == 1:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-        terms = (
-            list(expr.args)
-            if isinstance(expr, ex.Terms)
-            else accelerations_first(positive_first(expr.as_ordered_terms()))
-        )
-        return self._terms(terms)
+        return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
+
+    def _ordered_terms(self, expr: Add) -> list[Expr]:
+        return accelerations_first(positive_first(roots_last(expr.as_ordered_terms())))
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
@@ -176,9 +164,11 @@ class Notation:
             letters = [ex.Group(letters[0])]
         if not number_below:
             return self._factors([*number_above, *letters])
-        if any(isinstance(f, Pow) for f in number_below):
+        if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
         number = Fraction(self._factors(number_above), self._factors(number_below))
+        if len(letters) == 1:
+            return row(number, self._as_factor(letters[0]))
         return row(number, self._factors(letters)) if letters else number
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
@@ -232,7 +222,7 @@ class Notation:
             name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
             return Applied(name, self._argument(base), Number(str(exponent)))
         inner = self.layout(base)
-        atomic = isinstance(inner, Name | Number) and not (isinstance(inner, Name) and inner.dots) or is_enclosed(inner)
+        atomic = isinstance(inner, Name | Number) or is_enclosed(inner)
         return Raised(inner if atomic else Fenced(inner), self.layout(exponent))
 
     def _rational(self, expr: Rational) -> Layout:
@@ -320,6 +310,9 @@ class Notation:
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
         return Lowered(Fenced(self._rate(expr)), "body")
 
+    def _component(self, expr: ex.Component) -> Layout:
+        return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
+
     def _partial(self, expr: ex.Partial) -> Layout:
         return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
 
@@ -327,10 +320,10 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
-        """dL/dt for a name, d/dt of anything longer."""
+        """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer."""
         inner = self.layout(what)
         below = row(Word(sign), by)
-        if isinstance(inner, Name):
+        if isinstance(inner, Name) or isinstance(what.base if isinstance(what, Pow) else what, ex.Norm):
             return Fraction(row(Word(sign), inner), below)
         behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
         return row(Fraction(Word(sign), below), SPACE, behind)
@@ -351,7 +344,12 @@ class Notation:
         return Evaluated(self.layout(f), row(self.layout(x), Mark("equals"), self.layout(place)))
 
     def _relation(self, expr: ex.Relation) -> Layout:
-        return row(self.layout(expr.left), Mark(expr.word), self.layout(expr.right))
+        left, right = (self.side(side) for side in expr.sides)
+        return row(left, Mark(expr.word), right)
+
+    def side(self, expr: Any) -> Layout:
+        """A side of an equation: a number common to its terms is not put before a bracket."""
+        return self._terms(self._ordered_terms(expr)) if isinstance(expr, Add) else self.layout(expr)
 
     def _identity(self, expr: Identity) -> Layout:
         return Name("1", style="tensor")
@@ -419,8 +417,8 @@ class Notation:
         (Pi, lambda self, _: Name("pi")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),
+        (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add, of which SymPy makes it a kind
         (Add | ex.Terms, _sum),
-        (MatAdd, lambda self, expr: self._terms(list(expr.args))),
         (MatMul, _matrix_product),
         (Mul, _product),
         (Pow, _power),
@@ -437,6 +435,7 @@ class Notation:
         (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
         (ex.CarriedRate, _rate),
         (ex.BodyRate, _body_rate),
+        (ex.Component, _component),
         (ex.MassIntegral, _mass_integral),
         (Integral, _integral),
         (Identity, _identity),

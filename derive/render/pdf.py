@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -99,24 +100,53 @@ def chosen_engine(name: str | None) -> Engine:
     raise BuildFailed(Complaint("no-tex", message, help=mend))
 
 
-def typeset(tex: str, target: Path, engine: Engine, *, timeout: float = 120, log: Path | None = None) -> bool:
-    """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was."""
+def typeset(
+    tex: str,
+    target: Path,
+    engine: Engine,
+    *,
+    timeout: float = 120,
+    log: Path | None = None,
+    aux: Path | None = None,
+    beside: Sequence[tuple[str, bytes]] = (),
+) -> bool:
+    """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
+
+    `aux` is a file that keeps the page numbers for the next time: if they still hold, one run is enough; `beside` are
+    files that the source includes, such as its drawings.
+    """
     kept = (log or target.parent / "log") / target.stem
     with writing(Path(tempfile.gettempdir())):
         workplace = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
     with workplace as name:
         source = Path(name) / f"{target.stem}.tex"
         write(source, tex)
+        for file, content in beside:
+            write(Path(name) / file, content)
+        noted = source.with_suffix(".aux")
+        begun = _copied(aux, noted)
         output = _passes(engine, source, timeout)
+        if output is not None and begun:  # perhaps because what was kept is damaged
+            noted.unlink(missing_ok=True)
+            output = _passes(engine, source, timeout)
         pdf = source.with_suffix(".pdf")
         if output is not None or not pdf.is_file():
             raise _failure(tex, source, output or "", engine, kept)
         changed = write(target, pdf.read_bytes())
+        _copied(noted, aux)
     for suffix in (".tex", ".log"):
         kept.with_suffix(suffix).unlink(missing_ok=True)
     if kept.parent.is_dir() and not any(kept.parent.iterdir()):
         kept.parent.rmdir()
     return changed
+
+
+def _copied(source: Path | None, target: Path | None) -> bool:
+    """Whether there was a file to copy."""
+    if source is None or target is None or not source.is_file():
+        return False
+    write(target, source.read_bytes())
+    return True
 
 
 def _passes(engine: Engine, source: Path, timeout: float) -> str | None:

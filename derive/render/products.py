@@ -5,14 +5,16 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import Any
 
-from sympy import Add, Expr, MatMul, Mul, Pow, Rational, factorint
+from sympy import Add, Expr, MatMul, MatrixBase, Mul, Pow, Rational, factorint
 
 from derive import expressions as ex
 from derive.dimensions import Dimension
+from derive.expressions import scaled
 from derive.render.layout import (
     DOT,
     MINUS,
     SPACE,
+    Applied,
     Array,
     Fraction,
     IntegralSign,
@@ -29,6 +31,7 @@ from derive.render.layout import (
     last_of,
     row,
 )
+from derive.tidy import factored_matrix
 
 
 def decimal(number: Rational) -> Layout:
@@ -38,6 +41,16 @@ def decimal(number: Rational) -> Layout:
         return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
     places = max(factorint(number.q).values(), default=0)
     return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+
+
+def present(value: Any) -> Any:
+    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
+    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
+        return value
+    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
+        return value
+    factor, rest = factored_matrix(value)
+    return value if factor == 1 else scaled(factor, rest)
 
 
 def sign_and_size(term: Any) -> tuple[bool, Any]:
@@ -66,6 +79,15 @@ def either_sign(term: Any) -> Any | None:
     return ex.Factors(*factors) if isinstance(term, ex.Factors) and len(factors) > 1 else Mul(*factors)
 
 
+def roots_last(terms: list[Any]) -> list[Any]:
+    """Of numbers with their units, the root of a sum stands behind the others, as it does with letters."""
+
+    def is_root(term: Any) -> bool:
+        return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
+
+    return sorted(terms, key=is_root) if any(term.has(ex.Amount) for term in terms) else terms
+
+
 def positive_first(terms: list[Any]) -> list[Any]:
     """c^2 - a^2, not -a^2 + c^2."""
     if terms and sign_and_size(terms[0])[0]:
@@ -76,8 +98,20 @@ def positive_first(terms: list[Any]) -> list[Any]:
 
 
 def accelerations_first(terms: list[Any]) -> list[Any]:
-    """In an equation of motion the terms with accelerations lead; all others keep their order."""
-    return sorted(terms, key=lambda term: not any(s.name.endswith("_ddot") for s in term.free_symbols))
+    """In an equation of motion the terms with accelerations lead, then those with one rate; others keep their order."""
+
+    def place(term: Any) -> int:
+        rates = [s for s in term.free_symbols if s.name.endswith("_dot")]
+        accelerates = any(s.name.endswith("_ddot") for s in term.free_symbols)
+        return (
+            0
+            if accelerates
+            else 1
+            if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates))
+            else 2
+        )
+
+    return sorted(terms, key=place)
 
 
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
@@ -114,21 +148,29 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 
 def roots_together(expr: Expr) -> Expr | None:
-    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction; nothing for a single root, or for roots of numbers."""
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers within it as square roots.
+
+    Nothing for a single root, or for roots of numbers alone.
+    """
     factors = Mul.make_args(expr)
-    roots = [f for f in factors if isinstance(f, Pow) and abs(f.exp) == Rational(1, 2)]
-    if len(roots) < 2 or not any(root.free_symbols for root in roots):
+    roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
+    if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
         return None
     inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
     return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
+
+
+def _is_fourth_root(factor: Pow) -> bool:
+    """2^(1/4), which under a square root is sqrt(2)."""
+    return bool(factor.base.is_Integer and factor.exp.is_Rational and factor.exp.q == 4)
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
     """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:
         return 4
-    if dimension.mass and not dimension.length:
-        return 0
+    if dimension.mass and dimension.length >= 0 and not dimension.time:
+        return 0  # a mass, a moment of inertia
     if dimension.mass:
         return 4
     if dimension.length and dimension.time:
@@ -149,6 +191,8 @@ def between(before: Layout, after: Layout) -> Layout | None:
     """What stands between two factors as written: nothing between different letters, a dot where they run together."""
     if begins_with_number(after):
         return DOT
+    if isinstance(first_of(after), Applied):
+        return SPACE
     last = last_of(before)
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
         return SPACE

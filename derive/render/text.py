@@ -41,6 +41,10 @@ MARKS = {
     "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",
+    "open": "(",
+    "close": ")",
+    "start": "",
+    "on": "    ",
 }
 UNITS = {"degree": "°", "deg": "°", "partial": "∂"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
@@ -88,14 +92,21 @@ def box(layout: Layout) -> Box:
     return Box((_line(layout),))
 
 
+def _subscript(text: str) -> str:
+    """Letters run together; a word stands behind a comma."""
+    parts = text.split("_")
+    return GREEK.get(text, ("," if any(len(part) > 2 for part in parts) else "").join(parts))
+
+
 def _line(layout: Layout) -> str:
     match layout:
         case Number(digits):
             return digits
         case Name(base, subscript, dots, style):
-            letter = GREEK.get(base, base) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
+            unprimed = base.rstrip("'")
+            letter = GREEK.get(unprimed, unprimed) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
             mark = "\u20d7" if style == "vector" and base != "0" else ""
-            return letter + mark + (f"_{GREEK.get(subscript, subscript).replace('_', '')}" if subscript else "")
+            return letter + mark + base[len(unprimed) :] + (f"_{_subscript(subscript)}" if subscript else "")
         case Word(text):
             return UNITS.get(text, text)
         case Mark(kind):
@@ -105,7 +116,8 @@ def _line(layout: Layout) -> str:
         case Raised(base, power):
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
-            return _line(base) + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+            letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
+            return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
         case Lowered(base, word):
             return f"{plain(base)}_{word}"
         case RootSign(inside):
@@ -167,7 +179,7 @@ def _is_sign_of_change(layout: Layout) -> bool:
 def _is_differential(layout: Layout) -> bool:
     """d or dx, which need no brackets above or below a stroke."""
     first = layout.items[0] if isinstance(layout, Row) else layout
-    return _is_sign_of_change(first) and (not isinstance(layout, Row) or len(layout.items) == 2)
+    return _is_sign_of_change(first)
 
 
 def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:

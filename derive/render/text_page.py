@@ -7,16 +7,18 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from derive.dimensions import exponents
-from derive.document import Answer, Answers, Display, Document, Paragraph, PartPage
+from derive.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
 from derive.parts import points_text
+from derive.placement import STATEMENT
 from derive.render.layout import Layout, Mark, row
-from derive.render.lines import Printed, printed_lines
+from derive.render.lines import Printed, answer_lines, printed_lines
 from derive.render.notation import Notation
 from derive.render.text import MARKS, plain
-from derive.wording import DimensionMark, Math, Node, Phrases, Ref, Text, Unit
+from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
 
 COLUMNS = 88
 WIDTH = 60.0
+BOX = 70.0
 STARTS = tuple(MARKS[kind] for kind in ("equals", "approx", "unequal", "less", "greater", "at_most", "at_least"))
 
 
@@ -42,6 +44,8 @@ def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
             return text
         case Ref(key):
             return f"({numbers[key]})"
+        case ProblemRef(_, text):
+            return text
     return ""
 
 
@@ -52,6 +56,7 @@ class _Page:
     def text(self) -> str:
         title = self._with_points(self._inline(self.document.title), self.document.points)
         blocks = [title, "=" * COLUMNS, self._wrapped(self.document.statement)]
+        blocks += [line for i in self.document.illustrations if i.at == STATEMENT for line in ("", self._drawing(i))]
         for part in self.document.parts:
             blocks += ["", self._part(part)]
         blocks += ["", "-" * COLUMNS, self._wrapped((Text(self.words.labels["checked"] + " "), *self.document.closing))]
@@ -68,7 +73,17 @@ class _Page:
                     blocks += ["", self._display(block)]
                 case Answers(answers):
                     blocks += ["", *(self._answer(answer) for answer in answers)]
+                case Illustration():
+                    blocks += ["", self._drawing(block)]
         return "\n".join(blocks)
+
+    def _drawing(self, illustration: Illustration) -> str:
+        """What it shows, and its caption below."""
+        figure = self.words.labels["figure"]
+        shown = self._wrapped((Text(f"[{figure.lower()}: "), *illustration.alt, Text("]")))
+        if illustration.number is None:
+            return shown
+        return shown + "\n" + self._wrapped((Text(f"{figure} {illustration.number}. "), *illustration.caption))
 
     def _with_points(self, text: str, points: Any) -> str:
         if points is None:
@@ -89,17 +104,23 @@ class _Page:
         lines: list[str] = []
         for group in display.groups:
             printed = printed_lines(group, self.notation, WIDTH)
-            indent = max(len(plain(line.left)) for line in printed if line.left is not None)
+            indent = max((len(plain(line.left)) for line in printed if line.left is not None), default=0)
             for line in printed:
                 lines += self._line(line, indent)
         return "\n".join(lines)
 
-    def _line(self, line: Printed, indent: int) -> list[str]:
+    def _body(self, line: Printed, indent: int) -> list[str]:
+        """The formula, its relations below each other."""
         items: list[Layout] = [item for relation, side in line.sides for item in (Mark(relation), side)]
         body = plain(row(*items)).split("\n")
         left = plain(line.left) if line.left else ""
-        middle = next((i for i, text in enumerate(body) if text.startswith(STARTS)), 0)
-        lines = ["    " + (left.rjust(indent) if i == middle else " " * indent) + text for i, text in enumerate(body)]
+        middle = _middle(body)
+        return [(left.rjust(indent) if i == middle else " " * indent) + text for i, text in enumerate(body)]
+
+    def _line(self, line: Printed, indent: int) -> list[str]:
+        lines = self._body(line, indent)
+        middle = _middle([text[indent:] for text in lines])
+        lines = ["    " + text for text in lines]
         reason = f"[{self._inline(line.reason)}]" if line.reason else ""
         if reason and len(lines[middle]) + len(reason) + 10 <= COLUMNS:
             lines[middle] += "  " + reason
@@ -113,13 +134,18 @@ class _Page:
         return lines
 
     def _answer(self, answer: Answer) -> str:
-        relation = "equals" if answer.rounded is not None else answer.relation
-        items: list[Layout] = [self.notation.layout(answer.symbol), Mark(relation), self.notation.result(answer.value)]
-        if answer.rounded is not None:
-            items += [Mark(answer.relation), self.notation.layout(answer.rounded)]
-        body = plain(row(*items)).split("\n")
+        lines = answer_lines(answer, self.notation, BOX)
+        indent = max((len(plain(line.left)) for line in lines if line.left is not None), default=0)
+        body = [text for line in lines for text in self._body(line, indent)]
+        if answer.note:
+            body = [f"{body[0]}   {self._inline(answer.note)}", *body[1:]]
         size = max(map(len, body))
         rule = "─" * (size + 2)
         return "\n".join(
             ["    ┌" + rule + "┐", *(f"    │ {text.ljust(size)} │" for text in body), "    └" + rule + "┘"]
         )
+
+
+def _middle(body: Sequence[str]) -> int:
+    """The line of a formula of several on which its relation stands."""
+    return next((i for i, text in enumerate(body) if text.startswith(STARTS)), 0)

@@ -1,5 +1,8 @@
 """A slab that rocks on a fixed cylinder: where it is stable, how fast it swings, and what holds it there."""
 
+from sympy import pi
+
+from derive.figures import drawing, plot, slab_on_cylinder
 from derive.given import Acceleration, Length, Mass, MomentOfInertia
 from derive.mechanics import (
     boundary_case,
@@ -29,9 +32,12 @@ from derive.mechanics import (
 def solve(radius: Length, thickness: Length, mass: Mass, inertia: MomentOfInertia, gravity: Acceleration):
     theta = coordinate("theta")
     x, y = rolled_centre(radius, thickness / 2, theta)  # no slipping: the contact moves on by R theta
+    drawing("slab", slab_on_cylinder(radius, thickness, theta.symbol), view="plane")
+    drawing("rolled", slab_on_cylinder(radius, thickness, theta.symbol, (x, y), mass * gravity), view="plane")
 
     T = plane_kinetic_energy(mass, (rate_of(x), rate_of(y)), (x, y), inertia, theta)
     U = weight_energy(mass, gravity, (x, y))
+    plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
     L = lagrangian(T, U)
     motion = equation_of_motion(L, theta)  # d/dt dL/dtheta_dot = dL/dtheta
 

@@ -30,7 +30,8 @@ Verbs = SimpleNamespace
 
 BODIES, INERTIA, ROTATION = "mechanics.bodies", "mechanics.inertia", "mechanics.rotation"
 EQUATIONS, INTEGRATION, NUMBERS = "mechanics.equations", "mechanics.integration", "numbers"
-DEFINITIONS = {"any_angular_velocity", "let"}
+REGIONS = "mechanics.regions"
+DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let"}
 
 
 def block_of(verbs: Verbs) -> Any:
@@ -72,39 +73,69 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
 
 # what is called, module, a piece of its source, what is put there, the step that must refuse
 LAWS = [
-    ("density", BODIES, "Ratio(mass, sides)", "Ratio(2 * mass, sides)", "density"),
-    ("density", BODIES, "Ratio(mass, sides)", "Ratio(sides, mass)", "density"),
-    ("density", BODIES, "return Factors(*sides)", "return Factors(*sides[:2])", "density"),
+    ("density", BODIES, "Ratio(mass, extent),", "Ratio(2 * mass, extent),", "density"),
+    ("density", BODIES, "Ratio(mass, extent),", "Ratio(extent, mass),", "density"),
+    ("density", BODIES, "return Factors(*self.sides)", "return Factors(*self.sides[:2])", "density"),
     ("centre_of_mass", BODIES, "Pow(mass, -1), whole", "Pow(mass, -2), whole", "centre_of_mass"),
     ("centre_of_mass", BODIES, "Pow(mass, -1), whole", "2, Pow(mass, -1), whole", "centre_of_mass"),
-    ("centre_of_mass", BODIES, 'vector("r"), body.corner', 'vector("r"), body.middle', "centre_of_mass"),
+    ("centre_of_mass", BODIES, "region = body.within(start, ", "region = body.within(body.middle, ", "centre_of_mass"),
     # the entries of the inertia tensor
     ("inertia_tensor", INERTIA, "enumerate(at) if k != i)", "enumerate(at) if k == i)", "corner_tensor_xx"),
     ("inertia_tensor", INERTIA, "sum((x**2 for k, x", "sum((x**3 for k, x", "corner_tensor_xx"),
-    ("inertia_tensor", INERTIA, "-at[i] * at[j]\n    integral", "at[i] * at[j]\n    integral", "corner_tensor_xy"),
-    ("inertia_tensor", INERTIA, "-at[i] * at[j]\n    integral", "-at[i] ** 2\n    integral", "corner_tensor_xy"),
-    ("inertia_tensor", INERTIA, "Factors(-rho, integral", "Factors(rho, integral", "corner_tensor_xy"),
-    ("inertia_tensor", INERTIA, "integral(weight, point", "integral(weight, body.middle", "corner_tensor_xx"),
+    ("inertia_tensor", INERTIA, "else -at[i] * at[j]", "else at[i] * at[j]", "corner_tensor_xy"),
+    ("inertia_tensor", INERTIA, "else -at[i] * at[j]", "else -at[i] ** 2", "corner_tensor_xy"),
+    ("inertia_tensor", INERTIA, "Factors(-rho, region", "Factors(rho, region", "corner_tensor_xy"),
+    (
+        "inertia_tensor",
+        INERTIA,
+        "region = body.within(point, ",
+        "region = body.within(body.middle, ",
+        "corner_tensor_xx",
+    ),
     # and the whole of it
     ("inertia_tensor", INERTIA, "Integer(-1), Outer(r, r)", "Integer(1), Outer(r, r)", "corner_tensor"),
     ("inertia_tensor", INERTIA, "Dot(r, r), Identity(3)", "2 * Dot(r, r), Identity(3)", "corner_tensor"),
     ("inertia_tensor", INERTIA, "at[(min(i, j), max(i, j))]", "at[(2 - max(i, j), 2 - min(i, j))]", "corner_tensor"),
     ("inertia_tensor", INERTIA, "at[(min(i, j), ", "(-1) ** int(bool(i > j)) * at[(min(i, j), ", "corner_tensor"),
-    ("inertia_tensor at once", BODIES, "-start, side - start)", "-start, side)", "inertia_tensor_xx"),
+    ("inertia_tensor at once", REGIONS, "-start, side - start)", "-start, side)", "inertia_tensor_xx"),
     ("inertia_tensor at once", BODIES, "*(side / 2 for side", "*(side / 3 for side", "inertia_tensor"),
     # an integral's lines, one by one
     (
         "inertia_tensor",
         INTEGRATION,
-        "Integral(f, limit) for f, limit in parts))",
-        "Integral(f**2, limit) for f, limit in parts))",
+        "_separated(sign * term, region",
+        "_separated(2 * sign * term, region",
         "corner_tensor_xx",
     ),
-    ("inertia_tensor", INTEGRATION, "if f.has(limit[0])))", "if not f.has(limit[0])))", "corner_tensor_xx"),
-    ("inertia_tensor", INTEGRATION, "Bracket(integrate(f, x), x, lower", "Bracket(f, x, lower", "corner_tensor_xx"),
-    ("inertia_tensor", INTEGRATION, "x, lower, upper) for f", "x, upper, lower) for f", "corner_tensor_xx"),
-    ("inertia_tensor", INTEGRATION, "values = [explicit(", "values = [2 * explicit(", "corner_tensor_xx"),
-    ("inertia_tensor", INTEGRATION, "[Mul(*(explicit(", "[Mul(2, *(explicit(", "corner_tensor_xx"),
+    (
+        "inertia_tensor",
+        INTEGRATION,
+        "Mul(*(f for f in Mul.make_args(rest) if any(",
+        "Mul(*(f**2 for f in Mul.make_args(rest) if any(",
+        "corner_tensor_xx",
+    ),
+    (
+        "inertia_tensor",
+        INTEGRATION,
+        "Bracket(whole, x, lower, upper)",
+        "Bracket(own, x, lower, upper)",
+        "corner_tensor_xx",
+    ),
+    (
+        "inertia_tensor",
+        INTEGRATION,
+        "Bracket(whole, x, lower, upper)",
+        "Bracket(whole, x, upper, lower)",
+        "corner_tensor_xx",
+    ),
+    ("inertia_tensor", INTEGRATION, "values = [tuple(_one", "values = [tuple(2 * _one", "corner_tensor_xx"),
+    (
+        "inertia_tensor",
+        INTEGRATION,
+        "[Mul(*term) for term in values]",
+        "[Mul(2, *term) for term in values]",
+        "corner_tensor_xx",
+    ),
     ("inertia_tensor", INTEGRATION, "Form(rho * value,", "Form(rho * value / 2,", "corner_tensor_xx"),
     ("inertia_tensor", INTEGRATION, "Group(volume * rho), rest", "Group(volume * rho), rest**2", "corner_tensor_xx"),
     (
@@ -114,20 +145,19 @@ LAWS = [
         "number, rest = number, -rest",
         "corner_tensor_xy",
     ),
-    ("inertia_tensor", INTEGRATION, "return Factors(rho, *_flat", "return Factors(-rho, *_flat", "corner_tensor_xy"),
+    (
+        "inertia_tensor",
+        INTEGRATION,
+        "front = [] if rho == 1 else [rho]",
+        "front = [] if rho == 1 else [-rho]",
+        "corner_tensor_xx",
+    ),
     # parallel axes, entry by entry and as a whole
-    ("moved_to", INERTIA, "for k in range(3) if k != i))", "for k in range(3)))", "inertia_tensor_xx"),
-    ("moved_to", INERTIA, "-Factors(mass, Terms(", "Factors(mass, Terms(", "inertia_tensor_xx"),
+    ("moved_to", INERTIA, "for k in range(3) if k != i and not", "for k in range(3) if not", "inertia_tensor_xx"),
+    ("moved_to", INERTIA, "-Factors(mass, shift)", "Factors(mass, shift)", "inertia_tensor_xx"),
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "-Factors(mass, c[i], c[j])", "inertia_tensor_xy"),
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "Factors(mass, c[i], c[i])", "inertia_tensor_xy"),
     ("moved_to", BODIES, "*(side / 2 for side", "*(side / 3 for side", "corner_tensor"),
-    (
-        "moved_to",
-        INERTIA,
-        "tensor(symbol),\n        lambda *six: _symmetric(six)",
-        "tensor(symbol),\n        lambda *six: _symmetric((six[1], six[0], *six[2:]))",
-        "inertia_tensor",
-    ),
     # rotation
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(w, d)", "spin"),
     ("spin", ROTATION, "scaled(w / Norm(d), d)", "scaled(-w / Norm(d), d)", "spin"),
@@ -176,7 +206,7 @@ LAWS = [
     ("magnitude", EQUATIONS, "squares = [entry**2 for", "squares = [entry**4 for", "magnitude"),
     ("magnitude", EQUATIONS, "Factors(size, Root", "Factors(size**2, Root", "magnitude"),
     # numbers
-    ("value_of", NUMBERS, "lambda: substituted,", "lambda: substituted**2,", "magnitude_value"),
+    ("value_of", NUMBERS, "lambda: within(substituted),", "lambda: within(substituted**2),", "magnitude_value"),
     ("value_of", NUMBERS, "{letter: amounts[letter] for", "{letter: amounts[letter].args[0] for", "magnitude_value"),
     (
         "value_of",
@@ -199,12 +229,18 @@ LAWS = [
 
 # what is called, module, a piece of its second route, what is put there, the step that must refuse
 ROUTES = [
-    ("density", BODIES, "(body.integral(rho, body", "(body.integral(2 * rho, body", "density"),
-    ("centre_of_mass", BODIES, "total + mass * place", "total + 2 * mass * place", "centre_of_mass"),
+    ("density", BODIES, "(region.integral(rho), body", "(region.integral(2 * rho), body", "density"),
+    ("centre_of_mass", BODIES, "mass * start.seen(place)", "2 * mass * start.seen(place)", "centre_of_mass"),
     ("inertia_tensor", BODIES, "self.mass / 6, column", "self.mass / 8, column", "corner_tensor_xx"),
-    ("inertia_tensor", INERTIA, "n, place - point.position", "n, point.position", "corner_tensor_xx"),
+    (
+        "inertia_tensor",
+        INERTIA,
+        "Cross(n, point.seen(place))",
+        "Cross(n, 2 * point.seen(place))",
+        "corner_tensor_xx",
+    ),
     ("inertia_tensor", INERTIA, "explicit(Dot(n, tensor * n))", "explicit(Dot(n, n))", "corner_tensor"),
-    ("moved_to", INERTIA, "integral(weight, body.middle", "integral(weight, body.corner", "inertia_tensor_xx"),
+    ("moved_to", INERTIA, "- at[i] * at[j], middle)", "- at[i] * at[j], start)", "inertia_tensor_xx"),
     ("spin", ROTATION, "(length_by_turning(omega), size)", "(length_by_turning(omega), size + 1)", "spin"),
     ("spin", ROTATION, "along.value)), rate * length)", "along.value)), 2 * rate * length)", "spin"),
     ("kinetic_energy", ROTATION, "Cross(omega.value, r))) / 2", "Cross(omega.value, r)))", "kinetic_energy"),
@@ -233,7 +269,7 @@ ROUTES = [
         "kinetic_energy_at_spin",
     ),
     ("magnitude", EQUATIONS, "length_by_turning(of.value)", "length_by_turning(2 * of.value)", "magnitude"),
-    ("value_of", NUMBERS, "_by_floats(answer.value, letters", "_by_floats(answer.value**2, letters", "magnitude_value"),
+    ("value_of", NUMBERS, "_by_floats(value, letters", "_by_floats(value**2, letters", "magnitude_value"),
     (
         "coefficient_of",
         NUMBERS,

@@ -1,0 +1,111 @@
+"""How a problem was checked, counted: what its closing note and the last page of its set tell.
+
+A step counts by the least sure of its evidence. A second route counts for every result that it was taken to.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from derive.errata import Erratum
+from derive.evidence import Evidence, Grade
+from derive.reference import Told
+from derive.step import Step
+from derive.wording import Node, Phrases, filled
+
+LEAST_SURE = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Second routes in words, and the steps, all of one rule, to whose results they were taken."""
+
+    steps: tuple[str, ...]
+    routes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Checks:
+    """The counts, the second routes, and what is wrong in the source document."""
+
+    steps: Mapping[Grade, int]
+    lines: Mapping[Grade, int]
+    routes: Mapping[Grade, int]
+    ways: tuple[Ways, ...]
+    agree: int
+    agree_to_figures: int
+    errata: tuple[Erratum, ...]
+
+    @property
+    def compared(self) -> int:
+        """How many statements of the source document were compared."""
+        return self.agree + self.agree_to_figures + len(self.errata)
+
+    def counts(self) -> dict[str, int]:
+        """The numbers of the last page's table, by the names of its columns."""
+        return {
+            **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE},
+            "lines": sum(self.lines.values()),
+            "routes": sum(self.routes.values()),
+            "routes_proved": self.routes.get(Grade.PROVED, 0),
+            "agree": self.agree,
+            "agree_to_figures": self.agree_to_figures,
+            "errata": len(self.errata),
+        }
+
+    def closing(self, words: Phrases) -> tuple[Node, ...]:
+        """The note at the end of a problem."""
+        names: dict[str, Any] = {
+            "lines": sum(self.lines.values()),
+            "lines_by_grade": _by_grade(self.lines, words),
+            "routes": sum(self.routes.values()),
+            "routes_by_grade": _by_grade(self.routes, words),
+            "compared": self.compared,
+            "agree": self.agree + self.agree_to_figures,
+            "errata": len(self.errata),
+        }
+        return filled(words.labels["closing"], names)
+
+
+def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -> Checks:
+    """What was done for these steps, and how the source document compares."""
+    steps = list(steps)
+    evidence = [(step, e) for step in steps for e in step.evidence]
+    lines = [e for _, e in evidence if _is_of_line(e)]
+    routes = [(step, e) for step, e in evidence if not _is_of_line(e) and e.grade is not Grade.DEFINITION]
+    outcomes = [told.outcome for told in compared]
+    return Checks(
+        steps=Counter(_grade(step) for step in steps),
+        lines=Counter(e.grade for e in lines),
+        routes=Counter(e.grade for _, e in routes),
+        ways=_ways(routes, words),
+        agree=outcomes.count("agrees"),
+        agree_to_figures=sum(outcome.startswith("agrees to") for outcome in outcomes),
+        errata=tuple(told.erratum for told in compared if told.erratum),
+    )
+
+
+def _ways(routes: Sequence[tuple[Step, Evidence]], words: Phrases) -> tuple[Ways, ...]:
+    told: dict[Step, list[str]] = {}
+    for step, evidence in routes:
+        told.setdefault(step, []).append(words.route(step, evidence.claim))
+    alike: dict[tuple[str, tuple[str, ...]], list[str]] = {}
+    for step, said in told.items():
+        alike.setdefault((step.rule, tuple(said)), []).append(step.key)
+    return tuple(Ways(tuple(keys), said) for (_, said), keys in alike.items())
+
+
+def _is_of_line(evidence: Evidence) -> bool:
+    return evidence.claim.startswith("line ")
+
+
+def _grade(step: Step) -> Grade:
+    grades = {e.grade for e in step.evidence}
+    return next(grade for grade in LEAST_SURE if grade in grades)
+
+
+def _by_grade(counts: Mapping[Grade, int], words: Phrases) -> str:
+    return ", ".join(f"{counts[grade]} {words.grades[grade]}" for grade in Grade if counts.get(grade))

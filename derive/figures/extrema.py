@@ -1,0 +1,75 @@
+"""The extrema of a curve: zeros of its exact derivative, found by sign and narrowed down; their kind by that sign.
+
+Second route: the curve itself, which must lie on one side of the extremum's value near it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from sympy import Expr, Symbol, diff, lambdify
+
+from derive.errors import Complaint, Rejected, Unverified
+
+STEPS = 1009  # odd, and prime, so that the zero of a symmetric range lies within a step and not at its end
+MINIMUM, MAXIMUM = "minimum", "maximum"
+
+
+@dataclass(frozen=True)
+class Extremum:
+    """Where a curve turns, and what it is there."""
+
+    at: float
+    value: float
+    kind: str
+
+
+def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:
+    """Points of the curve, evenly spaced; a curve that is not real and finite throughout is refused."""
+    f = lambdify([variable], expr, "math")
+    points = [lower + (upper - lower) * i / steps for i in range(steps + 1)]
+    try:
+        found = [(x, float(f(x))) for x in points]
+    except (ValueError, ZeroDivisionError, OverflowError, TypeError):
+        found = []
+    if not found or not all(isfinite(y) for _, y in found):
+        raise Rejected(Complaint("drawing", f"the curve of {expr} is not real and finite over its whole range"))
+    return found
+
+
+def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[Extremum, ...]:
+    """The extrema of an expression in one letter, strictly within the range."""
+    f, slope = (lambdify([variable], each, "math") for each in (expr, diff(expr, variable)))
+    xs = [lower + (upper - lower) * i / STEPS for i in range(STEPS + 1)]
+    slopes = [slope(x) for x in xs]
+    found = []
+    for i in range(STEPS):
+        if slopes[i] * slopes[i + 1] < 0:
+            at = _narrowed(slope, xs[i], xs[i + 1])
+            at = 0.0 if abs(at) < 1e-9 * (upper - lower) else at
+            kind = MINIMUM if slopes[i] < 0 else MAXIMUM
+            _confirm(f, at, (upper - lower) / STEPS, kind)
+            found.append(Extremum(at, float(f(at)), kind))
+    return tuple(found)
+
+
+def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
+    """By halves, to the last bit."""
+    below = slope(low) < 0
+    for _ in range(80):
+        middle = (low + high) / 2
+        if (slope(middle) < 0) == below:
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+def _confirm(f: Callable[[float], Any], at: float, step: float, kind: str) -> None:
+    """The curve a step to either side is higher than at a minimum, lower than at a maximum."""
+    rises = [f(at + side * step) - f(at) for side in (-1, 1)]
+    if not all(rise > 0 if kind == MINIMUM else rise < 0 for rise in rises):
+        raise Unverified(Complaint("unverified", f"at {at:g} the curve has no {kind}, though its slope says so"))

@@ -1,0 +1,147 @@
+"""Whole scenes of mechanics: a top that leans on its pivot, a slab rolled on a cylinder.
+
+Each is a list of marks for `drawing()`, so that a script can add its own marks to it.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+from sympy import Add, Expr, Integer, Rational, Symbol, cos, pi, sin
+
+from derive.expressions import column, scalar
+from derive.figures.bodies import ORIGIN, Y, Z, round_outline
+from derive.figures.marks import (
+    AngleMark,
+    Arrow,
+    Axis,
+    Circle,
+    Dot,
+    Length,
+    Line,
+    Mark,
+    Polygon,
+    RodMark,
+    Support,
+    Turn,
+)
+from derive.mechanics.composed import Composed, Part
+from derive.mechanics.solids import Ball, Cone, Cylinder
+from derive.mechanics.thin_bodies import Rod
+from derive.step import Quantity
+
+TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
+
+
+def leaning_top(
+    body: Composed,
+    tilt: Expr,
+    angle: Any = None,
+    precession: Any = None,
+    spin: Any = None,
+    weight: Any = None,
+    azimuth: Expr = TO_THE_RIGHT,
+) -> list[Mark]:
+    """A body on a leaning axis that stands on a pivot: the vertical Z, the tilt, the turning about both axes.
+
+    body               parts on one axis, each at a height above the pivot
+    tilt               angle between that axis and the vertical; `angle` is its name, if it is not a letter itself
+    precession, spin   names of the rates round the vertical and round the axis; nothing is drawn for one without a name
+    weight             name of the weight, or the pair of it and the distance of the centre of mass from the pivot
+    azimuth            to which side it leans
+    """
+    e = column(sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt))
+    far = max((part.at + _half(part.body) for part in body.parts), key=_in_units)
+    near = min((part.at for part in body.parts if not isinstance(part.body, Rod)), key=_in_units, default=far / 2)
+    named = angle if angle is not None else tilt
+    marks: list[Mark] = [
+        Support(ORIGIN, label=scalar("O")),
+        *(mark for part in body.parts for mark in _part(part, body, e)),
+        Axis(ORIGIN, Rational(5, 4) * far * Z, label=Symbol("Z", real=True)),
+        AngleMark(ORIGIN, Z, e, Rational(7, 10) * near, label=named),
+    ]
+    if spin is not None:
+        marks += [
+            Line(far * e, Rational(5, 4) * far * e, "construction"),
+            Turn(Rational(9, 8) * far * e, e, Rational(1, 9), label=spin),
+        ]
+    if precession is not None and tilt != 0:  # upright, one cannot tell the two turns apart
+        marks.append(Turn(Rational(11, 10) * far * Z, Z, Rational(1, 7), label=precession))
+    return marks if weight is None else [*marks, *_weight(weight, body, e)]
+
+
+def _part(part: Part, whole: Composed, e: Any) -> list[Mark]:
+    """The outline of a part on the leaning axis; a rod in pieces, so that the bodies on it hide what is behind them."""
+    start = part.at - part.body.middle.position[2]  # of the part's own z, above the pivot
+    if not isinstance(part.body, Rod):
+        return round_outline(part.body, lambda z: (start + z) * e, e)
+    cuts = [other.at for other in whole.parts if not isinstance(other.body, Rod) and _in_units(other.at - start) > 0]
+    ends = [start, *(cut for cut in cuts if _in_units(cut) < _in_units(start + part.body.length))]
+    return [RodMark(a * e, b * e) for a, b in pairwise([*ends, start + part.body.length])]
+
+
+def _half(body: Any) -> Expr:
+    """How far a part reaches beyond its centre of mass, upwards along the axis."""
+    if isinstance(body, Rod | Cylinder):
+        return getattr(body, "height", getattr(body, "length", 0)) / 2
+    if isinstance(body, Cone):
+        return body.height / 4
+    return body.radius if isinstance(body, Ball) else Integer(0)
+
+
+def _in_units(length: Expr) -> float:
+    """A length with every letter one, to put lengths in order."""
+    return float(length.subs(dict.fromkeys(length.free_symbols, 1)))
+
+
+def _weight(weight: Any, body: Composed, e: Any) -> list[Mark]:
+    """The weight in the centre of mass of the whole: as derived, or of the parts."""
+    name, distance = weight if isinstance(weight, tuple) else (weight, None)
+    keys: tuple[str, ...] = ()
+    if isinstance(distance, Quantity):
+        centre, keys = distance.value * e, (distance.key,)
+    else:
+        masses = [part.body.mass for part in body.parts]
+        moments = [part.body.mass * part.at for part in body.parts]
+        centre = (Add(*moments) / Add(*masses)).cancel() * e
+    return [Dot(centre, keys=keys), Arrow(centre, -Z, Rational(1, 2), False, label=name, keys=keys)]
+
+
+def slab_on_cylinder(
+    radius: Expr, thickness: Expr, angle: Expr, centre: Any = None, weight: Any = None, half_length: Expr | None = None
+) -> list[Mark]:
+    """A slab rolled on a fixed cylinder, seen along its axis: x to the right, y upwards, angles clockwise.
+
+    radius        of the cylinder; its axis is the origin O
+    thickness     of the slab
+    angle         by which it has turned, positive to the right; balanced on top at zero
+    centre        the two quantities (x, y) that say where its centre is: drawn with the contact and how far it moved
+    weight        name of the weight, which acts in the centre
+    half_length   of the slab, as drawn; one and a half radii and half its thickness if it is left out
+    """
+    reach = half_length if half_length is not None else Rational(3, 2) * radius + thickness / 2
+    along, across = column(cos(angle), -sin(angle), 0), column(sin(angle), cos(angle), 0)
+    contact = radius * across
+    foot = contact - radius * angle * along  # the point of the face under the centre, R q behind the contact
+    corners = [foot + s * reach * along + h * across for s, h in ((-1, 0), (1, 0), (1, thickness), (-1, thickness))]
+    marks: list[Mark] = [
+        Circle(ORIGIN, Z, radius, True),
+        Polygon(tuple(corners)),
+        Line(ORIGIN, Rational(13, 10) * radius * Y + thickness * Y, "construction"),
+        Line(ORIGIN, contact, "construction", label=radius),
+        Dot(ORIGIN, label=Symbol("O", real=True)),
+        AngleMark(ORIGIN, Y, across, Rational(2, 5) * radius, label=angle),
+        Length(corners[1], corners[2], along, label=thickness),
+    ]
+    if centre is None:
+        return marks
+    place, keys = column(centre[0].value, centre[1].value, 0), tuple(quantity.key for quantity in centre)
+    marks += [
+        Line(foot, foot + thickness * across, "hidden"),
+        Line(contact, contact + thickness * across, "hidden"),
+        Dot(contact, label=Symbol("P", real=True)),
+        Dot(place, label=Symbol("C", real=True), keys=keys),
+        Length(foot + thickness * across, contact + thickness * across, across, label=radius * angle),
+    ]
+    return marks if weight is None else [*marks, Arrow(place, -Y, Rational(1, 4), False, label=weight, keys=keys)]

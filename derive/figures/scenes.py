@@ -1,0 +1,213 @@
+"""The words in which a script describes a drawing, in terms of the bodies and quantities that it derives with.
+
+    drawing("vectors", outline(block), arrow(omega, block.middle), arrow(L, block.middle), angle(omega, L, theta))
+
+A quantity brings its name and its key along; a plain expression is taken as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Expr, Integer, MatrixBase, Rational, Symbol
+
+from derive.errors import Complaint, Rejected
+from derive.evidence import Grade
+from derive.expressions import AXES, column, explicit, scalar
+from derive.figures.bodies import ORIGIN, outline
+from derive.figures.marks import (
+    PLANE,
+    SPACE,
+    AngleMark,
+    Arrow,
+    Axis,
+    AxisOfRotation,
+    Dot,
+    Drawing,
+    Length,
+    Mark,
+    Marks,
+    Plot,
+    Turn,
+    flat,
+    noted,
+)
+from derive.mechanics.regions import Point
+from derive.step import Quantity
+
+LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
+
+
+def drawing(key: str, *marks: Marks, view: str = SPACE) -> Drawing:
+    """A drawing of these marks, put on the record of the problem.
+
+    key     its name, for `drawings:` in the problem
+    marks   marks or lists of them; solids hide what is behind them, everything else is drawn over them
+    view    "space" (seen from the front, a little from above, z upwards) or "plane" (x to the right, y upwards)
+    """
+    if view not in (SPACE, PLANE):
+        help_line = f'use "{SPACE}" or "{PLANE}"'
+        raise Rejected(Complaint("wrong-argument", f'there is no view "{view}"', help=help_line))
+    found = Drawing(key, tuple(flat(marks)), view)
+    noted(found)
+    return found
+
+
+def plot(
+    key: str,
+    quantity: Quantity,
+    against: Symbol,
+    between: tuple[Expr, Expr],
+    of: str = "angle",
+    shown: Expr | None = None,
+) -> Plot:
+    """The curve of a quantity against a letter, put on the record of the problem; its numbers come from the problem.
+
+    quantity   a scalar with a kind, such as an energy
+    against    the letter on the horizontal axis, and `of`, the kind of what it stands for
+    between    the two ends of the range, in radians or SI units
+    shown      what is drawn in the quantity's place: the same with its coordinate as a plain letter, for example
+    """
+    expr = explicit(quantity.value if shown is None else shown)
+    if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
+        message = f"`{quantity.key}` does not depend on {against}, so there is no curve"
+        raise Rejected(Complaint("wrong-argument", message))
+    lower, upper = (Integer(0) + end for end in between)
+    kind = quantity.step.kind or "number"
+    found = Plot(key, quantity.symbol, expr, against, lower, upper, kind, of, (quantity.key,))
+    noted(found)
+    return found
+
+
+# --- marks -----------------------------------------------------------------------------------------------------------
+
+
+def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
+    """A vector in its true direction; its length is for the eye, since vectors of two kinds have no common scale.
+
+    vector   vector (3), in the axes of the drawing; none is drawn if it vanishes
+    at       the place where it begins
+    size     its length in terms of the size of the body
+    label    its name, if it is not the quantity's own
+    asked    whether it is what the problem asks for, and so drawn strongly
+    """
+    (value, own), (start, others) = _vector(vector), _vector(at)
+    return Arrow(start, value, size, asked, label=_name_of(vector, label), keys=own + others)
+
+
+def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
+    """The arc from one direction to another; none where they are parallel.
+
+    a, b     vectors (3)
+    label    its name, or the quantity that the angle is
+    at       the vertex
+    radius   length; without one the arc is as large as the eye needs
+    """
+    (u, first), (v, second), (vertex, third) = (_vector(thing) for thing in (a, b, at))
+    _, own = _value_and_keys(label)
+    return AngleMark(vertex, u, v, radius, label=_name_of(None, label), keys=first + second + third + own)
+
+
+def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
+    """The axis of a rotation, past the body on both sides; with the rate, the sense in which it turns.
+
+    along     vector (3)
+    through   a place on the axis
+    rate      angular speed, 1/s: positive is right-handed about `along`
+    """
+    (direction, first), (place, second) = _vector(along), _vector(through)
+    label = -rate if rate is not None and rate.could_extract_minus_sign() else rate
+    return AxisOfRotation(place, direction, rate, label=label, keys=first + second)
+
+
+def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
+    """An arrow round a direction, right-handed, for an angle that grows or the rate at which it does.
+
+    along   vector (3)
+    at      the middle of the turn
+    size    its radius in terms of the size of the body
+    """
+    (direction, first), (place, second) = _vector(along), _vector(at)
+    return Turn(place, direction, size, label=label, keys=first + second)
+
+
+def point(at: Any, label: Any = None) -> Mark:
+    """A point; a derived place brings its name along.
+
+    at   a place: a column of lengths, a body's point, or a quantity
+    """
+    place, keys = _vector(at)
+    return Dot(place, label=_name_of(at, label), keys=keys)
+
+
+def length(start: Any, end: Any, label: Any, aside: Any) -> Mark:
+    """A dimension line from one place to another.
+
+    aside   vector (3): the direction in which the line is set off, so that it stands clear of the body
+    """
+    (a, first), (b, second) = _vector(start), _vector(end)
+    return Length(a, b, _vector(aside)[0], label=label, keys=first + second)
+
+
+def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
+    """The coordinate axes from their origin.
+
+    reach   how long they are: one length, or one each
+    """
+    place, keys = _vector(at)
+    lengths = tuple(reach) if isinstance(reach, tuple | list) else (reach,) * len(names)
+    ends = [column(*(far if i == k else 0 for k in range(3))) for i, far in enumerate(lengths)]
+    return [Axis(place, place + end, label=scalar(name), keys=keys) for name, end in zip(names, ends, strict=True)]
+
+
+def vectors_in(body: Any, *vectors: Quantity, angle: Any = None, at: Any = None) -> list[Mark]:
+    """A body with vectors in their true directions, the first of them along the axis of its rotation.
+
+    body      a body, for its outline
+    vectors   quantities, vectors (3) in the body's axes; each arrow is a little shorter than the one before
+    angle     the angle between the first two: a quantity or a name; without it no arc is drawn
+    at        the place where they begin, otherwise the middle of the body
+    """
+    start = body.middle if at is None else at
+    marks = [*outline(body, named=False), axis_of_rotation(vectors[0], start)]
+    marks += [arrow(vector, start, LONG * Rational(4, 5) ** i) for i, vector in enumerate(vectors)]
+    return marks if angle is None else [*marks, arc(vectors[0], vectors[1], angle, start)]
+
+
+# --- what a script hands over ----------------------------------------------------------------------------------------
+
+
+def _vector(thing: Any) -> tuple[Any, tuple[str, ...]]:
+    """The components of a vector or a place, and the keys behind it; anything else is refused."""
+    value, keys = _value_and_keys(thing)
+    if not isinstance(value, MatrixBase) or value.shape != (3, 1):
+        got = f"`{thing.key}` is none" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
+        raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
+    return value, keys
+
+
+def _value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
+    """Of a quantity its value and, if it is derived, its key; of a point its place; of another thing itself."""
+    if isinstance(thing, Quantity):
+        return thing.value, (thing.key,) if _is_derived(thing) else ()
+    if isinstance(thing, Point):
+        return thing.position, ()
+    return thing, ()
+
+
+def _is_derived(quantity: Quantity) -> bool:
+    """Whether there is more behind it than names that were given."""
+    own = any(evidence.grade is not Grade.DEFINITION for evidence in quantity.step.evidence)
+    return own or any(_is_derived(parent) for parent in quantity.parents)
+
+
+def _name_of(thing: Any, label: Any) -> Any:
+    """What is written beside it: as asked, or the quantity's own name."""
+    if isinstance(label, Quantity):
+        return label.symbol
+    if isinstance(label, str):
+        return scalar(label)
+    if label is not None:
+        return label
+    return thing.symbol if isinstance(thing, Quantity) else None

@@ -1,0 +1,114 @@
+"""The commands of LaTeX that are known, by what they are for; every other one is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from sympy import Expr, acos, asin, atan, cos, cosh, cot, exp, log, sin, sinh, tan, tanh
+
+_SMALL = """alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi rho varrho
+    sigma varsigma tau upsilon phi varphi chi psi omega"""
+_CAPITAL = "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega"
+GREEK = frozenset([*_SMALL.split(), *_CAPITAL.split(), "ell", "hbar"])
+
+FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {
+    "sin": sin,
+    "cos": cos,
+    "tan": tan,
+    "cot": cot,
+    "arcsin": asin,
+    "arccos": acos,
+    "arctan": atan,
+    "sinh": sinh,
+    "cosh": cosh,
+    "tanh": tanh,
+    "exp": exp,
+    "ln": log,
+}
+
+RELATIONS: Mapping[str, str] = {
+    "=": "=",
+    "<": "<",
+    ">": ">",
+    "\\lt": "<",
+    "\\gt": ">",
+    "\\le": "<=",
+    "\\leq": "<=",
+    "\\leqslant": "<=",
+    "\\ge": ">=",
+    "\\geq": ">=",
+    "\\geqslant": ">=",
+    "\\ne": "!=",
+    "\\neq": "!=",
+    "\\approx": "~",
+    "\\simeq": "~",
+}
+
+FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
+DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
+ARROWS = frozenset(["vec", "overrightarrow"])
+BOLD = frozenset(["boldsymbol", "bm", "mathbf", "bf"])
+FONTS = frozenset(["mathrm", "mathit", "mathsf", "operatorname", "mathnormal"])
+DECORATIONS = ARROWS | BOLD | FONTS | {"hat"}
+WORDS = frozenset(["text", "textrm", "textit", "mbox"])
+
+MATRICES = frozenset(["pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix"])
+ALIGNMENTS = frozenset(["aligned", "align", "align*", "split", "equation", "equation*", "gathered", "alignedat"])
+
+# What only moves things apart or makes them larger.
+SPACES = frozenset(
+    [",", "!", ";", ":", " ", ">", "quad", "qquad", "thinspace", "enspace", "limits", "nolimits", "displaystyle"]
+    + ["textstyle", "scriptstyle", "mathopen", "mathclose", "mathord", "nonumber", "notag", "\n", "/"]
+)
+SIZES = frozenset(f"{size}{side}" for size in ("big", "Big", "bigg", "Bigg") for side in ("", "l", "r", "m"))
+
+OPENING: Mapping[str, str] = {"(": ")", "[": "]", "{": "}", "|": "|", ".": "|", "lvert": "|", "lbrace": "}"}
+CLOSING: Mapping[str, str] = {")": ")", "]": "]", "}": "}", "|": "|", "rvert": "|", "rbrace": "}", ".": "."}
+
+INSTEAD: Mapping[str, str] = {
+    "·": "\\cdot",
+    "×": "\\times",
+    "⋅": "\\cdot",
+    "−": "-",
+    "–": "-",
+    "²": "^2",
+    "³": "^3",
+    "√": "\\sqrt{...}",
+    "≤": "\\le",
+    "≥": "\\ge",
+    "≠": "\\ne",
+    "≈": "\\approx",
+    "±": "\\pm",
+    "∓": "\\mp",
+    "°": "^\\circ",
+    "∫": "\\int",
+    "′": "\\dot{...}",
+}
+REFUSED: Mapping[str, tuple[str, str | None]] = {
+    "log": ("the base of `\\log` is not clear", "write `\\ln`"),
+    "tag": ("a number of an equation is no part of it", "leave it out"),
+    "label": ("a label of an equation is no part of it", "leave it out"),
+    "sec": ("`\\sec` is not read", "write `1/\\cos`"),
+    "csc": ("`\\csc` is not read", "write `1/\\sin`"),
+    "iint": ("an integral sign stands for one integral", "write `\\int` with limits for each"),
+    "iiint": ("an integral sign stands for one integral", "write `\\int` with limits for each"),
+    "oint": ("an integral without limits is not read", None),
+    "sum": ("a sum over an index is not read", "write its terms"),
+    "Rightarrow": ("one formula is read at a time", None),
+    "implies": ("one formula is read at a time", None),
+    "ldots": ("an ellipsis is not read", "write what it stands for"),
+    "cdots": ("an ellipsis is not read", "write what it stands for"),
+    "dots": ("an ellipsis is not read", "write what it stands for"),
+}
+
+# How many arguments in braces, `[` for one in brackets that may be left out.
+ARGUMENTS: Mapping[str, str] = {
+    "sqrt": "[{",
+    **dict.fromkeys(FRACTIONS, "{{"),
+    **dict.fromkeys([*DOTS, *DECORATIONS, *WORDS], "{"),
+}
+KNOWN = frozenset(
+    [*GREEK, *FUNCTIONS, *ARGUMENTS, *(mark[1:] for mark in RELATIONS if mark[0] == "\\")]
+    + ["pi", "cdot", "times", "pm", "mp", "int", "left", "right", "circ", "lvert", "rvert", "lbrace", "rbrace"]
+    + ["imath", "jmath", "partial", "prime"]
+)

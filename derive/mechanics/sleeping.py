@@ -1,0 +1,165 @@
+"""The sleeping top: whether an upright top that spins stays upright, by the potential energy that its tilt sees.
+
+The upright state itself decides: the equation of steady precession was divided by sin theta and says nothing of it.
+"""
+
+from __future__ import annotations
+
+from sympy import Abs, Expr, I, Integer, Matrix, Rational, Symbol, cos, diff, exp, sin
+
+from derive.errors import Complaint, Rejected
+from derive.expressions import Ratio, Relation, Terms, column, explicit, scalar
+from derive.mechanics.coordinates import T
+from derive.mechanics.tops import EulerAngles, Top
+from derive.step import Quantity, establish
+from derive.tidy import tidied
+
+HALF = Rational(1, 2)
+
+
+def upright_rate(conserved: Quantity, tilt: Quantity, key: str = "upright_rate") -> Quantity:
+    """Rate of precession of a top that can stand upright, phi_dot = I_z S (1 - cos theta)/(I_x sin^2 theta).
+
+    conserved   d/dt of the momentum that belongs to phi, which vanishes; upright this momentum is I_z S
+    tilt        the equation of motion of the tilt at constant spin
+    Second route: put into the momentum dL/dphi_dot, it gives I_z S at every tilt; the vertical component of the
+    angular momentum, turned into space, is the same at every tilt.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
+    """
+    angles, top, spin = _facts(tilt)
+    phi, theta, psi = angles.coordinates
+    along, across = top.along.symbol, top.across.symbol
+    carried = along * spin
+
+    def by_momentum(found: Expr) -> tuple[Expr, Expr]:
+        momentum = explicit(conserved.context["momentum"].value)
+        return momentum.xreplace({psi.rate: spin - phi.rate * cos(theta.symbol)}).xreplace({phi.rate: found}), carried
+
+    def by_vertical_component(found: Expr) -> tuple[Expr, Expr]:
+        momentum = top.momentum(column(theta.rate, found * sin(theta.symbol), spin))
+        in_space = (angles.following * Matrix(momentum))[2]
+        return in_space, in_space.subs(theta.symbol, 0)
+
+    return establish(
+        "sleeping.upright_rate",
+        phi.rate,
+        lambda *_: Ratio(Terms(carried, -carried * cos(theta.symbol)), across * sin(theta.symbol) ** 2),
+        {"sine": sin(theta.symbol), "carried": carried},
+        put_in=None,
+        routes={"momentum": by_momentum, "vertical_component": by_vertical_component},
+        arranged=lambda _: carried / (across * (1 + cos(theta.symbol))),
+        key=key,
+        kind="angular speed",
+        parents=[conserved, tilt],
+        context=tilt.context,
+    )
+
+
+def _facts(quantity: Quantity) -> tuple[EulerAngles, Top, Expr]:
+    return quantity.context["angles"], quantity.context["top"], quantity.context["spin"]
+
+
+def effective_potential(
+    rate: Quantity, kinetic: Quantity, potential: Quantity, symbol: str = "V", key: str = "effective_potential"
+) -> Quantity:
+    """Potential energy that the tilt sees, V = (1/2) I_x phi_dot^2 sin^2 theta + U: E = (1/2) I_x theta_dot^2 + V
+    + (1/2) I_z S^2 is the energy then.
+
+    rate        phi_dot of a top that can stand upright, as `upright_rate` yields it
+    kinetic     T of the top, J
+    potential   U of its weight, J
+    Second route: -dV/dtheta is what the equation of motion of the tilt has for I_x theta_ddot; T + U with these rates
+    is the energy.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
+    """
+    angles, top, spin = _facts(rate)
+    phi, theta, psi = angles.coordinates
+    q = theta.symbol
+    rates = {psi.rate: spin - rate.value * cos(q), phi.rate: rate.value}
+    moving, constant = HALF * top.across.symbol * theta.rate**2, HALF * top.along.symbol * spin**2
+    motion = next(parent for parent in rate.parents if "gravity" in parent.context)
+
+    def by_motion(found: Expr) -> tuple[Expr, Expr]:
+        accelerated = motion.value.left.xreplace({theta.acceleration: Integer(0)})
+        return diff(found, q), accelerated.xreplace(rates)
+
+    def by_energy(found: Expr) -> tuple[Expr, Expr]:
+        whole = explicit(kinetic.value + potential.value).xreplace(rates)
+        return found + moving + constant, whole
+
+    return establish(
+        "sleeping.effective_potential",
+        scalar(symbol),
+        lambda turning, weight, *_: Terms(HALF * top.across.symbol * turning**2 * sin(q) ** 2, weight),
+        {"rate": rate, "potential": potential, "moving": moving, "constant": constant},
+        put_in=None,
+        routes={"motion": by_motion, "energy": by_energy},
+        arranged=lambda _: _of_carried(top, spin, q) + potential.value,
+        key=key,
+        kind="energy",
+        parents=[kinetic],
+        context=rate.context,
+    )
+
+
+def _of_carried(top: Top, spin: Expr, q: Symbol) -> Expr:
+    """The part of the potential that the spin makes."""
+    return (top.along.symbol * spin) ** 2 * (1 - cos(q)) / (2 * top.across.symbol * (1 + cos(q)))
+
+
+def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, key: str = "sleeping_spin") -> Quantity:
+    """Condition for a top to sleep, S >= S_0, or S > S_0 if it does not sleep at the border itself.
+
+    condition   S > S_0, where the curvature of the potential at the top is positive
+    border      the shape of the potential at S = S_0, as `leading_order` yields it
+    potential   the effective potential, which knows the top
+    Second route: small tilts u and v in space along x and y; the torque of the weight is the rate of the angular
+    momentum; a tilt that goes round as e^(i p t) does so at two real rates p above the border, which coincide at it.
+    Outcomes: with_border, without_border.
+    Errors: the condition has no border.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
+    """
+    if "bound" not in condition.context:
+        raise Rejected(Complaint("no-border", f"`{condition.key}` has no border, so there is no least spin"))
+    least = condition.context["bound"]
+    sleeps = border.step.outcome.startswith("minimum")
+
+    def at_border(found: Relation) -> tuple[Expr, Expr]:
+        return _difference_of_rates(potential, found.left, found.right), Integer(0)
+
+    def above(found: Relation) -> tuple[Expr, Expr]:
+        beyond = tidied(_difference_of_rates(potential, found.left, found.right * (1 + Symbol("u", positive=True))))
+        return beyond, Abs(beyond)
+
+    return establish(
+        "sleeping.sleeping_spin",
+        None,
+        lambda: Relation(condition.value.left, ">=" if sleeps else ">", least),
+        {},
+        put_in=None,
+        routes={"at_border": at_border, "above": above},
+        outcome="with_border" if sleeps else "without_border",
+        arranged=explicit,
+        key=key,
+        parents=[condition, border],
+    )
+
+
+def _difference_of_rates(potential: Quantity, letter: Symbol, value: Expr) -> Expr:
+    """The square of the difference of the two rates p at which small tilts go round, times I_x^2.
+
+    The axis is (u, v, 1) to first order; its angular momentum I_x (axis x d axis/dt) + I_z S axis, the torque of the
+    weight l axis x (0, 0, -M g). Of u + i v = e^(i p t), the first two components leave a quadratic in p.
+    """
+    _, top, spin = _facts(potential)
+    gravity = potential.context["gravity"]
+    p, small = Symbol("p", real=True), Symbol("epsilon", real=True)
+    axis = Matrix([small * cos(p * T), small * sin(p * T), 1])
+    momentum = top.across.symbol * axis.cross(diff(axis, T)) + top.along.symbol * spin * axis
+    torque = top.distance.symbol * axis.cross(Matrix([0, 0, -top.mass.symbol * gravity]))
+    first = diff(diff(momentum, T) - torque, small).subs(small, 0)
+    round_trip = ((first[0] + I * first[1]) * exp(-I * p * T)).rewrite(exp).expand().subs(T, 0)
+    quadratic = (round_trip / I).expand().as_poly(p)
+    a, b, c = quadratic.all_coeffs()
+    values = {q.symbol: q.value for q in top.values}
+    return tidied((b**2 - 4 * a * c).xreplace(values).subs(letter, value))

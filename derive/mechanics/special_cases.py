@@ -1,0 +1,137 @@
+"""Where the principal moments of a body become equal, so that every axis is a principal one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Symbol, expand, sqrt
+
+from derive.errors import Complaint, Rejected
+from derive.expressions import Relation, explicit
+from derive.mechanics.principal import lone_moment
+from derive.step import Form, Level, Quantity, establish, is_zero
+from derive.tidy import common_factor, tidied
+
+
+def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
+    """Case in which all three principal moments are equal, I_1 = I_3, solved for one letter: h = 2R.
+
+    moments   principal moments (3), kg m^2, of which two are equal
+    letter    a letter that stands for a positive number; or what was given for it, 2b for h
+    Second route: with the letter put in, the tensor is one moment times the unit tensor; and the two moments differ,
+    one way or the other, where the letter is a little greater and a little less.
+    Outcomes: special; always, where they are equal as it is; never, where one is greater whatever the letters are.
+    Errors: the three moments are all different; the equation has not one positive root for that letter.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """
+    one, other = _two_to_compare(moments)
+    difference = tidied(moments.value[one] - moments.value[other])
+    if is_zero(difference) or difference.is_positive or difference.is_negative:
+        return _of_known_sign(moments, one, other, difference, key)
+    unknown = _chosen(letter, difference, moments)
+    bound, power = _root(difference, unknown, moments)
+    common = common_factor([moments.value[one], moments.value[other]])
+    plain = common.as_independent(unknown, *_lengths_in(difference), as_Add=False)[0]
+    sides = [expand(moments.value[k] / _letters_only(plain)) for k in (one, other)]
+    squared = [Form(Relation(unknown**2, "=", tidied(bound**2)), "solved", Level.STANDARD)] if power == 2 else []
+    return establish(
+        "principal.isotropic_where",
+        None,
+        lambda found: Relation(found[one], "=", found[other]),
+        {"moments": moments},
+        between=[Form(Relation(*_with_mark(sides)), "divided", Level.STANDARD), *squared],
+        after=[Form(Relation(unknown, "=", bound), "positive")],
+        show_result=False,
+        routes={
+            "put_back": lambda _: _tensor_there(moments, unknown, bound, one),
+            "beside": lambda _: _differences_beside(difference, unknown, bound),
+        },
+        outcome="special",
+        key=key,
+        arranged=lambda _: Relation(unknown, "=", bound),
+    )
+
+
+def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, key: str) -> Quantity:
+    """The moments are equal as they are, or one is always the greater."""
+    mark = "=" if is_zero(difference) else ">" if difference.is_positive else "<"
+    size = {"=": Integer(0), ">": Abs(difference), "<": -Abs(difference)}[mark]
+    return establish(
+        "principal.isotropic_where",
+        None,
+        lambda found: Relation(found[one], mark, found[other]),
+        {"moments": moments},
+        show_result=False,
+        routes={"sign": lambda _: (moments.value[one] - moments.value[other], size)},
+        outcome="always" if mark == "=" else "never",
+        key=key,
+        arranged=explicit,
+    )
+
+
+def _two_to_compare(moments: Quantity) -> tuple[int, int]:
+    """Of two equal moments and a third, one of the two and the third."""
+    alone = lone_moment(moments.value)
+    if alone is not None:
+        return (0 if alone else 1), alone
+    if all(is_zero(moments.value[k] - moments.value[0]) for k in (1, 2)):
+        return 0, 2
+    message = f"the three moments of `{moments.key}` all differ, so that one equation does not make them equal"
+    raise Rejected(Complaint("all-different", message))
+
+
+def _chosen(letter: Expr, difference: Expr, moments: Quantity) -> Symbol:
+    found = sorted(letter.free_symbols & difference.free_symbols, key=str)
+    if len(found) == 1 and isinstance(found[0], Symbol):
+        return found[0]
+    raise _unsolvable(letter, moments)
+
+
+def _root(difference: Expr, letter: Symbol, moments: Quantity) -> tuple[Expr, int]:
+    """The one positive root, and whether its square comes first."""
+    core = difference.as_numer_denom()[0].as_poly(letter)
+    powers = [n for (n,), _ in core.terms() if n] if core else []
+    lowest = min(n for (n,), _ in core.terms()) if core else 0
+    terms = core.terms() if core else []
+    if len(terms) != 2 or terms[0][0][0] - lowest not in (1, 2) or not powers:
+        raise _unsolvable(letter, moments)
+    (top, leading), (low, rest) = ((n, coefficient) for (n,), coefficient in terms)
+    inside = tidied(-rest / leading)
+    if not inside.is_positive:
+        raise _unsolvable(letter, moments)
+    return (inside, 1) if top - low == 1 else (tidied(sqrt(inside)), 2)
+
+
+def _unsolvable(letter: Expr, moments: Quantity) -> Rejected:
+    message = f"where the moments of `{moments.key}` are equal cannot be told from {letter} alone"
+    return Rejected(Complaint("no-condition", message, help="give another of the letters they depend on"))
+
+
+def _lengths_in(difference: Expr) -> list[Any]:
+    """The letters on which it depends whether the moments are equal."""
+    terms = Add.make_args(expand(difference))
+    common = common_factor(list(terms))
+    return [letter for letter in difference.free_symbols if (expand(difference) / common).expand().has(letter)]
+
+
+def _letters_only(factor: Expr) -> Expr:
+    """The factor without its number: both sides are divided by M, not by 3 M/80."""
+    return factor.as_coeff_Mul()[1]
+
+
+def _with_mark(sides: list[Expr]) -> tuple[Expr, str, Expr]:
+    return sides[0], "=", sides[1]
+
+
+def _tensor_there(moments: Quantity, letter: Symbol, bound: Expr, one: int) -> tuple[Any, Any]:
+    """The tensor with the letter put in, and one moment times the unit tensor."""
+    there = ImmutableDenseMatrix(moments.context["tensor"].value.subs(letter, bound))
+    return there, moments.value[one].subs(letter, bound) * ImmutableDenseMatrix.eye(3)
+
+
+def _differences_beside(difference: Expr, letter: Symbol, bound: Expr) -> tuple[Any, Any]:
+    """The difference of the moments a little beyond the root and a little before it, and their opposite signs."""
+    u = Dummy("u", positive=True)
+    beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))
+    rises = 1 if beyond.is_positive else -1
+    return ImmutableDenseMatrix([beyond, before]), ImmutableDenseMatrix([rises * Abs(beyond), -rises * Abs(before)])

@@ -1,0 +1,67 @@
+"""Drawings for the tests: the block's, and what is drawn of them with numbers."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import atan2, degrees
+from typing import Any
+
+from sympy import Symbol, symbols
+
+from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline
+from derive.figures.marks import Drawing, Mark
+from derive.mechanics import Composed, Cone, Cuboid, Disc, Part, Rod
+from derive.render.outlines import Piece, Stroke
+from derive.render.picture import picture
+from derive.render.stance import Numbers
+from tests.mechanics.block import M, a, known_block
+
+R, h = symbols("R h", positive=True)
+theta = Symbol("theta", real=True)
+NUMBERS = {a: 1.0, R: 1.0, h: 1.5, theta: 0.6}
+
+
+def vectors_of_block(sides: Any = (a, 2 * a, 3 * a), axis: Any = "diagonal", **variant: Any) -> Drawing:
+    """The angular velocity and the angular momentum of the block, from its middle."""
+    known = known_block(sides=sides, axis=axis, **variant)
+    block = Cuboid(sides, M)
+    omega, L, size = known["spin"], known["angular_momentum"], known["angle_between"]
+    middle = block.middle
+    return drawing(
+        "vectors", outline(block, named=False), axis_of_rotation(known["axis_vector"], middle),
+        arrow(omega, middle), arrow(L, middle, size=1), arc(omega, L, size, at=middle),
+    )  # fmt: skip
+
+
+CONE = Cone(R, h, M)
+
+
+def leaning(tilt: Any = theta, **names: Any) -> list[Mark]:
+    """A disc of radius a/2 in the middle of a rod of length 2a, leaning on its lower end."""
+    return leaning_top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
+
+
+def plane(*marks: Mark) -> Drawing:
+    return drawing("scene", *marks, view="plane")
+
+
+def pieces_of(found: Drawing, width: float = 5.0, height: float = 5.0, **numbers: float) -> list[Piece]:
+    by_name = {symbol: numbers.get(symbol.name, value) for symbol, value in NUMBERS.items()}
+    return picture(found, Numbers(by_name), width, height)
+
+
+def strokes(pieces: list[Piece], pen: str) -> list[Stroke]:
+    return [piece for piece in pieces if isinstance(piece, Stroke) and piece.pen == pen]
+
+
+def heading(stroke: Stroke) -> float:
+    """The direction of a straight stroke on paper, in degrees from the right, anticlockwise."""
+    (x, y), (u, v) = stroke.spots[0], stroke.spots[-1]
+    return degrees(atan2(v - y, u - x))
+
+
+def area(stroke: Stroke) -> float:
+    """What a stroke sweeps out as seen from its own middle: positive if it goes round anticlockwise."""
+    middle = [sum(s[k] for s in stroke.spots) / len(stroke.spots) for k in (0, 1)]
+    spots = [(x - middle[0], y - middle[1]) for x, y in stroke.spots]
+    return sum(x * v - y * u for (x, y), (u, v) in pairwise(spots)) / 2

@@ -1,0 +1,255 @@
+"""Drawings on a page: where they stand, their words, their files, and what an edit changes."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derive import drawn
+from derive.build import Options, built_set
+from derive.errors import Rejected
+from derive.set_document import problem_document
+from derive.solution import Rendered, rendered
+from tests.course import ROOT, course_in
+from tests.test_stored import forbid_deriving
+
+CAPTION = "  vectors:\n"
+CUBE = {"[a, 2*a, 3*a]": "[a, a, a]"}
+FILES = ["block-axes.pdf", "block-axes.svg", "block-vectors.pdf", "block-vectors.svg"]
+
+
+def drawings(solved: Rendered) -> dict[str, dict]:
+    return {drawing["key"]: drawing for drawing in json.loads(solved.json)["drawings"]}
+
+
+def faults(folder: Path, edits: dict[str, str] | None = None, script: dict[str, str] | None = None) -> list[str]:
+    with pytest.raises(Rejected) as caught:
+        rendered(course_in(folder, edits, script), "hw9/block")
+    return [complaint.shown() for complaint in caught.value.complaints]
+
+
+@pytest.fixture(scope="module")
+def block(tmp_path_factory: pytest.TempPathFactory) -> Rendered:
+    return rendered(course_in(tmp_path_factory.mktemp("block")), "hw9/block", draws=True)
+
+
+# --- words -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_contract_says_where_each_drawing_stands_and_what_it_shows(block: Rendered) -> None:
+    found = drawings(block)
+    assert list(found) == ["axes", "vectors"]
+    assert (found["axes"]["at"], found["vectors"]["at"]) == ("statement", "c")
+    assert found["vectors"]["files"] == ["block-vectors.pdf", "block-vectors.svg"]
+    assert found["vectors"]["number"] == 1
+    assert found["axes"]["number"] is None
+    assert "true directions" in found["vectors"]["caption"]
+
+
+def test_the_words_are_made_of_the_derived_values(block: Rendered) -> None:
+    told = drawings(block)["vectors"]["alt"]
+    assert "edges a, 2a and 3a" in told
+    assert "ω⃗ along (1, 2, 3)" in told
+    assert "L⃗ along (13, 20, 15)" in told
+    assert "the angle θ of 21.6°" in told
+
+
+def test_a_terminal_shows_the_words_in_the_place_of_the_drawing(block: Rendered) -> None:
+    text = " ".join(block.text.split())
+    assert text.index("[figure: A drawing in space of a block") < text.index("(a) Find")
+    assert text.index("(c) Find") < text.index("[figure: A drawing in space of a block", 400) < text.index("(d) What")
+    assert "Figure 1. ω⃗ and L⃗ in their true directions" in text
+
+
+def test_the_words_follow_the_given(tmp_path: Path) -> None:
+    told = drawings(rendered(course_in(tmp_path, CUBE), "hw9/block"))["vectors"]["alt"]
+    assert "edges a, a and a" in told
+    assert "ω⃗ along (1, 1, 1)" in told
+    assert "L⃗ along (1, 1, 1)" in told
+    assert "θ" not in told, "there is no angle to see"
+
+
+def test_a_negative_rate_reverses_the_vectors(tmp_path: Path) -> None:
+    told = drawings(rendered(course_in(tmp_path, {"rate: omega": "rate: -omega"}), "hw9/block"))["vectors"]["alt"]
+    assert "ω⃗ along (-1, -2, -3)" in told
+    assert "the angle θ of 21.6°" in told
+
+
+def test_no_number_is_told_that_depends_on_letters(tmp_path: Path) -> None:
+    edits = {"[a, 2*a, 3*a]": "[a, b, c]", "{a: length,": "{a: length, b: length, c: length,"}
+    told = drawings(rendered(course_in(tmp_path, edits), "hw9/block"))["vectors"]["alt"]
+    assert "the angle θ" in told
+    assert "°" not in told
+
+
+def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
+    edits = {"ask: Find the angle between": "ask: In <<figure vectors>>, find the angle between"}
+    assert "(c) In Figure 1, find" in rendered(course_in(tmp_path, edits), "hw9/block").text
+
+
+def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {"ask: Find the angle between": "ask: In <<figure axes>>, find the angle between"})
+    assert "error[undefined-name]: no drawing with a caption is called `axes`" in fault
+    assert "help: give the drawing a `caption:` under `drawings:`" in fault
+
+
+# --- places ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_drawing_stands_where_all_that_it_shows_is_derived(tmp_path: Path) -> None:
+    assert drawings(rendered(course_in(tmp_path), "hw9/block"))["vectors"]["at"] == "c"
+
+
+def test_a_drawing_may_stand_later_or_not_at_all(tmp_path: Path) -> None:
+    for where, keys in (("d", ["axes", "vectors"]), ("hidden", ["axes"])):
+        folder = tmp_path / where
+        folder.mkdir()
+        assert (
+            list(drawings(rendered(course_in(folder, {CAPTION: CAPTION + f"    at: {where}\n"}), "hw9/block"))) == keys
+        )
+
+
+@pytest.mark.parametrize(("where", "told"), [("statement", "in the statement"), ("b", "in part b")])
+def test_a_drawing_does_not_give_an_answer_away(tmp_path: Path, where: str, told: str) -> None:
+    (fault,) = faults(tmp_path, {CAPTION: CAPTION + f"    at: {where}\n"})
+    assert fault.startswith("problems/hw9/block.yaml:35:9: error[drawing]: ")
+    assert told in fault
+    assert "would show `" in fault
+    assert "help: write `at: c`, where it is" in fault
+
+
+def test_a_drawing_of_what_no_part_asks_for_is_told(tmp_path: Path) -> None:
+    (fault,) = faults(
+        tmp_path,
+        {
+            "  - ask: Find the angle between <<spin>> and the angular momentum <<angular_momentum>>.\n"
+            "    answer: [cosine, angle_between]\n": "  - ask: Find it.\n    answer: [angular_momentum]\n",
+            "    form:\n      cosine: {figures: 5}\n      angle_between: {unit: degree, figures: 4}\n": "",
+        },
+    )
+    assert "the drawing `vectors` shows `angle_between`, on which no answer rests" in fault
+
+
+def test_faults_of_a_placement_are_told_together(tmp_path: Path) -> None:
+    found = faults(
+        tmp_path, {CAPTION: CAPTION + "    at: e\n    width: 40 cm\n    colour: red\n    values: {a: 1 s}\n"}
+    )
+    assert ["error[unknown-key]" in f or "error[wrong-type]" in f for f in found].count(True) == 2
+    assert any("`width` must be from 1 to 15 cm" in fault for fault in found)
+    assert any("`a` must be a length" in fault for fault in found)
+    assert len(found) == 4
+
+
+def test_a_name_that_the_script_does_not_draw_is_told_with_the_nearest(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {"  vectors:\n": "  vektors:\n"})
+    assert "error[unknown-drawing]: the script draws nothing called `vektors`" in fault
+    assert "help: did you mean `vectors`?" in fault
+
+
+def test_a_letter_that_the_drawing_lacks_is_told(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {CAPTION: CAPTION + "    values: {theta: 40 deg}\n"})
+    assert "error[unknown-letter]: the drawing `vectors` has no letter `theta`" in fault
+
+
+def test_what_cannot_be_drawn_is_told_at_the_line_of_the_script(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, script={"vectors_in(block, omega, L, ": "vectors_in(block, T, L, "})
+    assert fault.startswith("problems/hw9/block.py:")
+    assert "a drawing needs a vector or a place here, but `kinetic_energy` is none" in fault
+
+
+# --- files -----------------------------------------------------------------------------------------------------------
+
+
+def test_each_drawing_is_a_pdf_and_an_svg(block: Rendered) -> None:
+    files = dict(block.files)
+    assert list(files) == FILES
+    assert files["block-axes.pdf"].startswith(b"%PDF")
+    assert b"<title>A drawing in space of a block" in files["block-axes.svg"]
+
+
+def test_a_derivation_draws_nothing(tmp_path: Path) -> None:
+    course_in(tmp_path)
+    program = (
+        "import sys; from pathlib import Path; from derive.solution import rendered; "
+        "found = rendered(Path(sys.argv[1]), 'hw9/block'); "
+        "sys.exit(bool(found.files) or 'matplotlib' in sys.modules or 'numpy' in sys.modules)"
+    )
+    run = subprocess.run([sys.executable, "-c", program, str(tmp_path)], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
+    tmp_path: Path, block: Rendered, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    course, kept = course_in(tmp_path), tmp_path / "block.steps.json"
+    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+    file = course / "problems" / "hw9" / "block.yaml"
+    file.write_text(file.read_text().replace("points: 10", "points: 10\nnote: words"))
+    with monkeypatch.context() as patch:
+        forbid_deriving(patch)
+        patch.setattr(drawn, "_scene", lambda *_: pytest.fail("drawn again"))
+        assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+    file.write_text(file.read_text().replace("[a, 2*a, 3*a]", "[a, 2*a, 2*a]"))
+    changed = dict(rendered(course, "hw9/block", None, kept, draws=True).files)
+    assert all(changed[name] != content for name, content in block.files)
+
+
+def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: Rendered) -> None:
+    course, kept = course_in(tmp_path), tmp_path / "block.steps.json"
+    rendered(course, "hw9/block", None, kept, draws=True)
+    file = tmp_path / "block.vectors.drawing.json"
+    data = json.loads(file.read_text())
+    data["files"]["pdf"] = data["files"]["svg"]
+    file.write_text(json.dumps(data))
+    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+    file.write_text("[]")
+    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+
+
+def test_a_width_and_numbers_of_its_own_change_only_that_drawing(tmp_path: Path, block: Rendered) -> None:
+    edits = {CAPTION: CAPTION + "    width: 3 cm\n"}
+    changed = dict(rendered(course_in(tmp_path, edits), "hw9/block", draws=True).files)
+    same = {name for name, content in block.files if changed[name] == content}
+    assert same == {"block-axes.pdf", "block-axes.svg"}
+
+
+def test_the_page_of_tex_names_the_files_and_says_what_they_show(block: Rendered) -> None:
+    assert r"{block-vectors.pdf}{A drawing in space of a block" in block.latex
+    assert block.latex.count(r"\drawing{") == 1
+    assert block.latex.count(r"\beside{") == 1
+
+
+def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Path) -> None:
+    course = course_in(tmp_path)
+
+    def build() -> list[str]:
+        report = built_set(course, "hw9", Options(), lambda _: None)
+        assert not report.failed, report.complaints
+        return sorted(path.name for path in report.changed)
+
+    outputs = course / "build" / "hw9"
+    assert set(FILES) < set(build())
+    assert (outputs / "block.pdf").read_bytes().count(b"/Subtype /Form") >= 2
+    assert build() == []
+    (outputs / FILES[0]).unlink()
+    assert build() == [FILES[0]]
+    script = course / "problems" / "hw9" / "block.py"
+    script.write_text(script.read_text().replace('drawing("axes"', 'drawing("edges"'))
+    assert "block-edges.pdf" in build()
+    assert not (outputs / FILES[0]).exists(), "a drawing that is gone leaves no file"
+
+
+def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: Path, block: Rendered) -> None:
+    from derive.render.pdf import chosen_engine, typeset
+
+    tex = problem_document(course_in(tmp_path), block, "hw9")
+    pages = {}
+    for name, files in (("with", block.files), ("without", ())):
+        target = tmp_path / f"{name}.pdf"
+        typeset(tex, target, chosen_engine(None), beside=files)
+        pages[name] = target.read_bytes()
+    assert pages["with"] != pages["without"]

@@ -1,0 +1,40 @@
+"""The bodies of the book's tests that are round, and what can be derived of them."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+from sympy import symbols
+
+from derive.step import Quantity
+from tests.mechanics.block import with_what_they_rest_on
+
+R, h, M, a, m = symbols("R h M a m", positive=True)
+
+
+def cone_derivation(verbs: SimpleNamespace, radius: Any = R, height: Any = h) -> dict[str, Quantity]:
+    """Every quantity of the cone, by key."""
+    cone = verbs.Cone(radius, height, M)
+    found = verbs.moved_to(verbs.inertia_tensor(cone, about="apex", key="apex_tensor"), cone.centre)
+    from_base = verbs.inertia_tensor(cone, about="base", coordinates="cartesian", symbol="J'", key="base_tensor")
+    centre = verbs.centre_of_mass(cone, origin="base", coordinates="cartesian", symbol="r'_C", key="centre_from_base")
+    again = verbs.moved_to(from_base, centre, symbol="I'", key="tensor_from_base")
+    moments = verbs.principal_moments(found)
+    return with_what_they_rest_on([verbs.agreement(found, again), *verbs.principal_axes(moments)])
+
+
+def top_derivation(verbs: SimpleNamespace) -> dict[str, Quantity]:
+    """A disc of mass m and radius a in the middle of a rod of mass m/2 and length a, about the end of the rod."""
+    top = verbs.Composed(
+        verbs.Part("disc", verbs.Disc(a, m), at=a / 2), verbs.Part("rod", verbs.Rod(a, m / 2), at=a / 2)
+    )
+    mass = verbs.total_mass(top)
+    return with_what_they_rest_on(
+        [verbs.centre_distance(top, mass), verbs.axial_moment(top), verbs.transverse_moment(top)]
+    )
+
+
+def skew_tensor(verbs: SimpleNamespace) -> Quantity:
+    """A rectangular plate about its corner: a tensor that is not diagonal."""
+    return verbs.inertia_tensor(verbs.Plate((2 * a, 3 * a), M), about="corner")  # type: ignore[no-any-return]

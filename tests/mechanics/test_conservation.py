@@ -1,0 +1,141 @@
+"""What equations of motion make of a quantity, for motions of any kind."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from sympy import Expr, Integer, Symbol, cos, sin, symbols
+
+from derive.errors import Rejected
+from derive.evidence import Grade
+from derive.expressions import Relation, explicit
+from derive.mechanics import coordinate, rate_under
+from derive.step import Quantity, establish
+
+M, k, b, g, l = symbols("M k b g l", positive=True)
+x = coordinate("x", "length")
+theta = coordinate("theta")
+NONE = Integer(0)
+
+
+both = SimpleNamespace(letters={**x.letters, **theta.letters})
+
+
+def named(key: str, value: Expr, moving: Any, kind: str | None = None) -> Quantity:
+    return establish(
+        "equations.let",
+        Symbol(key, real=True),
+        lambda: value,
+        {},
+        definition=True,
+        key=key,
+        kind=kind,
+        coordinates=moving.letters,
+    )
+
+
+def equation(left: Expr, moving: Any, right: Expr = NONE, key: str = "motion") -> Quantity:
+    return establish(
+        "equations.let",
+        None,
+        lambda: Relation(left, "=", right),
+        {},
+        definition=True,
+        key=key,
+        coordinates=moving.letters,
+    )
+
+
+def test_the_energy_of_an_oscillator_is_conserved() -> None:
+    energy = named("E", (M * x.rate**2 + k * x.symbol**2) / 2, x, "energy")
+    found = rate_under(energy, [equation(M * x.acceleration + k * x.symbol, x)])
+    assert found.value == 0
+    assert found.step.outcome == "conserved"
+    assert found.step.kind == "power"
+    assert {e.grade for e in found.step.evidence} == {Grade.PROVED}
+
+
+def test_friction_takes_energy_at_the_rate_of_its_power() -> None:
+    energy = named("E", (M * x.rate**2 + k * x.symbol**2) / 2, x, "energy")
+    found = rate_under(energy, [equation(M * x.acceleration + k * x.symbol, x, -b * x.rate)])
+    assert (found.value + b * x.rate**2).expand() == 0
+    assert found.step.outcome == "changes"
+
+
+def test_the_energy_of_a_pendulum_of_any_amplitude_is_conserved() -> None:
+    q = theta.symbol
+    energy = named("E", M * l**2 * theta.rate**2 / 2 - M * g * l * cos(q), theta, "energy")
+    assert rate_under(energy, [equation(l * theta.acceleration + g * sin(q), theta)]).value == 0
+
+
+def test_the_small_amplitude_energy_of_a_large_pendulum_is_not_conserved() -> None:
+    q = theta.symbol
+    energy = named("E", M * l**2 * theta.rate**2 / 2 + M * g * l * q**2 / 2, theta, "energy")
+    assert rate_under(energy, [equation(l * theta.acceleration + g * sin(q), theta)]).step.outcome == "changes"
+
+
+def test_each_equation_is_multiplied_by_what_the_quantity_needs() -> None:
+    y = coordinate("y", "length")
+    both = {**x.letters, **y.letters}
+    turning = establish(
+        "equations.let",
+        Symbol("l_z", real=True),
+        lambda: M * (x.symbol * y.rate - y.symbol * x.rate),
+        {},
+        definition=True,
+        key="l_z",
+        coordinates=both,
+    )
+    pulls = [equation(M * q.acceleration + k * q.symbol, q, key=q.symbol.name) for q in (x, y)]
+    found = rate_under(turning, pulls)
+    assert found.value == 0
+    assert [found_sum.key for found_sum in found.parents[:1]] == ["l_z_sum"]
+    products = {p.key: dict(p.step.roles)["factor"] for p in found.parents[0].parents}
+    assert products == {"l_z_x": -y.symbol, "l_z_y": x.symbol}
+
+
+def test_what_does_not_move_needs_no_equation() -> None:
+    found = rate_under(named("n", k, x), [equation(M * x.acceleration + k * x.symbol, x)])
+    assert found.value == 0
+    assert len(found.parents) == 1
+
+
+def test_only_the_last_line_rests_on_the_equations() -> None:
+    energy = named("E", (M * x.rate**2 + k * x.symbol**2) / 2, x)
+    *forms, last = rate_under(energy, [equation(M * x.acceleration + k * x.symbol, x)]).step.chain
+    assert [form.because for form in forms] == ["put_in", "chain_rule"]
+    assert last.because == "motion"
+    assert all(explicit(form.expr).has(x.acceleration) for form in forms)
+
+
+@pytest.mark.parametrize(
+    ("equations", "message"),
+    [
+        ([], "0 equations of motion do not give any rate"),
+        ([equation(k * x.symbol, x)], "1 equation of motion does not give any rate"),
+        (
+            [equation(M * x.acceleration + M * l * theta.acceleration, both)],
+            "1 equation of motion does not give x_ddot, theta_ddot",
+        ),
+        ([equation(M * x.acceleration, x)] * 2, "2 equations of motion do not give x_ddot"),
+        ([equation(x.acceleration**2 - k, x)], "1 equation of motion does not give x_ddot"),
+    ],
+)
+def test_equations_must_determine_the_motion(equations: list[Quantity], message: str) -> None:
+    with pytest.raises(Rejected) as refusal:
+        rate_under(named("E", x.rate**2, x), equations)
+    assert refusal.value.complaints[0].message == message
+
+
+def test_a_value_is_no_equation() -> None:
+    energy = named("E", x.rate**2, x)
+    with pytest.raises(Rejected) as refusal:
+        rate_under(energy, [energy])
+    assert refusal.value.complaints[0].message == "`E` is not an equation"
+
+
+def test_a_rate_that_the_equations_do_not_give_is_refused() -> None:
+    with pytest.raises(Rejected):
+        rate_under(named("jerk", x.acceleration, x), [equation(M * x.acceleration + k * x.symbol, x)])

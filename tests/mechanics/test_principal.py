@@ -1,0 +1,101 @@
+"""Principal moments and axes: diagonal tensors and others, and where the moments are equal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sympy import Integer, Matrix, eye, simplify, sqrt, symbols, zeros
+
+from derive.errors import Rejected
+from derive.expressions import Relation, explicit
+from derive.mechanics import (
+    Cone,
+    Cuboid,
+    Cylinder,
+    Disc,
+    Plate,
+    inertia_tensor,
+    isotropic_where,
+    principal_axes,
+    principal_moments,
+)
+from derive.mechanics.bodies import Body
+from tests.mechanics.round_bodies import M, R, a, h
+
+b, c = symbols("b c", positive=True)
+
+
+def moments_of(body: Body, about: str = "centre") -> Any:
+    return principal_moments(inertia_tensor(body, about))
+
+
+@pytest.mark.parametrize(
+    ("body", "about", "outcome"),
+    [
+        (Cone(R, h, M), "centre", "two_equal"),
+        (Cone(R, 2 * R, M), "centre", "isotropic"),
+        (Cuboid((a, b, c), M), "centre", "distinct"),
+        (Plate((a, 2 * a), M), "corner", "roots"),
+        (Cuboid((a, a, a), M), "corner", "two_equal_roots"),
+    ],
+)
+def test_axes_are_put_back_and_make_a_right_handed_frame(body: Body, about: str, outcome: str) -> None:
+    moments = moments_of(body, about)
+    assert moments.step.outcome == outcome
+    tensor, frame = moments.context["tensor"].value, Matrix.hstack(*(Matrix(e.value) for e in principal_axes(moments)))
+    assert (frame.T * frame - eye(3)).applyfunc(simplify) == zeros(3)
+    assert simplify(frame.det()) == 1
+    assert (tensor * frame - frame * Matrix.diag(*moments.value)).applyfunc(simplify) == zeros(3)
+
+
+def test_a_cube_about_its_corner_has_a_sixth_about_the_diagonal_and_eleven_twelfths_across() -> None:
+    moments = moments_of(Cuboid((a, a, a), M), "corner")
+    assert list(moments.value / (M * a**2)) == [Integer(1) / 6, Integer(11) / 12, Integer(11) / 12]
+    first = principal_axes(moments)[0].value
+    assert [abs(component) for component in first] == [1 / sqrt(3)] * 3
+
+
+def test_roots_come_in_increasing_order() -> None:
+    moments = moments_of(Plate((a, 2 * a), M), "corner").value.subs({a: 1, M: 1})
+    assert sorted(moments, key=float) == list(moments)
+
+
+def test_a_cubic_without_a_rational_factor_is_refused() -> None:
+    with pytest.raises(Rejected, match="roots of a cubic without a rational factor"):
+        moments_of(Cuboid((a, 2 * a, 3 * a), M), "corner")
+
+
+@pytest.mark.parametrize(
+    ("body", "letter", "case"),
+    [
+        (Cone(R, h, M), h, Relation(h, "=", 2 * R)),
+        (Cone(R, h, M), R, Relation(R, "=", h / 2)),
+        (Cylinder(R, h, M), h, Relation(h, "=", sqrt(3) * R)),
+        (Cuboid((a, a, h), M), h, Relation(h, "=", a)),
+    ],
+)
+def test_a_body_is_isotropic_where_its_moments_are_equal(body: Body, letter: Any, case: Relation) -> None:
+    found = isotropic_where(moments_of(body), letter)
+    assert found.value == case
+    assert found.step.outcome == "special"
+
+
+def test_moments_that_are_equal_as_they_are_say_so() -> None:
+    assert isotropic_where(moments_of(Cone(R, 2 * R, M)), 2 * R).step.outcome == "always"
+
+
+def test_a_flat_body_never_has_equal_moments() -> None:
+    case = isotropic_where(moments_of(Disc(R, M)), R)
+    assert case.step.outcome == "never"
+    assert explicit(case.value).mark == "<"
+
+
+def test_three_different_moments_are_refused() -> None:
+    with pytest.raises(Rejected, match="all differ"):
+        isotropic_where(moments_of(Cuboid((a, b, c), M)), c)
+
+
+def test_a_letter_that_decides_nothing_is_refused() -> None:
+    with pytest.raises(Rejected, match="cannot be told from M alone"):
+        isotropic_where(moments_of(Cone(R, h, M)), M)
