@@ -1,6 +1,7 @@
 """How a problem was checked, counted: what its closing note and the last page of its set tell.
 
-A step counts by the least sure of its lines and by the surest of its second routes. A second route counts for every result that it was taken to.
+A step counts by the least sure of its lines and by the surest of its second routes. A second route counts for every
+result that it was taken to.
 """
 
 from __future__ import annotations
