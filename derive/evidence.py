@@ -37,6 +37,9 @@ class Grade(StrEnum):
     REFUTED = "refuted"
 
 
+LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
+
+
 @dataclass(frozen=True)
 class Evidence:
     """One claim about a step, how it was decided, and what is needed to look again."""
@@ -44,6 +47,11 @@ class Evidence:
     claim: str
     grade: Grade
     detail: str = ""
+
+    @property
+    def is_of_line(self) -> bool:
+        """Whether it compares two lines of a chain; else it is of a second route, or of a definition."""
+        return self.claim.startswith("line ")
 
 
 @dataclass(frozen=True)
@@ -193,6 +201,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
             return Verdict(Grade.PROVED, "polynomial normal form")
     if left.residual == 0 or right.residual == 0:
+        if left.mark != right.mark:
+            return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
         return _equal_scalars(left.residual, right.residual)
     if left.mark == right.mark and vanishes(left.residual - right.residual):
         return Verdict(Grade.PROVED, "polynomial normal form")
@@ -245,4 +255,11 @@ def _by_cosines(expr: Expr) -> Expr:
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:
     """The expression without a factor, in whatever power, that is known to be positive or not to vanish."""
-    return Mul(*(f for f in Mul.make_args(together(expr)) if (f.as_base_exp()[0]) not in {known, -known}))
+    left: list[Expr] = []
+    for factor in Mul.make_args(together(expr)):
+        base, power = factor.as_base_exp()
+        if not power.is_Integer or base not in {known, -known}:
+            left.append(factor)
+        elif base != known:
+            left.append(Integer(-1) ** power)  # b - a where a - b is known to be positive
+    return Mul(*left)

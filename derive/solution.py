@@ -17,7 +17,7 @@ from derive.dimensions import dimension_of_kind, kind_with_article, unit_of_kind
 from derive.document import document_of
 from derive.drawn import Files, drawing_files
 from derive.errors import Complaint, Rejected
-from derive.expressions import Relation
+from derive.expressions import Relation, rate
 from derive.figures.marks import drawings_recorded
 from derive.numbers import coefficient_of, comparison_of, value_of
 from derive.parts import Part, points_text
@@ -162,8 +162,8 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
     for part in problem.parts:
         for key in part.answers:
             value = _value(problem, part, known[key])
-            if value is not None:
-                values[key] = value.step
+            if value is not None and value.step.chain not in [other.chain for other in values.values()]:
+                values[key] = value.step  # two answers may be the same condition, which is compared once
     return derivation, values, known
 
 
@@ -201,8 +201,14 @@ def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
 
 
 def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
-    """A letter of the problem's own may not also be what a step calls its result."""
+    """A letter of the problem's own may not also be what a step calls its result, or a coordinate or its rate."""
     faults = []
+    coordinates = dict.fromkeys(q for quantity in known.values() for q in quantity.coordinates)
+    for name in dict.fromkeys(rate(q, n).name for q in coordinates for n in range(3)):
+        if name in problem.symbols:
+            message = f"`{name}` is a letter of this problem, but the script has a coordinate of that name"
+            help_line = 'use another letter, or another name in `coordinate("...")`'
+            faults.append(Complaint("letter-clash", message, problem.place_of("symbols"), help=help_line))
     for key, quantity in known.items():
         symbol = quantity.symbol
         if isinstance(symbol, Symbol) and symbol.name in problem.symbols:

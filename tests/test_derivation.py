@@ -14,6 +14,7 @@ from derive.expressions import scalar
 from derive.numbers import value_of
 from derive.step import Quantity, establish, recorded
 from tests.mechanics.block import AMOUNTS, a, known_block
+from tests.mechanics.slab import known_slab
 
 
 def made(key: str, *parents: Quantity, value: Any = a) -> Quantity:
@@ -115,6 +116,18 @@ def test_a_derivation_goes_to_json_and_comes_back_unchanged() -> None:
 def test_json_there_and_back_and_there_is_the_same_text() -> None:
     text = to_json(block_derivation())
     assert to_json(from_json(text)) == text
+
+
+def slab_derivation(**variant: Any) -> Any:
+    return derivation_of([list(known_slab(**variant))], known_slab(**variant))
+
+
+@pytest.mark.parametrize("variant", [{}, {"radius": a / 4}, {"radius": a / 2}])
+def test_equations_conditions_and_series_go_to_json_and_come_back_unchanged(variant: dict[str, Any]) -> None:
+    derivation = slab_derivation(**variant)
+    assert from_json(to_json(derivation)) == derivation
+    assert to_json(from_json(to_json(derivation))) == to_json(derivation)
+    assert "\\" not in json.dumps(json.loads(to_json(derivation)), ensure_ascii=False)
 
 
 def test_the_json_holds_no_sentence_and_no_tex() -> None:

@@ -41,7 +41,7 @@ from sympy import (
 
 from derive.evidence import Grade, Verdict, equal
 from derive.exact import vanishes
-from derive.expressions import Cross, Dot, column
+from derive.expressions import PLUS_MINUS, Cross, Dot, Relation, column
 
 x, y, t = symbols("x y t", real=True)
 a, b, c = symbols("a b c", positive=True)
@@ -234,6 +234,132 @@ def test_product_to_sum_of_many_angles_is_proved(n_links: int) -> None:
         summed += cos(sum(k * angle for k, angle in zip(s, angles, strict=True)))
     assert equal(product, summed / 2 ** (n_links - 1)).grade is Grade.PROVED
     assert not equal(product, summed / 2 ** (n_links - 1) + Rational(1, 10**6) * sin(angles[0]))
+
+
+# --- relations ---
+
+
+def relation(left: Any, mark: str, right: Any = 0) -> Relation:
+    return Relation(left, mark, right)
+
+
+EQUIVALENT = [
+    (relation(2 * x + 2 * y, "="), relation(x, "=", -y)),
+    (relation(x, "=", y), relation(y, "=", x)),
+    (relation(a * x, "="), relation(x, "=")),
+    (relation(a * x, "!="), relation(x, "!=")),
+    (relation(a * sin(x) ** 2 + a * cos(x) ** 2, "=", b), relation(a, "=", b)),
+    # an inequality keeps its mark under a positive factor and is turned by a negative one
+    (relation(a * x, ">", a * b), relation(x, ">", b)),
+    (relation(-x, ">", y), relation(x, "<", -y)),
+    (relation(x, ">=", y), relation(y, "<=", x)),
+    (relation(a / (b + c), ">", 1), relation(a, ">", b + c)),
+    (relation(1 / a, ">", 1 / b), relation(a, "<", b)),
+    (relation((x**2 + 1) * y, ">"), relation(y, ">")),
+    # squares, where neither side is negative
+    (relation(a**2, ">", b**2), relation(a, ">", b)),
+    (relation(a, "<=", sqrt(b)), relation(a**2, "<=", b)),
+    (relation(a**2, "=", b * c), relation(a, "=", sqrt(b * c))),
+    # without letters
+    (relation(Integer(1), ">"), relation(Integer(2), ">")),
+]
+
+NOT_EQUIVALENT = [
+    (relation(x, "=", a), relation(x, "=", b)),
+    (relation(x * y, "="), relation(x, "=")),
+    (relation(x**2, "="), relation(x, "=")),
+    (relation(x**2, "=", y**2), relation(x, "=", y)),
+    (relation(sin(x) * y, "="), relation(y, "=")),
+    (relation(x, "=", x), relation(x, "=", y)),
+    (relation(-x, ">"), relation(x, ">")),
+    (relation(y * x, ">"), relation(x, ">")),
+    (relation(x**2 * y, ">"), relation(y, ">")),
+    (relation(x**2, ">", y**2), relation(x, ">", y)),
+    (relation(-a, ">", -b), relation(a, ">", b)),
+    (relation(1 / a, ">", 1 / b), relation(a, ">", b)),
+    # other marks
+    (relation(x, ">"), relation(x, ">=")),
+    (relation(x, "="), relation(x, ">=")),
+    (relation(x, "="), relation(x, "!=")),
+    (relation(x, ">", x), relation(x, ">=", x)),
+    (relation(x, "=", x), relation(x, "!=", x)),
+    (relation(Integer(1), ">"), relation(Integer(-1), ">")),
+]
+
+
+@pytest.mark.parametrize(("left", "right"), EQUIVALENT)
+def test_relations_that_say_the_same_are_proved_equal(left: Relation, right: Relation) -> None:
+    assert equal(left, right).grade is Grade.PROVED
+    assert equal(right, left).grade is Grade.PROVED
+
+
+@pytest.mark.parametrize(("left", "right"), NOT_EQUIVALENT)
+def test_relations_that_say_different_things_are_refuted(left: Relation, right: Relation) -> None:
+    assert equal(left, right).grade is Grade.REFUTED
+    assert equal(right, left).grade is Grade.REFUTED
+
+
+@pytest.mark.parametrize(("left", "right"), [(relation(x, "="), x), (x, relation(x, "=")), (relation(x, ">"), eye(2))])
+def test_a_relation_is_no_value(left: Any, right: Any) -> None:
+    assert equal(left, right).detail == "a relation against a value"
+    assert not equal(left, right)
+
+
+def test_a_factor_that_may_vanish_is_divided_out_where_it_is_known_not_to() -> None:
+    left, right = relation(x * y, "="), relation(y, "=")
+    assert not equal(left, right)
+    for known in (x, -x):
+        assert equal(left, right, [known]).grade is Grade.PROVED
+    assert not equal(left, right, [y])
+    assert equal(relation(y / x**2, "="), right, [x])
+    assert equal(relation((x - y) * a, "="), relation(a, "="), [y - x])
+
+
+def test_in_an_inequality_the_factor_that_is_known_is_positive() -> None:
+    left = relation(x * y, ">")
+    assert equal(left, relation(y, ">"), [x])
+    assert not equal(left, relation(y, "<"), [x])
+    assert equal(left, relation(y, "<"), [-x])
+    assert not equal(left, relation(y, ">"), [-x])
+    assert equal(relation(x**2 * y, ">"), relation(y, ">"), [-x])
+
+
+def test_what_is_known_of_one_factor_says_nothing_of_another() -> None:
+    assert not equal(relation(x * y * (x + 1), "="), relation(y, "="), [x])
+    assert equal(relation(x * y * (x + 1), "="), relation(y, "="), [x, x + 1])
+
+
+# --- either sign ---
+
+
+def test_plus_or_minus_is_one_of_two_numbers_of_square_one() -> None:
+    assert equal(PLUS_MINUS**2, Integer(1)).grade is Grade.PROVED
+    assert equal(1 / PLUS_MINUS, PLUS_MINUS).grade is Grade.PROVED
+    assert equal((a + PLUS_MINUS * b) * (a - PLUS_MINUS * b), a**2 - b**2).grade is Grade.PROVED
+    assert equal((x + PLUS_MINUS * sqrt(a)) ** 2, x**2 + 2 * PLUS_MINUS * x * sqrt(a) + a).grade is Grade.PROVED
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        (PLUS_MINUS, Integer(1)),
+        (PLUS_MINUS, Integer(-1)),
+        (PLUS_MINUS * x, -PLUS_MINUS * x),
+        ((a + PLUS_MINUS * b) ** 2, (a + b) ** 2),
+    ],
+)
+def test_plus_or_minus_is_neither_of_the_two(left: Expr, right: Expr) -> None:
+    assert equal(left, right).grade is Grade.REFUTED
+
+
+@settings(max_examples=30, deadline=None, derandomize=True)
+@given(st.integers(-4, 4), st.integers(-4, 4), st.integers(-4, 4), st.sampled_from(["=", ">", "<=", "!="]))
+def test_a_relation_times_a_number_says_the_same_unless_the_number_is_zero(k: int, m: int, n: int, mark: str) -> None:
+    assume(m != 0)
+    turned = {"=": "=", "!=": "!=", ">": "<", "<=": ">="}[mark]
+    first = relation(m * x + n * a, mark, y)
+    other = relation(k * (m * x + n * a), mark if k > 0 else turned, k * y)
+    assert bool(equal(first, other)) == (k != 0)
 
 
 # --- properties ---

@@ -14,6 +14,7 @@ from derive import expressions as ex
 from derive.dimensions import NUMBER, Dimension, dimension_of_kind
 from derive.homogeneity import Inhomogeneous, dimension_of, dimension_table
 from derive.step import Form, Quantity, Step, establish
+from tests.mechanics import slab
 from tests.mechanics.block import M, a, known_block, omega
 
 x, t = symbols("x t", real=True)
@@ -105,6 +106,30 @@ def test_wrong_dimensions_of_what_is_given_are_found_at_the_step() -> None:
     """A rate that is declared a time."""
     _, complaints = dimension_table({**DECLARED, omega: TIME}, steps_of(*known_block().values()))
     assert "`spin`: its dimension is T, but an angular speed must have T^-1" in [c.message for c in complaints]
+
+
+SLAB = {slab.R: LENGTH, slab.a: LENGTH, slab.M: MASS, slab.I: MASS * LENGTH**2, slab.g: LENGTH / TIME**2}
+
+
+@pytest.mark.parametrize("variant", [{}, {"radius": slab.a / 4}, {"radius": slab.a / 2}])
+def test_every_line_about_a_motion_is_homogeneous(variant: dict[str, Any]) -> None:
+    """Rates, derivatives by a coordinate, multipliers, conditions and the broken-off series among them."""
+    found = slab.known_slab(**variant)
+    table, complaints = dimension_table(SLAB, steps_of(*found.values()))
+    assert complaints == []
+    dimensions = {key: table[q.symbol] for key, q in found.items() if q.symbol in table}
+    force = MASS * LENGTH / TIME**2
+    assert (dimensions["x"], dimensions["x_rate"]) == (LENGTH, LENGTH / TIME)
+    assert (dimensions["lagrangian"], dimensions["potential_energy"]) == (ENERGY, ENERGY)
+    assert (dimensions["force_x"], dimensions["normal_force"], dimensions["tangent_force"]) == (force, force, force)
+    assert dimensions["frequency"] == TIME**-1
+    assert dimensions["momentum_theta"] == ENERGY * TIME
+
+
+def test_a_wrong_dimension_in_a_motion_is_found_where_it_first_shows() -> None:
+    """A moment of inertia that is declared a mass cannot be added to M a^2."""
+    _, complaints = dimension_table({**SLAB, slab.I: MASS}, steps_of(*slab.known_slab().values()))
+    assert complaints[0].message.startswith("`kinetic_energy`: ")
 
 
 def made(result: Expr, kind: str | None = None, *lines: Expr) -> Quantity:

@@ -30,8 +30,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
         return _of_known_sign(of, value, key)
     mark = ">=" if or_zero else ">"
     sign, core = _of_unknown_sign(value)
-    letter = _chosen(letter, core, of)
-    bound, power, rising = _bound(core, letter, of)
+    letter, (bound, power, rising) = _chosen(letter, core, of)
     turned = mark if (rising > 0) == (sign > 0) else TURNED[mark]
     core = spread(sign * core)
     steps = [Form(Relation(core, mark, 0), "positive_factors", Level.STANDARD)]
@@ -83,24 +82,23 @@ def _of_unknown_sign(value: Expr) -> tuple[int, Expr]:
     """The sign of the factors whose sign is known, and the product of those that decide."""
     sign, open_factors = 1, []
     for factor in Mul.make_args(value):
-        base, exponent = factor.as_base_exp()
         if factor.is_negative:
             sign = -sign
         elif not factor.is_positive:
-            odd = exponent.is_Integer and exponent % 2 == 1
-            open_factors.append(base if odd else factor)
+            open_factors.append(factor)
     return sign, Mul(*open_factors)
 
 
-def _chosen(letter: Expr, core: Expr, of: Quantity) -> Symbol:
-    """The letter itself; or the one letter of what was given for it, 2b for R."""
-    found = sorted(letter.free_symbols & core.free_symbols, key=str)
-    if len(found) == 1 and isinstance(found[0], Symbol):
-        return found[0]
+def _chosen(letter: Expr, core: Expr, of: Quantity) -> tuple[Symbol, tuple[Expr, int, int]]:
+    """The letter itself, or the first one that will do of what was given for it, b of 2b for R; and its bound."""
+    for symbol in sorted(letter.free_symbols & core.free_symbols, key=str):
+        bound = _bound(core, symbol)
+        if bound:
+            return symbol, bound
     raise _unsolvable(of, letter)
 
 
-def _bound(core: Expr, letter: Symbol, of: Quantity) -> tuple[Expr, int, int]:
+def _bound(core: Expr, letter: Symbol) -> tuple[Expr, int, int] | None:
     """Where the core vanishes, the power of the letter, and whether the core rises (1) or falls (-1) with it.
 
     Of a square whose sign is not known, no root is taken.
@@ -108,12 +106,12 @@ def _bound(core: Expr, letter: Symbol, of: Quantity) -> tuple[Expr, int, int]:
     polynomial = core.as_poly(letter)
     powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
     if powers not in ([1, 0], [2, 0]):
-        raise _unsolvable(of, letter)
+        return None
     leading, rest = polynomial.all_coeffs()[0], polynomial.all_coeffs()[-1]
     rising = 1 if leading.is_positive else -1 if leading.is_negative else 0
     bound = tidied(-rest / leading)
     if not rising or (powers[0] == 1 and not bound.is_positive):
-        raise _unsolvable(of, letter)
+        return None
     if powers[0] == 2 and bound.is_positive:
         bound = tidied(sqrt(bound))
     return (spread(bound) if powers[0] == 1 else bound), powers[0], rising

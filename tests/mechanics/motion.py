@@ -22,6 +22,7 @@ from derive.mechanics import (
 from derive.step import Quantity, establish
 
 m, l, g, b = symbols("m l g b", positive=True)
+ZERO = Integer(0)
 THETA, X = coordinate("theta"), coordinate("x", "length")
 
 
@@ -35,7 +36,7 @@ def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "lengt
 
 
 def energies(
-    x: Any, y: Any, *coordinates: Coordinate, inertia: Any = Integer(0), turning: Coordinate | None = None
+    x: Any, y: Any, *coordinates: Coordinate, inertia: Any = ZERO, turning: Coordinate | None = None
 ) -> tuple[Quantity, Quantity]:
     """Kinetic and potential energy of a body of mass m whose centre is at (x, y)."""
     place = position("X", x, *coordinates), position("Y", y, *coordinates)

@@ -107,7 +107,7 @@ def test_a_bead_on_a_straight_wire_has_the_acceleration_of_the_slope() -> None:
 
 
 def test_a_body_on_a_turning_arm_has_two_equations() -> None:
-    """In polar coordinates: m(r_ddot - r phi_dot^2) = -m g sin phi, d(m r^2 phi_dot)/dt = -m g r cos phi."""
+    """With weight: m (r_ddot - r phi_dot^2) = -m g sin phi and d(m r^2 phi_dot)/dt = -m g r cos phi."""
     L = lagrangian(*energies(r.symbol * cos(phi.symbol), r.symbol * sin(phi.symbol), r, phi))
     radial, angular = equation_of_motion(L, r, key="radial"), equation_of_motion(L, phi, key="angular")
     R_, F_ = r.symbol, phi.symbol
