@@ -136,9 +136,8 @@ def _measures(body: Any, point: Point) -> list[Mark]:
     if radius != 0:
         marks.append(Line(wide + radius * Y, wide, "hidden", label=radius))
     if low != high and not isinstance(body, Ball):
-        beside = radius * Y
         marks.append(Line(low * Z, high * Z, "hidden"))
-        marks.append(Length(low * Z - beside, high * Z - beside, -Y, label=high - low))
+        marks.append(Length(low * Z, high * Z, None, radius, label=high - low))
     return marks
 
 

@@ -157,11 +157,14 @@ class Turn(Mark):
 
 @dataclass(frozen=True)
 class Length(Mark):
-    """A dimension line between two points, moved aside in the given direction so that it stands clear."""
+    """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
+    the length `clear` and a little more.
+    """
 
     start: Place
     end: Place
-    aside: Place
+    aside: Place | None
+    clear: Any = 0
 
 
 @dataclass(frozen=True)
