@@ -1,6 +1,7 @@
 """How a problem was checked, counted: what its closing note and the last page of its set tell.
 
-A step counts by the least sure of its evidence. A second route counts for every result that it was taken to.
+A step counts by the least sure of its lines and by the surest of its second routes. A second route counts for every
+result that it was taken to.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from derive.reference import Told
 from derive.step import Step
 from derive.wording import Node, Phrases, filled
 
-LEAST_SURE = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
+COUNTED = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Checks:
     def counts(self) -> dict[str, int]:
         """The numbers of the last page's table, by the names of its columns."""
         return {
-            **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE},
+            **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in COUNTED},
             "lines": sum(self.lines.values()),
             "routes": sum(self.routes.values()),
             "routes_proved": self.routes.get(Grade.PROVED, 0),
@@ -74,11 +75,11 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
     """What was done for these steps, and how the source document compares."""
     steps = list(steps)
     evidence = [(step, e) for step in steps for e in step.evidence]
-    lines = [e for _, e in evidence if _is_of_line(e)]
-    routes = [(step, e) for step, e in evidence if not _is_of_line(e) and e.grade is not Grade.DEFINITION]
+    lines = [e for _, e in evidence if e.is_of_line]
+    routes = [(step, e) for step, e in evidence if not e.is_of_line and e.grade is not Grade.DEFINITION]
     outcomes = [told.outcome for told in compared]
     return Checks(
-        steps=Counter(_grade(step) for step in steps),
+        steps=Counter(step.grade for step in steps),
         lines=Counter(e.grade for e in lines),
         routes=Counter(e.grade for _, e in routes),
         ways=_ways(routes, words),
@@ -96,15 +97,6 @@ def _ways(routes: Sequence[tuple[Step, Evidence]], words: Phrases) -> tuple[Ways
     for step, said in told.items():
         alike.setdefault((step.rule, tuple(said)), []).append(step.key)
     return tuple(Ways(tuple(keys), said) for (_, said), keys in alike.items())
-
-
-def _is_of_line(evidence: Evidence) -> bool:
-    return evidence.claim.startswith("line ")
-
-
-def _grade(step: Step) -> Grade:
-    grades = {e.grade for e in step.evidence}
-    return next(grade for grade in LEAST_SURE if grade in grades)
 
 
 def _by_grade(counts: Mapping[Grade, int], words: Phrases) -> str:

@@ -17,7 +17,7 @@ from derive.depiction import caption_numbers, depictions
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
-from derive.evidence import Grade
+from derive.evidence import LEAST_SURE_FIRST, Grade
 from derive.expressions import Amount, Relation, Truncated
 from derive.figures.marks import Recorded
 from derive.homogeneity import dimension_table
@@ -80,9 +80,8 @@ class Display:
 
     @property
     def grade(self) -> Grade:
-        """How sure the least sure of all its lines is."""
-        order = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.PROVED, Grade.DEFINITION)
-        return next(grade for grade in order if grade in self.grades)
+        """How sure the least sure of its steps is."""
+        return min(self.grades, key=LEAST_SURE_FIRST.index)
 
     def with_more(self, other: Display) -> Display:
         """The lines of both; the margin names the first step's routes."""
@@ -327,7 +326,7 @@ class _Writer:
         self.numbers[step.key] = len(self.numbers) + 1
         equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
         before, after = _around_chain(nodes)
-        display = Display((equations,), frozenset(e.grade for e in step.evidence), self._routes(step))
+        display = Display((equations,), frozenset({step.grade}), self._routes(step))
         if not before and blocks and isinstance(blocks[-1], Display):
             blocks[-1] = blocks[-1].with_more(display)
         else:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Rational, Symbol
 
 from derive.encoding import decoded, encoded
-from derive.expressions import PLUS_MINUS, Amount, Factors, Relation
+from derive.expressions import PLUS_MINUS, Amount, Factors, Group, Relation
 from derive.rounding import Rounded
 from derive.stated import Entry, Stated, Statement
 
@@ -44,8 +44,15 @@ def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
     """A value, a relation, or both branches of a value in one."""
-    sides = [_value(side, entry, letters) for side in statement.sides]
-    return Relation(sides[0], statement.marks[1], sides[1]) if len(sides) == 2 else sides[0]
+    if len(statement.sides) == 2:  # only a number is in the unit of the entry
+        bare = replace(entry, unit=None)
+        numbers = [not side.letters for side in statement.sides]
+        sides = [
+            _value(side, entry if number else bare, letters)
+            for side, number in zip(statement.sides, numbers, strict=True)
+        ]
+        return Relation(sides[0], statement.marks[1], sides[1])
+    return _value(statement.sides[0], entry, letters)
 
 
 def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
@@ -62,8 +69,9 @@ def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
 
 
 def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
-    """In the problem's own letters; the variable of an integral by its name, as it is printed."""
-    return expr.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in expr.atoms(Symbol)})
+    """In the problem's own letters; integrals and their variables as they are printed."""
+    opened = expr.replace(lambda e: isinstance(e, Group) and isinstance(e.args[0], Integral), lambda e: e.args[0])
+    return opened.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in opened.atoms(Symbol)})
 
 
 def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:

@@ -37,6 +37,9 @@ class Grade(StrEnum):
     REFUTED = "refuted"
 
 
+LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
+
+
 @dataclass(frozen=True)
 class Evidence:
     """One claim about a step, how it was decided, and what is needed to look again."""
@@ -44,6 +47,11 @@ class Evidence:
     claim: str
     grade: Grade
     detail: str = ""
+
+    @property
+    def is_of_line(self) -> bool:
+        """Whether it compares two lines of a chain; else it is of a second route, or of a definition."""
+        return self.claim.startswith("line ")
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from sympy.core.symbol import Str
 
 from derive.dimensions import kind_with_article
 from derive.errors import Complaint, Rejected, Unverified
-from derive.evidence import Evidence, Grade, Verdict, equal
+from derive.evidence import LEAST_SURE_FIRST, Evidence, Grade, Verdict, equal
 from derive.exact import vanishes
 from derive.expressions import AXES, Relation, Truncated, bound, component_names, explicit
 from derive.tidy import tidied
@@ -87,6 +87,14 @@ class Step:
     def result(self) -> Any:
         return self.chain[-1].expr
 
+    @property
+    def grade(self) -> Grade:
+        """As sure as the least sure of its lines, all of which must hold, and as the surest of its second routes."""
+        lines = [e.grade for e in self.evidence if e.is_of_line]
+        routes = [e.grade for e in self.evidence if not e.is_of_line]
+        surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
+        return min([*lines, *surest], key=LEAST_SURE_FIRST.index)
+
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
@@ -136,7 +144,7 @@ def lettered(quantity: Quantity) -> Quantity:
 
 
 Law = Callable[..., Any]
-Route = Callable[[Any], tuple[Any, Any]]
+Route = Callable[[Any], tuple[Any, Any] | Verdict]
 
 
 def compared_with(other: Callable[[], Any]) -> Route:
@@ -207,7 +215,7 @@ def establish(
         symbol,
     )
     evidence = [_line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
-    evidence += [_route_evidence(key, claim, *route(result)) for claim, route in (routes or {}).items()]
+    evidence += [_route_evidence(key, claim, route(result)) for claim, route in (routes or {}).items()]
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
     chosen = outcome(result) if callable(outcome) else outcome
@@ -360,9 +368,14 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
     return Evidence(claim, Grade.APPROXIMATION, "within half a unit of the last place")
 
 
-def _route_evidence(key: str, claim: str, left: Any, right: Any) -> Evidence:
-    left, right = explicit(left), explicit(right)
-    verdict = equal(left, right)
+def _route_evidence(key: str, claim: str, found: tuple[Any, Any] | Verdict) -> Evidence:
+    """A route gives two values to compare, or has compared them itself, as one in numbers does."""
+    if isinstance(found, Verdict):
+        left = right = None
+        verdict = found
+    else:
+        left, right = (explicit(value) for value in found)
+        verdict = equal(left, right)
     if not verdict:
         raise _refused(key, f"its second route `{claim}` disagrees", left, right, verdict)
     return Evidence(claim, verdict.grade, verdict.detail)

@@ -61,6 +61,8 @@ class Functions(Grids):
             self.homogeneous = False  # of its dimension nothing is known, so nothing more is said of dimensions
             return Term(Dummy(letter.name, real=True), NUMBER, letter.start, letter.end)
         term = term_of(letter, declared)
+        if letter.vector:
+            self.vectors.append(letter.start)
         self.dimensions[term.expr] = term.dimension
         return term
 

@@ -19,7 +19,7 @@ from sympy import Integer, Rational, exp, pi, sqrt
 from derive.dimensions import NUMBER
 from derive.latex.brackets import Brackets
 from derive.latex.grids import Grids, Value, between
-from derive.latex.integrals import Sign, differential_of, integrated
+from derive.latex.integrals import Sign, differential_behind, differential_of, integrated, is_d
 from derive.latex.letters import letter_at
 from derive.latex.runs import Run
 from derive.latex.titles import is_derivative, without_title
@@ -129,6 +129,8 @@ class Formula(Brackets):
         alone: Token | None = None  # the factor before, if it is one token
         while True:
             times = self.times(run) if signs or outside.parts else ""
+            if run.token and any(sign.variable is None for sign in signs):
+                run.replace(differential_behind(run.token, self.d_is_a_letter))
             if self.is_differential(run, signs):
                 differential_of(self, signs, self.differential(run))
             elif run.written == "\\int":
@@ -206,9 +208,7 @@ class Formula(Brackets):
         token = run.token
         if token is None or all(sign.variable for sign in signs):
             return False
-        upright = token.text == "mathrm" and token.arguments[0] and [t.text for t in token.arguments[0].tokens] == ["d"]
-        plain = token.kind == "letter" and token.text == "d" and not self.d_is_a_letter
-        return bool((upright or plain) and letter_at(run.following))
+        return is_d(token, self.d_is_a_letter) and letter_at(run.following) is not None
 
     def differential(self, run: Run) -> Term:
         run.at += 1

@@ -63,6 +63,7 @@ class Grids(Arithmetic):
         super().__init__(scalar)
         self.homogeneous = homogeneous
         self.d_is_a_letter = False
+        self.vectors: list[int] = []  # where letters stand that are printed as vectors
         self.dimensions: dict[Expr, Dimension] = {}  # of the letters read so far
 
     def fits(self, left: Term, right: Term) -> bool:
@@ -96,6 +97,10 @@ class Grids(Arithmetic):
     def product_of(self, left: Value, right: Value, sign: str) -> Value:
         """Side by side, or with a dot or a cross between them."""
         if isinstance(left, Term) and isinstance(right, Term):
+            if sign and self.has_vector(left) and self.has_vector(right):
+                components = "write their components, `\\{a_1, a_2, a_3\\}`"
+                message = "the product of two vectors is read only from their components"
+                self.refuse("shape", message, left.start, right.end, components)
             return self.multiplied(left, right)
         if isinstance(left, Term):
             return between(each(right, lambda term: self.scaled(left, term)), left.start, right.end)
@@ -110,6 +115,9 @@ class Grids(Arithmetic):
         help_line = "write `\\cdot` or `\\times` between vectors" if left.is_vector and right.is_vector else None
         message = f"{_shape(left)} and {_shape(right)} cannot be multiplied so"
         self.refuse("shape", message, right.start, right.end, help_line)
+
+    def has_vector(self, term: Term) -> bool:
+        return any(term.start <= at < term.end for at in self.vectors)
 
     def scaled(self, factor: Term, term: Term) -> Term:
         return replace(self.multiplied(factor, term), start=term.start, end=term.end)
@@ -159,6 +167,7 @@ class Grids(Arithmetic):
 
     def size_of(self, inner: Value, start: int, end: int) -> Term:
         """What stands between bars: the absolute value of a scalar, the length of a vector."""
+        self.vectors = [at for at in self.vectors if not start <= at < end]
         if isinstance(inner, Term):
             return replace(inner, expr=Abs(inner.expr), start=start, end=end, kind=None)
         if inner.shape[1] != 1:

@@ -42,6 +42,10 @@ class Run:
             return ""
         return f"\\{token.text}" if token.kind == "command" else token.text
 
+    def replace(self, tokens: tuple[Token, ...]) -> None:
+        """Other tokens in the place of the one that has been reached."""
+        self.tokens = self.tokens[: self.at] + tokens + self.tokens[self.at + 1 :]
+
     def argument_after(self, mark: Token, text: str) -> Argument | None:
         """The tokens of the group that follows a `^` or `_`, or the one token where there are no braces."""
         token = self.token

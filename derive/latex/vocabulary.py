@@ -58,7 +58,7 @@ ALIGNMENTS = frozenset(["aligned", "align", "align*", "split", "equation", "equa
 # What only moves things apart or makes them larger.
 SPACES = frozenset(
     [",", "!", ";", ":", " ", ">", "quad", "qquad", "thinspace", "enspace", "limits", "nolimits", "displaystyle"]
-    + ["textstyle", "scriptstyle", "mathopen", "mathclose", "mathord", "nonumber", "notag", "\n", "/"]
+    + ["textstyle", "scriptstyle", "mathopen", "mathclose", "mathord", "nonumber", "notag", "rm", "it", "\n", "/"]
 )
 SIZES = frozenset(f"{size}{side}" for size in ("big", "Big", "bigg", "Bigg") for side in ("", "l", "r", "m"))
 

@@ -33,7 +33,7 @@ from derive.mechanics.free_rotation import (
     rate_in_body,
     rate_in_space,
 )
-from derive.mechanics.inertia import agreement, inertia_tensor, moved_to
+from derive.mechanics.inertia import agreement, inertia_tensor, moved_from_centre, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
     generalized_force,
@@ -135,6 +135,7 @@ __all__ = [
     "linearised",
     "magnitude",
     "momentum_rate",
+    "moved_from_centre",
     "moved_to",
     "multipliers_eliminated",
     "no_steady_precession",

@@ -13,7 +13,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol
 from sympy.matrices import ImmutableMatrix
 
 from derive.errors import Complaint, Rejected
-from derive.expressions import Factors, Ratio, Terms, column, scalar
+from derive.expressions import Factors, Ratio, Terms, column, scalar, sympify_number
 from derive.mechanics.bodies import Body, density
 from derive.mechanics.inertia import entry_weight
 from derive.mechanics.integration import worked_integral
@@ -36,6 +36,9 @@ class Part:
     name: str
     body: Body
     at: Expr
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "at", sympify_number(self.at))
 
     @property
     def pivot(self) -> Point:

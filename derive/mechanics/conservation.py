@@ -15,6 +15,7 @@ from derive.errors import Complaint, Rejected
 from derive.expressions import Factors, Relation, Terms, TimeRate, bound, explicit, rate
 from derive.mechanics.arrangement import by_products
 from derive.mechanics.coordinates import by_functions_of_time, kind_of_rate
+from derive.mechanics.following import followed
 from derive.step import Form, Level, Quantity, compared_with, establish
 from derive.tidy import tidied
 
@@ -29,7 +30,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     Each equation times its factor is a step, and so is the sum of these, where there are several.
     Second route: Q as a function of time, its highest rates put in as the equations give them; the same less the sum of
     the equations, for all motions alike; where Q belongs to a body, also what its particles contribute, the sum put
-    back.
+    back; and one motion followed in numbers.
     Outcomes: conserved (the rate is zero), changes.
     Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -55,6 +56,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
             "functions_of_time": compared_with(lambda: bound(in_time, motion)),
             "sum": compared_with(lambda: in_time - taken_off),
             **({"matter": lambda value: (value + taken_off, matter())} if matter else {}),
+            "followed": lambda value: followed(quantity.value, value, motion),
         },
         outcome=lambda value: "conserved" if value == 0 else "changes",
         motion=motion,

@@ -267,6 +267,39 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     )
 
 
+def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", key: str = "moved_tensor") -> Quantity:
+    """Inertia tensor about another point of the body, J = I + M (c.c 1 - c c), from I about its centre of mass.
+
+    inertia   tensor (3, 3), kg m^2, about the centre of mass
+    centre    vector (3), m: the centre of mass as seen from the other point, in the same axes
+    Second route: each entry, and the tensor as a whole, by direct integration about the other point.
+    Outcomes: as `inertia_tensor`.
+    Errors: the tensor is not about the centre of mass; the axes are others.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
+    """
+    body: Body = inertia.context["body"]
+    target: Point = centre.context["from"]
+    if inertia.context["about"] != replace(body.middle, axes=target.axes):
+        message = f"`{inertia.key}` is not about the centre of mass along the axes of `{centre.key}`"
+        raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre"))
+    pairs = pairs_left_by_symmetry(body, target)
+    entries = {pair: _entry_moved(inertia, centre, target, symbol, key, pair) for pair in pairs}
+    return establish(
+        "inertia.moved_from_centre",
+        tensor(symbol),
+        lambda *found: _assembled(pairs, found),
+        _by_pair(entries),
+        routes={"integration": compared_with(lambda: _as_defined(body, target))},
+        outcome=_round_shape if pairs == ROUND else _shape,
+        kind="moment of inertia",
+        parents=[body.density],
+        put_in=None,
+        context={"body": body, "about": target},
+        words={"about": target.name},
+        key=key,
+    )
+
+
 def _check_start(tensor_there: Quantity, centre: Quantity, start: Point) -> None:
     """Parallel axes hold from the point of the tensor: the centre must be counted from there."""
     counted_from = centre.context.get("from")
@@ -281,12 +314,15 @@ def _components(v: Any) -> tuple[Any, ...]:
     return component_names(v.name) if isinstance(v, MatrixSymbol) else tuple(v)
 
 
-def _entry_moved(there: Quantity, centre: Quantity, middle: Point, name: str, key: str, pair: Pair) -> Quantity:
-    """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z)."""
+def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, key: str, pair: Pair) -> Quantity:
+    """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z); away from the
+    centre with the opposite signs."""
     i, j = pair
     body: Body = there.context["body"]
-    start: Point = there.context["about"]
-    is_round = pairs_left_by_symmetry(body, start) == ROUND
+    other: Point = centre.context["from"]
+    outward = target == other
+    sign = 1 if outward else -1
+    is_round = pairs_left_by_symmetry(body, other) == ROUND
     entry = next(parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}"))
     # From a point of the axis of a round body, the distance along the axis is all there is.
     apart = [k for k in range(3) if k != i and not (is_round and centre.value[k] == 0)]
@@ -296,11 +332,11 @@ def _entry_moved(there: Quantity, centre: Quantity, middle: Point, name: str, ke
         if i == j:
             squares = [c[k] ** 2 for k in apart]
             shift = squares[0] if len(squares) == 1 else Terms(*squares)
-            return Terms(at_start, -Factors(mass, shift)) if squares else at_start
-        return Terms(at_start, Factors(mass, c[i], c[j]))
+            return Terms(at_start, sign * Factors(mass, shift)) if squares else at_start
+        return Terms(at_start, -sign * Factors(mass, c[i], c[j]))
 
     def directly() -> Expr:
-        return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], middle)
+        return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], target)
 
     return establish(
         "inertia.entry_moved",
@@ -308,13 +344,17 @@ def _entry_moved(there: Quantity, centre: Quantity, middle: Point, name: str, ke
         law,
         {"entry": entry, "mass": body.mass, "centre": centre},
         routes={"integration": compared_with(directly)},
-        outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
+        outcome=_outward_outcome(pair) if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
         put_in=Level.STANDARD,
         parents=[there],
-        words={"start": start.name},
+        words={"start": other.name},
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
     )
+
+
+def _outward_outcome(pair: Pair) -> str:
+    return "outward_first" if pair == (0, 0) else "outward"
 
 
 def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:

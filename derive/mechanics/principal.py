@@ -59,8 +59,8 @@ def principal_axes(
     moments   the principal moments of a tensor
     Where two moments are equal, their axes are at an angle that remains free; where all are, any three will do.
     Second route: each is put back into I e = I_k e; they are unit vectors, and each at right angles to the others.
-    Outcomes: single, free, free_too (two equal moments: the axis of the third and those across it); any, any_too;
-    distinct, distinct_too.
+    Outcomes: single, or symmetry of a round body, free, free_too (two equal moments: the axis of the third and those
+    across it); any, any_too; distinct, distinct_too.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     found, angle = _frame(moments)
@@ -96,7 +96,7 @@ def _axis(
             "unit": lambda e: (Dot(e, e), Integer(1)),
             "perpendicular": lambda e: (column(*_products(e, before)), column(0, 0, 0)),
         },
-        outcome=_axis_outcome(moments.value, place),
+        outcome=_axis_outcome(moments, place),
         kind="number",
         put_in=None,
         parents=[tensor, *before],
@@ -105,13 +105,21 @@ def _axis(
     )
 
 
-def _axis_outcome(moments: Any, place: int) -> str:
-    different = _number_of_different(moments)
+def _axis_outcome(moments: Quantity, place: int) -> str:
+    different = _number_of_different(moments.value)
     if different == 1:
         return "any_too" if place else "any"
-    if different == 2:
-        return {0: "single", 1: "free"}.get(place, "free_too")
-    return "distinct_too" if place else "distinct"
+    if different == 3:
+        return "distinct_too" if place else "distinct"
+    if place == 0:
+        return "symmetry" if moments.step.outcome == "two_equal" and _is_round(moments) else "single"
+    return "free" if place == 1 else "free_too"
+
+
+def _is_round(moments: Quantity) -> bool:
+    """Whether the tensor is that of a body which is round about the axis of the single moment, z."""
+    body = moments.context.get("body")
+    return getattr(body, "is_round", False) and lone_moment(moments.value) == 2
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:

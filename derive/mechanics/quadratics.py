@@ -120,7 +120,7 @@ def roots_of(
     if here.a == 0 and here.b == 0:
         raise Rejected(Complaint("no-roots", f"`{equation.key}` does not depend on {x.name} here"))
     linear = here.a == 0
-    formula = Ratio(-general.c, general.b) if linear else _formula(general)
+    formula = _linear_formula(general) if linear else _formula(general)
     outcome = "linear" if linear else character(here)
 
     def sum_of_both(found: Expr) -> tuple[Expr, Expr]:
@@ -149,6 +149,11 @@ def character(of: Quadratic) -> str:
     if sign == 1:
         return "opposite" if sign_known(of.a * of.c) == -1 else "two"
     return "conditional" if sign is None else {-1: "none", 0: "double"}[sign]
+
+
+def _linear_formula(of: Quadratic) -> Expr:
+    """-c/b, with as few minus signs as it needs."""
+    return Ratio(of.c, -of.b) if of.b.could_extract_minus_sign() else Ratio(-of.c, of.b)
 
 
 def _formula(of: Quadratic) -> Expr:

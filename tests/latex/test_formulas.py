@@ -39,6 +39,7 @@ SCALARS = [
     (r"\sqrt{a^2+b^2}", sqrt(a**2 + b**2)),
     (r"\sqrt2 a", sqrt(2) * a),
     (r"\sqrt[3]{8n^3}", (8 * n**3) ** Rational(1, 3)),
+    (r"|\vec{a}| \cdot |\boldsymbol{b}|", abs(a) * abs(b)),
     (r"|a||n| + \left|\frac{a}{2}\right| + \lvert a \rvert", abs(a) * abs(n) + abs(a) * Rational(3, 2)),
     # functions
     (r"M a\cos\theta", M * a * cos(theta)),
@@ -77,6 +78,8 @@ SCALARS = [
     (r"\int_0^h z^4 dz", h**5 / 5),
     (r"\int_0^h dz\, z^4", h**5 / 5),
     (r"\int_{z=0}^{z=h} z \mathrm{d} z", h**2 / 2),
+    (r"\int_0^h \frac{z\,dz}{2} + \int_0^a \frac{dx}{3} a", h**2 / 4 + a**2 / 3),
+    (r"\int_0^h\int_0^a \frac{z\,dr_{C,x}}{a} dz", h**2 / 2),
     (r"\rho \int_{0}^{a} d x \int_{0}^{2 a} d y \int_{0}^{3 a} d z\left(y^{2}+z^{2}\right)", 26 * rho * a**5),
     (r"-\rho \int_{0}^{a} x d x \int_{0}^{2 a} y d y \int_{0}^{3 a} d z", -3 * rho * a**5),
     (r"\rho\int_{0}^{h}\int_{0}^{2\pi}\int_0^{Rz/h} r^2 r\,dr\,d\theta\,dz", pi * rho * R**4 * h / 10),

@@ -47,6 +47,8 @@ REFUSED = [
     (r"28 \mathrm{rad}", "undeclared-symbol", r"\mathrm{rad}"),
     (r"I_{a+b}", "latex", "{a+b}"),
     (r"\hat{\omega}", "latex", r"\hat{\omega}"),
+    (r"\boldsymbol\omega \times \vec{r}", "shape", r"\boldsymbol\omega \times \vec{r}"),
+    (r"\frac12 \vec a \cdot 2\vec b", "shape", r"\frac12 \vec a \cdot 2\vec b"),
     # dimensions and shapes
     ("M + a", "dimension", "a"),
     (r"\sin a", "ambiguous", "a"),

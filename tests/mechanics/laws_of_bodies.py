@@ -6,7 +6,7 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from tests.mechanics.round_bodies import M, R, cone_derivation, h, skew_tensor, top_derivation
+from tests.mechanics.round_bodies import M, R, a, cone_derivation, h, skew_tensor, top_derivation
 
 Verbs = SimpleNamespace
 BODIES, SOLIDS, THIN, INERTIA = "mechanics.bodies", "mechanics.solids", "mechanics.thin_bodies", "mechanics.inertia"
@@ -23,6 +23,11 @@ def special_case(verbs: Verbs) -> Any:
     return verbs.isotropic_where(verbs.principal_moments(verbs.inertia_tensor(verbs.Cone(R, h, M))), h)
 
 
+def moved_out(verbs: Verbs) -> Any:
+    block = verbs.Cuboid((a, 2 * a, 3 * a), M)
+    return verbs.moved_from_centre(verbs.inertia_tensor(block), block.centre)
+
+
 RUNS: dict[str, Callable[[Verbs], Any]] = {
     "volume": lambda verbs: verbs.volume(verbs.Cone(R, h, M)),
     "centre_of_mass of a cone": lambda verbs: verbs.Cone(R, h, M).centre,
@@ -32,6 +37,7 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
     "inertia_tensor of a hoop": lambda verbs: verbs.inertia_tensor(verbs.Hoop(R, M), "rim"),
     "inertia_tensor of a plate": skew_tensor,
     "moved_to of a cone": cone_derivation,
+    "moved_from_centre": moved_out,
     "agreement": cone_derivation,
     "principal_moments": cone_derivation,
     "principal_moments of a plate": skew,
@@ -46,6 +52,14 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
 }
 
 LAWS: list[tuple[str, str, str, str, str]] = [
+    ("moved_from_centre", INERTIA, "sign = 1 if outward else -1", "sign = -1 if outward else -1", "moved_tensor_xx"),
+    (
+        "moved_from_centre",
+        INERTIA,
+        "-sign * Factors(mass, c[i], c[j])",
+        "sign * Factors(mass, c[i], c[j])",
+        "moved_tensor_xy",
+    ),
     ("volume", SOLIDS, "self.radius * z / self.height", "self.radius * z**2 / self.height**2", "volume"),
     (
         "volume",
@@ -129,8 +143,8 @@ LAWS: list[tuple[str, str, str, str, str]] = [
     (
         "moved_to of a cone",
         INERTIA,
-        "return Terms(at_start, -Factors(mass, shift)) if squares else at_start",
-        "return Terms(at_start, -Factors(mass, shift)) if squares else 2 * at_start",
+        "return Terms(at_start, sign * Factors(mass, shift)) if squares else at_start",
+        "return Terms(at_start, sign * Factors(mass, shift)) if squares else 2 * at_start",
         "inertia_tensor_zz",
     ),
     ("agreement", INERTIA, "lambda first, _: first", "lambda first, _: 2 * first", "agreement"),
@@ -249,6 +263,7 @@ LAWS: list[tuple[str, str, str, str, str]] = [
 ]
 
 ROUTES: list[tuple[str, str, str, str, str]] = [
+    ("moved_from_centre", INERTIA, "_as_defined(body, target)", "_as_defined(body, body.middle)", "moved_tensor"),
     (
         "isotropic_where",
         CASES,

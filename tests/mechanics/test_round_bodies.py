@@ -26,6 +26,7 @@ from derive.mechanics import (
     centre_distance,
     centre_of_mass,
     inertia_tensor,
+    moved_from_centre,
     moved_to,
     total_mass,
     transverse_moment,
@@ -142,6 +143,18 @@ def test_a_flat_cone_is_a_disc_with_mass_towards_its_middle() -> None:
 def test_moving_from_the_end_of_a_rod_gives_a_twelfth() -> None:
     rod = Rod(a, M)
     assert moved_to(inertia_tensor(rod, "end"), rod.centre).value == diag(1, 1, 0) * M * a**2 / 12
+
+
+@pytest.mark.parametrize("body", [Cuboid((a, 2 * a, 3 * a), M), Cylinder(R, h, M), CONE, Plate((a, b), M)], ids=named)
+def test_moving_away_from_the_centre_undoes_moving_to_it(body: Body) -> None:
+    there = inertia_tensor(body, body.reference)
+    out = moved_from_centre(inertia_tensor(body, key="centre_tensor"), body.centre)
+    assert (out.value - there.value).expand() == zeros(3)
+
+
+def test_only_a_tensor_about_the_centre_is_moved_from_it() -> None:
+    with pytest.raises(Rejected, match="`inertia_tensor` is not about the centre of mass"):
+        moved_from_centre(inertia_tensor(CONE, "apex"), CONE.centre)
 
 
 def test_a_letter_of_a_size_is_no_coordinate_as_well() -> None:

@@ -154,8 +154,8 @@ LAWS = [
     ),
     # parallel axes, entry by entry and as a whole
     ("moved_to", INERTIA, "for k in range(3) if k != i and not", "for k in range(3) if not", "inertia_tensor_xx"),
-    ("moved_to", INERTIA, "-Factors(mass, shift)", "Factors(mass, shift)", "inertia_tensor_xx"),
-    ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "-Factors(mass, c[i], c[j])", "inertia_tensor_xy"),
+    ("moved_to", INERTIA, "sign * Factors(mass, shift)", "-sign * Factors(mass, shift)", "inertia_tensor_xx"),
+    ("moved_to", INERTIA, "-sign * Factors(mass, c[i], c[j])", "sign * Factors(mass, c[i], c[j])", "inertia_tensor_xy"),
     ("moved_to", INERTIA, "Factors(mass, c[i], c[j])", "Factors(mass, c[i], c[i])", "inertia_tensor_xy"),
     ("moved_to", BODIES, "*(side / 2 for side", "*(side / 3 for side", "corner_tensor"),
     # rotation
@@ -240,7 +240,7 @@ ROUTES = [
         "corner_tensor_xx",
     ),
     ("inertia_tensor", INERTIA, "explicit(Dot(n, tensor * n))", "explicit(Dot(n, n))", "corner_tensor"),
-    ("moved_to", INERTIA, "- at[i] * at[j], middle)", "- at[i] * at[j], start)", "inertia_tensor_xx"),
+    ("moved_to", INERTIA, "- at[i] * at[j], target)", "- at[i] * at[j], other)", "inertia_tensor_xx"),
     ("spin", ROTATION, "(length_by_turning(omega), size)", "(length_by_turning(omega), size + 1)", "spin"),
     ("spin", ROTATION, "along.value)), rate * length)", "along.value)), 2 * rate * length)", "spin"),
     ("kinetic_energy", ROTATION, "Cross(omega.value, r))) / 2", "Cross(omega.value, r)))", "kinetic_energy"),
