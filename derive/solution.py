@@ -162,8 +162,8 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
     for part in problem.parts:
         for key in part.answers:
             value = _value(problem, part, known[key])
-            if value is not None and value.step.chain not in [other.chain for other in values.values()]:
-                values[key] = value.step  # two answers may be the same condition, which is compared once
+            if value is not None and not _compared_before(value.step, values.values()):
+                values[key] = value.step
     return derivation, values, known
 
 
@@ -181,6 +181,11 @@ def _answered_by(problem: Problem, steps: Iterable[Step]) -> Problem:
         return replace(part, answers=tuple(places), places=places, forms=forms)
 
     return replace(problem, parts=tuple(answered(part) for part in problem.parts))
+
+
+def _compared_before(step: Step, others: Iterable[Step]) -> bool:
+    """Two answers may be the same condition: once is enough to say whether the numbers fulfil it."""
+    return step.rule == "numbers.comparison" and step.chain in [other.chain for other in others]
 
 
 def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import textwrap
+import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -26,6 +28,9 @@ from derive.render.text_page import inline_text
 from derive.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
 
 WIDTH = 60.0
+# About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
+LINE, ROW, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
+CHARACTERS, NOTE_CHARACTERS = 92, 14
 BOX = 70.0
 
 
@@ -182,11 +187,20 @@ class _Page:
         number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
         return rf"{{{drawing.stem}.pdf}}{{{self.inline(drawing.alt)}}}{{{number}}}{{{self.inline(drawing.caption)}}}"
 
-    def margin(self, display: Display) -> str:
+    def margin(self, display: Display, before: Sequence[Node] = ()) -> str:
+        """The note beside a display and the words before it: as much of it as ends before the next note begins."""
         lines = [escaped(self.words.grades[display.grade])]
-        if display.routes:
-            lines.append(escaped(f"{self.words.labels['second_route']}: {display.routes[0]}"))
+        said = [f"{self.words.labels['second_route']}: {route}" for route in display.routes]
+        fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
+        if fitting:
+            lines.append(escaped(fitting[0]))
         return r"\\ ".join(lines)
+
+    def _height(self, display: Display, before: Sequence[Node]) -> float:
+        """About how high a display with the words before it is, in points."""
+        text = len(inline_text(before, self.notation, self.document.numbers))
+        rows = sum(len(printed_lines(group, self.notation, WIDTH)) for group in display.groups)
+        return LINE * math.ceil(text / CHARACTERS) + ROW * rows + AROUND
 
     def ways(self) -> Sequence[Ways]:
         return self.document.checks.ways
@@ -228,6 +242,10 @@ class _Questions(_Page):
 def dotted(problem_id: str) -> str:
     """The name of a problem's place in a document."""
     return problem_id.replace("/", ".")
+
+
+def _note_height(route: str) -> float:
+    return NOTE_LINE * (1 + len(textwrap.wrap(route, NOTE_CHARACTERS)))
 
 
 def _anchor(problem_id: str, number: int) -> str:
