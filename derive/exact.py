@@ -60,8 +60,7 @@ def vanishes(expr: Expr) -> bool:
 
 def _vanishes_as_polynomial(expr: Expr) -> bool:
     tower = _Tower()
-    numerator = together(tower.polynomial_in_generators(expr)).as_numer_denom()[0]
-    return tower.reduces_to_zero(numerator)
+    return tower.reduces_to_zero(_numerator(tower.polynomial_in_generators(expr)))
 
 
 class _Tower:
@@ -158,29 +157,33 @@ class _Tower:
         return result
 
     def reduces_to_zero(self, numerator: Expr) -> bool:
-        """Reduce modulo the relations, last generator first."""
-        for generator, power, equals in reversed(self._relations):
-            numerator = _power_replaced(numerator, generator, power, equals)
-            if numerator == 0:
+        """Reduce modulo the relations, last generator first, all in one polynomial ring."""
+        ring, (element, *equals) = sring([numerator, *(equal for _, _, equal in self._relations)])
+        for (generator, power, _), equal in reversed(list(zip(self._relations, equals, strict=True))):
+            if generator in ring.symbols:
+                element = _power_replaced(element, ring.symbols.index(generator), power, equal)
+            if element == 0:
                 return True
-            numerator = together(numerator).as_numer_denom()[0]
-        ring_element = sring(numerator)[1]
-        return bool(ring_element == 0)
+        return bool(element == 0)
 
 
-def _power_replaced(expr: Expr, generator: Symbol, power: int, equals: Expr) -> Expr:
+def _power_replaced(element: Any, index: int, power: int, equal: Any) -> Any:
     """A polynomial with g^power replaced by what it equals, wherever it occurs."""
-    ring, element = sring(expr)
-    if generator not in ring.symbols:
-        return Integer(0) if element == 0 else expr
-    index = ring.symbols.index(generator)
     total: dict[int, Any] = {}
     for monomial, coefficient in element.terms():
         whole, rest = divmod(monomial[index], power)
         lowered = monomial[:index] + (rest,) + monomial[index + 1 :]
-        total.setdefault(whole, ring.zero)
-        total[whole] += ring({lowered: coefficient})
-    return sum((part.as_expr() * equals**whole for whole, part in total.items()), Integer(0))
+        part = total.setdefault(whole, {})
+        part[lowered] = part.get(lowered, 0) + coefficient
+    parts = [element.ring.from_dict(part) * equal**whole for whole, part in total.items()]
+    return sum(parts, element.ring.zero)
+
+
+def _numerator(expr: Expr) -> Expr:
+    """What must vanish: the numerator over a common denominator, or the whole where nothing is divided by."""
+    if all(power.exp.is_nonnegative for power in expr.atoms(Pow)):
+        return expr
+    return together(expr).as_numer_denom()[0]
 
 
 def _factors_under_a_root(base: Expr, q: int) -> list[tuple[Expr, int]]:

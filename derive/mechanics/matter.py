@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol, cos, diff, sin
@@ -76,7 +77,12 @@ class Matter:
         return [(point.mass, point.place, self._rates(point.place, order)) for point in self.points]
 
     def _rates(self, v: Vector, order: int) -> Vector:
-        return tuple(by_functions_of_time(x, self.coordinates, order) for x in v)
+        return _rates_of(v, self.coordinates, order)
+
+
+@lru_cache(maxsize=256)  # each momentum, force and equation of motion asks for those of the same points
+def _rates_of(v: Vector, coordinates: tuple[Symbol, ...], order: int) -> Vector:
+    return tuple(by_functions_of_time(x, coordinates, order) for x in v)
 
 
 def _dot(u: Vector, v: Vector) -> Expr:
