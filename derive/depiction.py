@@ -26,6 +26,7 @@ from derive.source import did_you_mean
 from derive.tidy import factored_matrix, tidied
 from derive.wording import Math, Node, Phrases, Text, filled, joined
 
+SHORT = 3  # operations
 FOUND = -1  # the index of the statement, before that of part a
 
 
@@ -168,7 +169,9 @@ def alternative(problem: Problem, drawing: m.Recorded, placement: Placement | No
     told = [nodes for nodes in (_mark(mark, words) for mark in drawing.marks) if nodes]
     axes = [_named(mark.label) for mark in drawing.marks if isinstance(mark, m.Axis) and mark.label is not None]
     if axes:
-        told.append(filled(words.drawings["axes"], {"names": joined(axes, words.labels["and"])}))
+        told.append(
+            filled(words.drawings["axes"], {"names": joined(axes, words.labels["and"]), "several": len(axes) > 1})
+        )
     items = joined(told, words.labels["and"])
     return filled(words.drawings[drawing.view], {"marks": items})
 
@@ -224,6 +227,8 @@ def _kind(mark: m.Mark, names: Mapping[str, Any]) -> str:
             return "arrow_of_letters"
         case m.AxisOfRotation():
             return "axis_of_rotation" if mark.rate is None else "turning_axis"
+        case m.CylinderMark(thin=True):
+            return "disc"
         case m.AngleMark() if not names["size"]:
             return "angle_of_letters"
     return _KINDS[type(mark)]
@@ -257,7 +262,9 @@ def _names(mark: m.Mark) -> dict[str, Any] | None:
         case m.CylinderMark():
             names.update(radius=Math(mark.radius), height=Math(_distance(mark.start, mark.end)))
         case m.RodMark():
-            names.update(length=Math(_distance(mark.start, mark.end)))
+            if mark.length == 0:
+                return None
+            names.update(length=Math(mark.length))
         case m.Circle() | m.BallMark():
             names.update(radius=Math(mark.radius))
         case m.Polygon():
@@ -274,6 +281,8 @@ def _names(mark: m.Mark) -> dict[str, Any] | None:
         case m.Turn() | m.Length() | m.Dot():
             if mark.label is None or mark.label == 0:
                 return None
+            if isinstance(mark, m.Dot):
+                names.update(place=_short_place(mark.at))
         case m.Axis() | m.Line():
             return None
     return names
@@ -301,6 +310,12 @@ def _whole_direction(value: Any) -> MatrixBase | None:
 def _direction(value: Any) -> tuple[Node, ...]:
     found = _whole_direction(value)
     return () if found is None else (Math(tuple(found)),)
+
+
+def _short_place(place: Any) -> tuple[Node, ...]:
+    """Where a point is, if that can be said in a few letters."""
+    entries = [tidied(entry) for entry in place]
+    return (Math(tuple(entries)),) if any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT else ()
 
 
 def _size(mark: m.AngleMark) -> tuple[Node, ...] | str:

@@ -74,7 +74,9 @@ def rendered(
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
         agreed=said != "differs",
-        files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),) if draws and "draws" in said else (),
+        files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),)
+        if draws and said.startswith("draws")
+        else (),
     )
 
 

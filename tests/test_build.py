@@ -379,3 +379,23 @@ def is_gone(pid: int) -> bool:
             return True
         time.sleep(0.02)
     return False
+
+
+def test_drawings_are_written_beside_the_page_and_removed_with_it(course: Course) -> None:
+    course.problem("one", "draws")
+    build(course)
+    assert (course.outputs / "one-axes.pdf").read_text() == "draws"
+    course.problem("one", "draws another")
+    assert course.outputs / "one.pdf" in build(course).changed, "the page is typeset anew with its drawing"
+    course.problem("one", "no more")
+    build(course)
+    assert not (course.outputs / "one-axes.pdf").exists()
+
+
+def test_a_drawing_may_not_have_the_name_of_another_output(course: Course) -> None:
+    course.heading("one", "one-axes")
+    course.problem("one", "draws")
+    course.problem("one-axes", "second")
+    report = build(course)
+    assert codes(report) == ["file-clash"]
+    assert "the drawing `one-axes.pdf` of `one` would have the name of another output" in report.complaints[0].message

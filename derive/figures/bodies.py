@@ -107,7 +107,7 @@ def _(body: Ball, on_axis: OnAxis, along: Any) -> list[Mark]:
 @round_outline.register
 def _(body: Disc, on_axis: OnAxis, along: Any) -> list[Mark]:
     half = THIN * body.radius * along
-    return [CylinderMark(on_axis(Integer(0)) - half, on_axis(Integer(0)) + half, body.radius)]
+    return [CylinderMark(on_axis(Integer(0)) - half, on_axis(Integer(0)) + half, body.radius, thin=True)]
 
 
 @round_outline.register
@@ -117,7 +117,7 @@ def _(body: Hoop, on_axis: OnAxis, along: Any) -> list[Mark]:
 
 @round_outline.register
 def _(body: Rod, on_axis: OnAxis, along: Any) -> list[Mark]:
-    return [RodMark(on_axis(Integer(0)), on_axis(body.length))]
+    return [RodMark(on_axis(Integer(0)), on_axis(body.length), body.length)]
 
 
 def _measures(body: Any, point: Point) -> list[Mark]:
@@ -136,9 +136,8 @@ def _measures(body: Any, point: Point) -> list[Mark]:
     if radius != 0:
         marks.append(Line(wide + radius * Y, wide, "hidden", label=radius))
     if low != high and not isinstance(body, Ball):
-        beside = radius * Y
         marks.append(Line(low * Z, high * Z, "hidden"))
-        marks.append(Length(low * Z - beside, high * Z - beside, -Y, label=high - low))
+        marks.append(Length(low * Z, high * Z, None, radius, label=high - low))
     return marks
 
 

@@ -78,7 +78,8 @@ def _part(part: Part, whole: Composed, e: Any) -> list[Mark]:
         return round_outline(part.body, lambda z: (start + z) * e, e)
     cuts = [other.at for other in whole.parts if not isinstance(other.body, Rod) and _in_units(other.at - start) > 0]
     ends = [start, *(cut for cut in cuts if _in_units(cut) < _in_units(start + part.body.length))]
-    return [RodMark(a * e, b * e) for a, b in pairwise([*ends, start + part.body.length])]
+    pieces = pairwise([*ends, start + part.body.length])
+    return [RodMark(a * e, b * e, part.body.length if a == start else Integer(0)) for a, b in pieces]
 
 
 def _half(body: Any) -> Expr:

@@ -52,11 +52,12 @@ class ConeMark(Mark):
 
 @dataclass(frozen=True)
 class CylinderMark(Mark):
-    """A circular cylinder between the centres of its two ends: a disc if it is short."""
+    """A circular cylinder between the centres of its two ends; a thin disc has a thickness for the eye only."""
 
     start: Place
     end: Place
     radius: Any
+    thin: bool = False
 
 
 @dataclass(frozen=True)
@@ -69,10 +70,11 @@ class BallMark(Mark):
 
 @dataclass(frozen=True)
 class RodMark(Mark):
-    """A rod, too thin to show its thickness."""
+    """A rod, too thin to show its thickness, or a piece of one; `length` is the whole one's, zero for a later piece."""
 
     start: Place
     end: Place
+    length: Any
 
 
 @dataclass(frozen=True)
@@ -155,11 +157,14 @@ class Turn(Mark):
 
 @dataclass(frozen=True)
 class Length(Mark):
-    """A dimension line between two points, moved aside in the given direction so that it stands clear."""
+    """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
+    the length `clear` and a little more.
+    """
 
     start: Place
     end: Place
-    aside: Place
+    aside: Place | None
+    clear: Any = 0
 
 
 @dataclass(frozen=True)

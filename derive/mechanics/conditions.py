@@ -21,7 +21,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
     or_zero  whether zero is allowed too
     Second route: the sign of the quantity where the letter is a little above the bound, and a little below.
     Outcomes: conditional; squared (solved for the square of the letter only, because the sign of its bound is not
-    known); always, never, vanishing where the sign does not depend on the letters.
+    known); always, never, vanishing (these where the sign does not depend on the letters).
     Errors: the inequality cannot be solved for that letter.
     Source: none needed: algebra of inequalities.
     """

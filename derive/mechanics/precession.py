@@ -56,14 +56,8 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
     )
 
 
-def fixed_tilt(tilt: Expr, angles: EulerAngles, key: str = "tilt") -> Quantity:
-    """The tilt at which the top is held, theta = theta_0: a definition.
-
-    tilt     an angle from the upward vertical
-    angles   Euler's angles
-
-    Source: none needed: a definition.
-    """
+def _fixed_tilt(tilt: Expr, angles: EulerAngles, key: str = "tilt") -> Quantity:
+    """The tilt at which the top precesses, theta = theta_0: a definition."""
     return establish(
         "precession.fixed_tilt", angles.theta.symbol, lambda: tilt, {}, key=key, definition=True, kind="angle"
     )
@@ -83,7 +77,7 @@ def precession_rates(steady: Quantity, tilt: Expr, key: str = RATES) -> Quantity
     if sign_known(sin(tilt)) == 0:
         message = "`precession_rates`: the axis is vertical, so that it has no rate of precession"
         raise Rejected(Complaint("vertical", message, help="give a tilt between 0 and 180 degrees"))
-    held = [] if tilt == angles.theta.symbol else [fixed_tilt(tilt, angles)]
+    held = [] if tilt == angles.theta.symbol else [_fixed_tilt(tilt, angles)]
     instead = (CONDITION, SLOW, FAST)
     unknown = angles.phi.rate
     return roots_of(steady, unknown, *held, *top.values, key=key, kind="angular speed", one_stands_for=instead)
@@ -141,6 +135,11 @@ def steady_rates(rates: Quantity, condition: Quantity) -> tuple[Quantity, Quanti
 def _steady_rate(
     rates: Quantity, condition: Quantity, sign: int, outcome: str, key: str, stands_for: tuple[str, ...] = ()
 ) -> Quantity:
+    """One of the two rates, that with the sign.
+
+    Outcomes: slow, fast, slow_where_real, fast_where_real, forward, backward, coinciding.
+    Source: as `steady_rates`.
+    """
     quadratic: Quadratic = rates.context["quadratic"]
     name = key.partition("_")[0]
 

@@ -111,7 +111,7 @@ def roots_of(
     kind       what kind of quantity x is
     one_stands_for   keys of answers that this step gives where there is only one root
     Second route: put back into the equation; the sum of the two is -b/a.
-    Outcomes: two, none, double, conditional by the sign of b^2 - 4 a c; opposite (two, one of each sign); linear.
+    Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
     Errors: the equation is not quadratic in x, or a and b both vanish.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """

@@ -193,17 +193,20 @@ def _length(mark: m.Length, paper: Paper) -> list[Piece]:
     if size_of(plus(end, start, -1.0)) < 1e-9 * paper.reach:
         return []
     a, b = paper.spots(start, end)
-    x, y = paper.stance.spot(paper.numbers.vector(mark.aside))
+    x, y = (-1.0, 0.0) if mark.aside is None else paper.stance.spot(paper.numbers.vector(mark.aside))
     size = hypot(x, y) or 1.0
-    off = (x / size * ASIDE, y / size * ASIDE)
-    ends = tuple((s[0] + off[0], s[1] + off[1]) for s in (a, b))
-    extensions = [
-        Stroke(((s[0] + 0.2 * off[0], s[1] + 0.2 * off[1]), (s[0] + 1.25 * off[0], s[1] + 1.25 * off[1])), "thin")
-        for s in (a, b)
-    ]
+    away = (x / size, y / size)
+    clear = paper.numbers.of(mark.clear) * paper.scale
+
+    def set_off(spot: Spot, share: float) -> Spot:
+        far = clear + share * ASIDE
+        return spot[0] + away[0] * far, spot[1] + away[1] * far
+
+    ends = (set_off(a, 1), set_off(b, 1))
+    extensions = [Stroke((set_off(spot, 0.2), set_off(spot, 1.25)), "thin") for spot in (a, b)]
     middle = ((ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2)
     line = Stroke(ends, "measure", head=True, tail=True)
-    return [*extensions, line, Tag(mark.label, middle, (x / size, y / size))]
+    return [*extensions, line, Tag(mark.label, middle, away)]
 
 
 def _support(spot: Spot, label: Any) -> list[Piece]:

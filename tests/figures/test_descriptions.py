@@ -176,3 +176,10 @@ def test_an_angle_may_be_named_by_the_quantity_that_it_is() -> None:
     assert isinstance(found, AngleMark)
     assert found.label == known["angle_between"].symbol
     assert set(found.keys) == {"spin", "angular_momentum", "angle_between"}
+
+
+def test_a_rod_in_pieces_is_told_once_and_a_disc_without_its_thickness() -> None:
+    rods = [mark for mark in leaning() if isinstance(mark, RodMark)]
+    assert [rod.length for rod in rods] == [2 * a, 0]
+    assert list(rods[0].end) == list(rods[1].start)
+    assert all(mark.thin for mark in leaning() if isinstance(mark, CylinderMark))

@@ -176,6 +176,13 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         "of.b**2, FOUR * of.a * of.c)",
         "precession_rates",
     ),
+    (
+        "precession_rates",
+        QUADRATICS,
+        "Factors(PLUS_MINUS, Root(_of_terms(of)))",
+        "Root(_of_terms(of))",
+        "precession_rates",
+    ),
     ("roots_of", QUADRATICS, "Ratio(Terms(-of.b, Factors", "Ratio(Terms(of.b, Factors", "precession_rates"),
     ("roots_of", QUADRATICS, "Root(_of_terms(of)))), 2 * of.a)", "Root(_of_terms(of)))), of.a)", "precession_rates"),
     ("roots_of", QUADRATICS, "k = tidied(outside / (2 * of.a))", "k = tidied(outside / of.a)", "precession_rates"),

@@ -20,7 +20,6 @@ from derive.mechanics import (
     steady_rates,
     turning_rate,
 )
-from derive.mechanics.precession import fixed_tilt
 from derive.step import Quantity, establish
 from tests.mechanics.alteration import verbs_as_imported
 from tests.mechanics.laws_of_tops import S, a, g, m, motion_of, sleeping
@@ -152,8 +151,9 @@ def test_the_top_sleeps_at_the_border_too() -> None:
     assert found.value.right.subs(DISC_ON_ROD) == 28
 
 
-def test_a_tilt_that_is_given_is_a_definition(top: SimpleNamespace) -> None:
-    held = fixed_tilt(pi / 4, top.angles)
+def test_a_tilt_that_is_given_is_a_definition(steady: Quantity) -> None:
+    held = next(parent for parent in precession_rates(steady, pi / 4).parents if parent.key == "tilt")
+    assert (held.symbol, held.value) == (theta, pi / 4)
     assert [evidence.grade for evidence in held.step.evidence] == [Grade.DEFINITION]
 
 
