@@ -20,10 +20,10 @@ def rolled_centre(
 ) -> tuple[Quantity, Quantity]:
     """Centre of a flat body rolled on a cylinder, x = (R + h) sin q - R q cos q and y = (R + h) cos q + R q sin q.
 
-    radius    R of the fixed cylinder, m
-    height    h of the centre of mass above the face that touches it, m
-    angle     q by which the body has turned, clockwise; at q = 0 it lies balanced on top
-    symbols   the letters of the two
+    radius   R of the fixed cylinder, m
+    height   h of the centre of mass above the face that touches it, m
+    angle    q by which the body has turned, clockwise; at q = 0 it lies balanced on top
+    symbols  names of x and y
     The contact has moved by the arc R q along the body, so the point of the face under the centre is R q behind it.
     Second route: the particle of the body at the contact has no velocity, and at q = 0 the centre is at (0, R + h).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3 (rolling constraints).
