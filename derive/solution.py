@@ -206,12 +206,12 @@ def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
 
 
 def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
-    """A letter of the problem's own may not also be what a step calls its result, or a coordinate or its rate."""
+    """A letter of the problem's own may not also be what a step calls its result, or a coordinate of another kind."""
     faults = []
     coordinates = dict.fromkeys(q for quantity in known.values() for q in quantity.coordinates)
-    for name in dict.fromkeys(rate(q, n).name for q in coordinates for n in range(3)):
-        if name in problem.symbols:
-            message = f"`{name}` is a letter of this problem, but the script has a coordinate of that name"
+    for moving in dict.fromkeys(rate(q, n) for q in coordinates for n in range(3)):
+        if moving.name in problem.symbols and problem.symbols[moving.name].symbol != moving:
+            message = f"`{moving.name}` is a letter of this problem, but the script has a coordinate of that name"
             help_line = 'use another letter, or another name in `coordinate("...")`'
             faults.append(Complaint("letter-clash", message, problem.place_of("symbols"), help=help_line))
     for key, quantity in known.items():

@@ -320,7 +320,13 @@ LAWS: list[tuple[str, str, str, str, str]] = [
         'lambda v: Relation(-v, mark, 0),\n        {"quantity": of},\n        put_in=Level.STANDARD,\n        between',
         "condition",
     ),
-    ("positive_where squared", CONDITIONS, "else tidied(sqrt(bound))", "else bound", "condition"),
+    (
+        "positive_where squared",
+        CONDITIONS,
+        "bound = tidied(sqrt(bound))",
+        "bound = 2 * tidied(sqrt(bound))",
+        "condition",
+    ),
     ("positive_where squared", CONDITIONS, "tidied(bound**2)", "tidied(bound)", "condition"),
     ("positive_where never", CONDITIONS, '"never", "<"', '"never", ">"', "condition"),
     # the shape of a potential
