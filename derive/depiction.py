@@ -113,7 +113,7 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
         Complaint("unknown-letter", f"the drawing `{drawing.key}` has no letter `{name}`", place,
                   help=did_you_mean(name, letters) or "its letters are " + ", ".join(f"`{x}`" for x in sorted(letters)))
         for name, place in (placement.names.items() if placement else ())
-        if name not in letters
+        if name not in letters and name not in problem.symbols  # of one of its own it may be free for what is given now
     ]  # fmt: skip
 
 
@@ -134,7 +134,16 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
         return _earliest(drawing, derivation)
     if placement.at == HIDDEN:
         return None
+    if len(placement.at) > 1 and placement.at != STATEMENT:
+        return _part_of(placement.at, problem, derivation)
     return FOUND if placement.at == STATEMENT else ord(placement.at) - ord("a")
+
+
+def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
+    """The part that asks for a step, else that which shows it; nothing where none does, so that it is not drawn."""
+    asked = [index for index, part in enumerate(problem.parts) if key in part.answers]
+    shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
+    return next(iter([*asked, *shown]), None)
 
 
 def _given_away(
@@ -143,8 +152,14 @@ def _given_away(
     """A drawing may not show what is derived later, or what no answer rests on."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
-    if placement is not None and placement.at == HIDDEN:
+    at = placement.at if placement is not None else None
+    if at == HIDDEN:
         return None
+    if at is not None and at != STATEMENT and len(at) > 1 and at not in {*derivation.keys, *derivation.unshown}:
+        help_line = did_you_mean(at, derivation.keys)
+        return Complaint("undefined-name", f"no step of this problem is called `{at}`", place, help=help_line)
+    if earliest is None and at is None:
+        return None  # what it shows is not on the page, since a part was left out
     if earliest is None:
         loose = next(key for key in drawing.keys if key not in derivation.keys)
         message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer rests"

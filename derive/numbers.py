@@ -92,7 +92,8 @@ def _under_one_root(value: Expr) -> Expr:
     if len(above) + len(below) < 2:
         return value
     others = [base**power for base, power in roots if abs(power) != HALF]
-    inside = Ratio(Factors(*above), Factors(*below)) if below else Factors(*above)
+    over = Factors(*above) if above else Integer(1)
+    inside = Ratio(over, Factors(*below)) if below else over
     return Factors(*others, Root(inside)) if others else Root(inside)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping as Table
 from dataclasses import dataclass, field
 
@@ -16,6 +17,7 @@ from derive.schema import DRAWING_KEYS, check_keys, wrong_type
 from derive.source import Faults, Mapping, Node, Scalar, Sequence, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
+_KEY = re.compile(r"[a-z][a-z0-9_]+", re.ASCII)
 WIDEST, NARROWEST = 15.0, 1.0  # centimetres
 
 
@@ -67,6 +69,8 @@ def _at(node: Node | None, parts: int, faults: Faults) -> str | None:
     if node is None or (isinstance(node, Scalar) and node.text in known):
         return node.text if node else None
     help_line = did_you_mean(node.text, (STATEMENT, HIDDEN)) if isinstance(node, Scalar) else None
+    if isinstance(node, Scalar) and help_line is None and _KEY.fullmatch(node.text):
+        return node.text  # a step: whether there is one of that name is known when the script has run
     last = f"part a to {letters[-1]}" if parts > 1 else "part a"
     wrong_type(faults, "`at`", f"statement, {last}, or hidden", node, help_line)
     return None

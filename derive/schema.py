@@ -69,7 +69,7 @@ PART_KEYS: Table[str, Key] = {
 }
 
 DRAWING_KEYS: Table[str, Key] = {
-    "at": Key("where it stands: `statement`, the letter of a part, or `hidden`", _TEXT),
+    "at": Key("where it stands: `statement`, the letter of a part, the step that a part asks for, or `hidden`", _TEXT),
     "caption": Key("what it shows, in prose", _TEXT),
     "width": Key("how wide it is without its labels, such as `5 cm`", _TEXT),
     "values": Key("numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", _mapping_of(_SCALAR)),

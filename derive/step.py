@@ -196,7 +196,7 @@ def establish(
     key = key or rule.rpartition(".")[2]
     _check_names(key, [q for q in inputs.values() if isinstance(q, Quantity)])
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
-    given = [q.value if isinstance(q, Quantity) else q for q in inputs.values()]
+    given = [value_behind(q) for q in inputs.values()]
     names = [q.symbol if isinstance(q, Quantity) else q for q in inputs.values()]
 
     formula, substituted = law(*names), law(*given)
@@ -404,6 +404,11 @@ def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
     )
     wanted = kind_with_article(kind)
     raise Rejected(Complaint("wrong-argument", f"`{verb}` needs {wanted} as its `{role}`, but {got}"))
+
+
+def value_behind(given: Any) -> Any:
+    """The value of a quantity; anything else is its own value."""
+    return given.value if isinstance(given, Quantity) else given
 
 
 def scalar_component(quantity: Quantity, i: int) -> Symbol:

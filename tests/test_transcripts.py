@@ -35,6 +35,15 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
     "euler-numbers": ({"moments: [I_x, I_y, I_z]": "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"}, None),
     "slab": ({}, None),
     "slab-full": ({}, "full"),
+    "slab-width": (
+        {
+            "inertia: I   ": "width: b     ",
+            "I: moment of inertia": "b: length",
+            "moment of inertia about the axis through its centre that is parallel to the cylinder's\n": "width\n",
+            "is <<inertia>>": "is <<width>>",
+        },
+        None,
+    ),
     "slab-thick": ({"radius: R\n": "radius: a/4\n"}, None),
     "slab-stable": ({"radius: R\n": "radius: 2*a\n"}, None),
     "slab-border": ({"radius: R\n": "radius: a/2\n"}, None),

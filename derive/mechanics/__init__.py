@@ -33,7 +33,7 @@ from derive.mechanics.free_rotation import (
     rate_in_body,
     rate_in_space,
 )
-from derive.mechanics.inertia import agreement, inertia_tensor, moved_from_centre, moved_to
+from derive.mechanics.inertia import agreement, inertia_tensor, moment_of_inertia, moved_from_centre, moved_to
 from derive.mechanics.lagrangian import (
     equation_of_motion,
     generalized_force,
@@ -134,6 +134,7 @@ __all__ = [
     "let",
     "linearised",
     "magnitude",
+    "moment_of_inertia",
     "momentum_rate",
     "moved_from_centre",
     "moved_to",

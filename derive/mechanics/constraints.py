@@ -16,7 +16,7 @@ from derive.expressions import Factors, Partial, Relation, Terms, TimeRate, rate
 from derive.mechanics.arrangement import by_accelerations, spread
 from derive.mechanics.coordinates import Coordinate, by_functions_of_time, letters_of, rate_of
 from derive.mechanics.matter import Load, Matter, plane_body
-from derive.step import Level, Quantity, compared_with, establish
+from derive.step import Level, Quantity, compared_with, establish, value_behind
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def tie(free: Coordinate, at: Quantity, multiplier: str | None = None) -> Tie:
 def free_lagrangian(
     mass: Expr,
     gravity: Expr,
-    inertia: Expr,
+    inertia: Expr | Quantity,
     place: Sequence[Coordinate],
     turning: Coordinate,
     symbol: str = "L",
@@ -62,7 +62,8 @@ def free_lagrangian(
     """
     x, y = (q.symbol for q in place)
     weight = Matter((), (Load((Integer(0), -mass * gravity), (x, y)),), (x, y))
-    matter = plane_body(mass, (x, y), inertia, turning.symbol, (x, y, turning.symbol)) + weight
+    moment = value_behind(inertia)
+    matter = plane_body(mass, (x, y), moment, turning.symbol, (x, y, turning.symbol)) + weight
 
     def law(m: Expr, g: Expr, i: Expr, *_: Expr) -> Expr:
         moving = Factors(Rational(1, 2), m, Terms(Pow(rate(x), 2), Pow(rate(y), 2)))

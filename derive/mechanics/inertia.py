@@ -21,6 +21,7 @@ from derive.expressions import (
     column,
     component_names,
     explicit,
+    scalar,
     scaled,
     tensor,
     vector,
@@ -79,6 +80,36 @@ def inertia_tensor(
         context={"body": body, "about": point},
         words={"about": point.name},
         key=key,
+    )
+
+
+def moment_of_inertia(
+    body: Body, axis: str = "z", about: str = "centre", symbol: str = "I", key: str = "moment_of_inertia"
+) -> Quantity:
+    """Moment of inertia about one axis through a point, I = integral of the squared distance from it dm.
+
+    body    mass M, uniform density
+    axis    "x", "y" or "z": parallel to which of the body's axes
+    about   a point that the body has, through which the axis goes
+    Second route: the sum of m times the squared distance over the body's equimomental particles.
+    Errors: no such point.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    """
+    point, i = body.point(about), "xyz".index(axis)
+    region, rho = body.within(point, None), body.density
+    weight = entry_weight(region, (i, i))
+    return establish(
+        "inertia.moment_of_inertia",
+        scalar(symbol),
+        _with_sign_in_front(region, weight),
+        {"density": rho, "square": weight},
+        between=worked_integral(region, weight, rho.symbol, body.size),
+        routes={"particles": compared_with(lambda: _entry_from_particles(body, point, (i, i)))},
+        kind="moment of inertia",
+        put_in=None,
+        words={"about": point.name, "axis": axis},
+        key=key,
+        parents=body.radii(point, region),
     )
 
 

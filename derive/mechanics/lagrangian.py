@@ -11,11 +11,12 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
 
+from derive.errors import Complaint, Rejected
 from derive.expressions import Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.mechanics.arrangement import by_accelerations, by_rates
 from derive.mechanics.coordinates import Coordinate, by_functions_of_time, required
 from derive.mechanics.matter import Load, Matter, plane_body
-from derive.step import Form, Level, Quantity, compared_with, establish, require_kind
+from derive.step import Form, Level, Quantity, compared_with, establish, require_kind, value_behind
 
 ZERO = Integer(0)
 
@@ -41,7 +42,9 @@ def plane_kinetic_energy(
     """
     own = turning.letters if turning else {}
     coordinates = {**own, **{q: kind for part in place for q, kind in part.coordinates.items()}}
-    moment = inertia.value if isinstance(inertia, Quantity) else inertia
+    if turning and inertia is None:
+        raise Rejected(Complaint("wrong-argument", "`plane_kinetic_energy` needs the moment of inertia of what turns"))
+    moment = value_behind(inertia)
     angle = turning.symbol if turning else Integer(0)
     matter = plane_body(mass, [x.value for x in place], moment, angle, list(coordinates))
     inputs: dict[str, Any] = {"mass": mass, **{f"velocity_{i}": v for i, v in enumerate(velocity)}}
@@ -85,7 +88,7 @@ def weight_energy(
     height = place[-1]
     coordinates = list({q: None for part in place for q in part.coordinates})
     at = tuple(part.value for part in place)
-    down = (*(Integer(0) for _ in at[:-1]), -(mass.value if isinstance(mass, Quantity) else mass) * gravity)
+    down = (*(Integer(0) for _ in at[:-1]), -value_behind(mass) * gravity)
     matter = Matter((), (Load(down, at),), tuple(coordinates))
 
     def work_of_weight(potential: Expr) -> tuple[Expr, Expr]:

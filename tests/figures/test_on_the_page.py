@@ -122,16 +122,31 @@ def test_a_drawing_does_not_give_an_answer_away(tmp_path: Path, where: str, told
     assert "help: write `at: c`, where it is" in fault
 
 
-def test_a_drawing_of_what_no_part_asks_for_is_told(tmp_path: Path) -> None:
-    (fault,) = faults(
-        tmp_path,
-        {
-            "  - ask: Find the angle between <<spin>> and the angular momentum <<angular_momentum>>.\n"
-            "    answer: [cosine, angle_between]\n": "  - ask: Find it.\n    answer: [angular_momentum]\n",
-            "    form:\n      cosine: {figures: 5}\n      angle_between: {unit: degree, figures: 4}\n": "",
-        },
-    )
+WITHOUT_THE_ANGLE = {
+    "  - ask: Find the angle between <<spin>> and the angular momentum <<angular_momentum>>.\n"
+    "    answer: [cosine, angle_between]\n": "  - ask: Find it.\n    answer: [angular_momentum]\n",
+    "    form:\n      cosine: {figures: 5}\n      angle_between: {unit: degree, figures: 4}\n": "",
+}
+
+
+def test_a_drawing_of_what_no_part_asks_for_is_left_out(tmp_path: Path) -> None:
+    assert "vectors" not in drawings(rendered(course_in(tmp_path, WITHOUT_THE_ANGLE), "hw9/block"))
+
+
+def test_a_drawing_of_what_no_part_asks_for_that_is_given_a_place_is_told(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {**WITHOUT_THE_ANGLE, CAPTION: CAPTION + "    at: c\n"})
     assert "the drawing `vectors` shows `angle_between`, on which no answer rests" in fault
+
+
+def test_a_drawing_may_stand_with_the_step_that_a_part_asks_for(tmp_path: Path) -> None:
+    placed = rendered(course_in(tmp_path, {CAPTION: CAPTION + "    at: torque\n"}), "hw9/block")
+    assert drawings(placed)["vectors"]["at"] == "d"
+
+
+def test_a_step_that_there_is_none_of_is_told(tmp_path: Path) -> None:
+    (fault,) = faults(tmp_path, {CAPTION: CAPTION + "    at: torqe\n"})
+    assert "error[undefined-name]: no step of this problem is called `torqe`" in fault
+    assert "did you mean `torque`?" in fault
 
 
 def test_faults_of_a_placement_are_told_together(tmp_path: Path) -> None:

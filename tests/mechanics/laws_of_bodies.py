@@ -38,6 +38,7 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
     "inertia_tensor of a plate": skew_tensor,
     "moved_to of a cone": cone_derivation,
     "moved_from_centre": moved_out,
+    "moment_of_inertia": lambda verbs: verbs.moment_of_inertia(verbs.Plate((R, h), M)),
     "agreement": cone_derivation,
     "principal_moments": cone_derivation,
     "principal_moments of a plate": skew,
@@ -52,6 +53,20 @@ RUNS: dict[str, Callable[[Verbs], Any]] = {
 }
 
 LAWS: list[tuple[str, str, str, str, str]] = [
+    (
+        "moment_of_inertia",
+        INERTIA,
+        "weight = entry_weight(region, (i, i))",
+        "weight = entry_weight(region, (0, 0))",
+        "moment_of_inertia",
+    ),
+    (
+        "moment_of_inertia",
+        INERTIA,
+        "weight = entry_weight(region, (i, i))",
+        "weight = 2 * entry_weight(region, (i, i))",
+        "moment_of_inertia",
+    ),
     ("moved_from_centre", INERTIA, "sign = 1 if outward else -1", "sign = -1 if outward else -1", "moved_tensor_xx"),
     (
         "moved_from_centre",
@@ -263,6 +278,13 @@ LAWS: list[tuple[str, str, str, str, str]] = [
 ]
 
 ROUTES: list[tuple[str, str, str, str, str]] = [
+    (
+        "moment_of_inertia",
+        INERTIA,
+        "_entry_from_particles(body, point, (i, i))",
+        "_entry_from_particles(body, point, (0, 0))",
+        "moment_of_inertia",
+    ),
     ("moved_from_centre", INERTIA, "_as_defined(body, target)", "_as_defined(body, body.middle)", "moved_tensor"),
     (
         "isotropic_where",

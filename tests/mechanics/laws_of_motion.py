@@ -497,7 +497,13 @@ ROUTES: list[tuple[str, str, str, str, str]] = [
         "kinetic_energy",
     ),
     ("weight_energy", LAGRANGIAN, "-diff(potential, q) * mark", "diff(potential, q) * mark", "potential_energy"),
-    ("weight_energy", LAGRANGIAN, "-mass * gravity)", "-mass * gravity / 2)", "potential_energy"),
+    (
+        "weight_energy",
+        LAGRANGIAN,
+        "-value_behind(mass) * gravity",
+        "-value_behind(mass) * gravity / 2",
+        "potential_energy",
+    ),
     ("lagrangian", LAGRANGIAN, "kinetic.value + potential.value", "kinetic.value - potential.value", "lagrangian"),
     (
         "generalized_force",

@@ -122,9 +122,10 @@ def test_energy_and_length_are_constant_for_every_shape(moments: tuple[Expr, Exp
         assert found(moments)[key].step.outcome == "conserved"
 
 
-def test_every_line_and_every_route_is_proved() -> None:
-    grades = {e.grade for quantity in found().values() for e in quantity.step.evidence}
-    assert grades == {Grade.PROVED, Grade.DEFINITION}
+def test_every_line_and_every_route_but_the_numerical_ones_is_proved() -> None:
+    evidence = [e for quantity in found().values() for e in quantity.step.evidence]
+    assert {e.grade for e in evidence if e.claim != "followed"} == {Grade.PROVED, Grade.DEFINITION}
+    assert {e.grade for e in evidence if e.claim == "followed"} == {Grade.APPROXIMATION}
 
 
 def test_a_torque_works_at_the_rate_of_its_power() -> None:

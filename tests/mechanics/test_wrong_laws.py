@@ -207,7 +207,13 @@ LAWS = [
     ("magnitude", EQUATIONS, "Factors(size, Root", "Factors(size**2, Root", "magnitude"),
     # numbers
     ("value_of", NUMBERS, "lambda: within(substituted),", "lambda: within(substituted**2),", "magnitude_value"),
-    ("value_of", NUMBERS, "{letter: amounts[letter] for", "{letter: amounts[letter].args[0] for", "magnitude_value"),
+    (
+        "value_of",
+        NUMBERS,
+        "amounts[letter] for letter in letters}\n    if isinstance",
+        "amounts[letter].args[0] for letter in letters}\n    if isinstance",
+        "magnitude_value",
+    ),
     (
         "value_of",
         NUMBERS,

@@ -2,6 +2,7 @@
 
 from derive.given import Acceleration, Length, Mass, MomentOfInertia
 from derive.mechanics import (
+    Plate,
     boundary_case,
     contact_forces,
     coordinate,
@@ -15,6 +16,7 @@ from derive.mechanics import (
     lagrangian,
     leading_order,
     linearised,
+    moment_of_inertia,
     multipliers_eliminated,
     plane_kinetic_energy,
     positive_where,
@@ -26,7 +28,16 @@ from derive.mechanics import (
 )
 
 
-def solve(radius: Length, thickness: Length, mass: Mass, inertia: MomentOfInertia, gravity: Acceleration):
+def solve(
+    radius: Length,
+    thickness: Length,
+    mass: Mass,
+    gravity: Acceleration,
+    inertia: MomentOfInertia = None,
+    width: Length = None,
+):
+    if width is not None:  # a section of the slab will do: every slice along the cylinder has its share of the mass
+        inertia = moment_of_inertia(Plate((width, thickness), mass))
     theta = coordinate("theta")
     x, y = rolled_centre(radius, thickness / 2, theta)  # no slipping: the contact moves on by R theta
 
