@@ -188,7 +188,7 @@ def _angles_of(verb: str, quantity: Quantity) -> EulerAngles:
     raise Rejected(Complaint("wrong-argument", f"`{verb}` needs a quantity in Euler's angles, not `{quantity.key}`"))
 
 
-def centre_height(top: Top, angles: EulerAngles, symbol: str = "z", key: str = "centre_height") -> Quantity:
+def centre_height(top: Top, angles: EulerAngles, symbol: str = "Z", key: str = "centre_height") -> Quantity:
     """Height of the centre of mass above the pivot, z = l cos theta.
 
     top      its centre of mass is l from the pivot, m
