@@ -45,7 +45,9 @@ class Curves:
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
     """Every curve of the plot with its extrema, or `Rejected` with what lacks a number."""
     lower, upper = _range(problem, plot, placement)
-    cases = placement.cases if placement and placement.cases else ((),)
+    given = placement.cases if placement and placement.cases else ((),)
+    # A number for a letter that the curve does not have would be told of it, but not be true of it.
+    cases = [tuple(number for number in case if number.symbol in plot.expr.free_symbols) for case in given]
     found = tuple(_curve(problem, plot, placement, (*cases[0], *case), case, lower, upper) for case in cases)
     in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for end in (lower, upper))
     return Curves(found, DEGREES if in_degrees else _unit(plot.of), float(1 / DEGREE) if in_degrees else 1.0)

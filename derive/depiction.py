@@ -117,6 +117,19 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     ]  # fmt: skip
 
 
+def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    """Letters of the problem's own that a drawing no longer has, though it is given values for them."""
+    found = []
+    for drawing in drawings:
+        placement = placement_of(problem, drawing.key)
+        letters = {symbol.name for symbol in drawing.letters}
+        for name, place in placement.names.items() if placement else ():
+            if name not in letters and name in problem.symbols:
+                message = f"`{name}` does not occur in what `{drawing.key}` draws now, so its value is not used"
+                found.append(Complaint("unused-letter", message, place, severity="warning"))
+    return found
+
+
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
     """The index of the first part by whose end everything that the drawing shows is derived; nothing if none has."""
     known: set[str] = set()

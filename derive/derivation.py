@@ -28,6 +28,12 @@ class Derivation:
         return next(step for step in self.steps if step.key == key)
 
     @property
+    def warnings(self) -> tuple[Complaint, ...]:
+        """A word on each step that the script established for nothing."""
+        said = "`{}` is established but no answer rests on it"
+        return tuple(Complaint("not-shown", said.format(key), severity="warning") for key in self.unshown)
+
+    @property
     def keys(self) -> tuple[str, ...]:
         return tuple(step.key for step in self.steps)
 

@@ -13,7 +13,7 @@ from typing import Any
 from sympy import preorder_traversal
 
 from derive.checks import Checks, checks_of
-from derive.depiction import caption_numbers, depictions
+from derive.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.derivation import Derivation
 from derive.dimensions import Dimension
 from derive.errors import Complaint, Place
@@ -234,10 +234,7 @@ class _Writer:
             symbols={**self.symbols, **{value.key: value.symbol for value in self.values.values()}},
             shown_in=self.shown_in,
             dimensions=self.dimensions,
-            warnings=tuple(
-                Complaint("not-shown", f"`{key}` is established but no answer rests on it", severity="warning")
-                for key in self.derivation.unshown
-            ),
+            warnings=(*self.derivation.warnings, *letters_not_drawn(problem, self.drawings)),
         )
 
     # --- names ---
@@ -261,8 +258,9 @@ class _Writer:
 
     def _check_keys(self, section: str, named: Mapping[str, Any]) -> None:
         in_another_case = {key for step in self.derivation.steps for key in step.stands_for}
+        no_part_needs = set(self.derivation.unshown)  # their words wait for the part that was left out
         for key in named:
-            if key not in self.symbols and key not in in_another_case:
+            if key not in {*self.symbols, *in_another_case, *no_part_needs}:
                 help_line = did_you_mean(key, self.symbols)
                 place = self.problem.place_of(section, key)
                 self.faults.append(

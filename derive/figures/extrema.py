@@ -49,7 +49,7 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
     for i in range(STEPS):
         if slopes[i] * slopes[i + 1] < 0:
             at = _narrowed(slope, xs[i], xs[i + 1])
-            at = 0.0 if abs(at) < 1e-9 * (upper - lower) else at
+            at = 0.0 if abs(at) < 1e-6 * (upper - lower) and slope(0.0) == 0 else at
             kind = MINIMUM if slopes[i] < 0 else MAXIMUM
             _confirm(f, at, (upper - lower) / STEPS, kind)
             found.append(Extremum(at, float(f(at)), kind))

@@ -39,6 +39,8 @@ def solve(
     inertia: MomentOfInertia = None,
     width: Length = None,
 ):
+    if width is not None and inertia is not None:
+        raise ValueError("give `inertia` or `width`, not both")
     if width is not None:  # a section of the slab will do: every slice along the cylinder has its share of the mass
         inertia = moment_of_inertia(Plate((width, thickness), mass))
     theta = coordinate("theta")
