@@ -79,3 +79,16 @@ def test_a_part_alone_shows_the_steps_that_it_rests_on(tmp_path: Path) -> None:
     file.write_text(head + "parts:\n" + parts[last:].split("\nwording:")[0] + "\n", encoding="utf-8")
     text = " ".join(rendered(root, "hw9/slab").text.split())
     assert text.index("Lagrange's equation is then") < text.index("the equation of motion found above")
+
+
+def test_a_part_that_is_left_out_takes_its_words_with_it(tmp_path: Path) -> None:
+    """The file keeps a `wording:` for the steps of that part."""
+    part = "  - ask: For which <<radius>> is the slab in stable equilibrium?\n    answer: stability\n    points: 2\n"
+    text = text_of(tmp_path, {part: "", "points: 15\n": ""})
+    assert "(c) Show the same from the potential energy" in text
+
+
+def test_inertia_and_width_together_are_refused(tmp_path: Path) -> None:
+    edits = {"  gravity: g\n": "  gravity: g\n  width: b\n", "I: moment of inertia": "I: moment of inertia, b: length"}
+    with pytest.raises(Rejected, match="give `inertia` or `width`, not both"):
+        text_of(tmp_path, edits)

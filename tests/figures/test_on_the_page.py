@@ -268,3 +268,14 @@ def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: 
         typeset(tex, target, chosen_engine(None), beside=files)
         pages[name] = target.read_bytes()
     assert pages["with"] != pages["without"]
+
+
+def test_a_value_for_a_letter_that_the_drawing_no_longer_has_is_told_as_a_warning(tmp_path: Path) -> None:
+    """`a` is a letter of the problem, but with sides in numbers nothing is drawn with it."""
+    edits = {
+        "[a, 2*a, 3*a]": "[b, b, b]",
+        "a: length": "a: length, b: length",
+        CAPTION: CAPTION + "    values: {a: 2 cm}\n",
+    }
+    found = rendered(course_in(tmp_path, edits), "hw9/block").warnings
+    assert [w.code for w in found] == ["unused-letter"]
