@@ -83,7 +83,7 @@ def test_a_part_alone_shows_the_steps_that_it_rests_on(tmp_path: Path) -> None:
 
 def test_a_part_that_is_left_out_takes_its_words_with_it(tmp_path: Path) -> None:
     """The file keeps a `wording:` for the steps of that part."""
-    part = "  - ask: For which <<radius>> is the slab in stable equilibrium?\n    answer: stability\n    points: 2\n"
+    part = "  - ask: When is the equilibrium of the slab stable?\n    answer: stability\n    points: 2\n"
     text = text_of(tmp_path, {part: "", "points: 15\n": ""})
     assert "(c) Show the same from the potential energy" in text
 
