@@ -212,10 +212,28 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     if not _same_mark(left.mark, right.mark, 1 if factor.is_positive else -1 if factor.is_negative else 0):
         return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
     if not factor.is_nonzero:
+        apart = _counterexample(left.residual, right.residual) if left.mark == "=" else None
+        if apart is not None:  # a refutation is false as a truth value
+            return apart
         return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
     whole = _ratio(left.residual, right.residual)
     verdict = _equal_scalars(left.residual, whole * right.residual)
     return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
+
+
+def _counterexample(left: Expr, right: Expr) -> Verdict | None:
+    """A point at which the second equation holds and the first does not: solved for a letter that it holds linearly."""
+    for letter in sorted(right.free_symbols, key=lambda s: (not str(s).endswith("dot"), str(s))):
+        slope = right.diff(letter)
+        if slope == 0 or slope.has(letter) or letter.is_positive:
+            continue
+        for point in _points(left, right, 1):
+            others = {name: value for name, value in point.items() if name != letter}
+            at = {**others, letter: _at(letter - right / slope, {**others, letter: Integer(0)})}
+            if abs(_at(right, at)) < Rational(1, 10**30) < abs(_at(left, at)):
+                where = tuple((str(name), str(value)) for name, value in others.items())
+                return Verdict(Grade.REFUTED, f"where one holds, the other has {_at(left, at).evalf(6)} for 0", where)
+    return None
 
 
 def _short(factor: Expr) -> str:

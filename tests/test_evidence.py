@@ -41,7 +41,7 @@ from sympy import (
 
 from derive.evidence import Grade, Verdict, equal
 from derive.exact import vanishes
-from derive.expressions import PLUS_MINUS, Cross, Dot, Relation, column
+from derive.expressions import PLUS_MINUS, Cross, Dot, Relation, column, rate
 
 x, y, t = symbols("x y t", real=True)
 a, b, c = symbols("a b c", positive=True)
@@ -417,3 +417,12 @@ def test_sums_of_multiple_angles_are_expanded(k: int, m: int, d: int) -> None:
 def test_roots_of_numbers_multiply(m: int, k: int) -> None:
     assert equal(x * sqrt(m) * sqrt(k), x * sqrt(m * k)).grade is Grade.PROVED
     assert equal(x * sqrt(Rational(m, k)), x * sqrt(m * k) / k).grade is Grade.PROVED
+
+
+def test_equations_that_say_different_things_are_told_apart_by_a_point() -> None:
+    """At the point the second equation holds, and the first does not."""
+    free, pushed = Relation(3 * rate(x, 2), "=", 0), Relation(3 * rate(x, 2), "=", y)
+    verdict = equal(free, pushed)
+    assert verdict.grade is Grade.REFUTED
+    assert verdict.point
+    assert "where one holds, the other has" in verdict.detail
