@@ -30,7 +30,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     Each equation times its factor is a step, and so is the sum of these, where there are several.
     Second route: Q as a function of time, its highest rates put in as the equations give them; the same less the sum of
     the equations, for all motions alike; where Q belongs to a body, also what its particles contribute, the sum put
-    back; and one motion followed in numbers.
+    back, and what a body does whose tensor is not diagonal; and one motion followed in numbers.
     Outcomes: conserved (the rate is zero), changes.
     Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -39,7 +39,8 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     motion = highest_rates(equations, moving)
     own_rate = explicit(TimeRate(quantity.value, *moving))
     common, factors = _multipliers(own_rate, equations, list(motion))
-    matter = quantity.context.get("rate")
+    matter, in_any_axes = quantity.context.get("rate"), quantity.context.get("any_axes")
+    torque = next((equation.context["torque"] for equation in equations if "torque" in equation.context), None)
     products = _products(quantity, equations, factors, motion)
     known = [_sum(quantity, products, motion)] if len(products) > 1 else products
 
@@ -56,6 +57,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
             "functions_of_time": compared_with(lambda: bound(in_time, motion)),
             "sum": compared_with(lambda: in_time - taken_off),
             **({"matter": lambda value: (value + taken_off, matter())} if matter else {}),
+            **({"any_axes": lambda value: (value, in_any_axes(torque))} if in_any_axes and torque is not None else {}),
             "followed": lambda value: followed(quantity.value, value, motion),
         },
         outcome=lambda value: "conserved" if value == 0 else "changes",

@@ -140,7 +140,10 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
         routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
         outcome=lambda square: "zero" if square == 0 else "generic",
         key=key,
-        context={"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {},
+        context={
+            **({"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {}),
+            **({"any_axes": lambda N: 2 * of.context["any_axes"](N)} if "any_axes" in of.context else {}),
+        },
     )
 
 

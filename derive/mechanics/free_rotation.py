@@ -238,6 +238,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         outcome=_coupling(rate.value, moving, i, torque),
         kind="torque",
         key=f"euler_{AXES[i]}",
+        context={"torque": column(*torque)},
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Expr, Integer, MatAdd, Pow, Rational, acos, cos, pi, sin
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Pow, Rational, acos, cos, pi, sin
 
 from derive.errors import Complaint, Rejected
 from derive.expressions import (
@@ -108,6 +108,13 @@ def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
     return lambda r: explicit(Cross(turning, r)) + explicit(Cross(omega.value, Cross(omega.value, r)))
 
 
+def _left_by_turning(omega: Quantity) -> tuple[Any, Any]:
+    """L = I omega and I omega_dot = -omega x L of a free body in any axes of its own, its tensor not diagonal."""
+    xx, xy, xz, yy, yz, zz = (scalar(f"A_{pair}") for pair in ("xx", "xy", "xz", "yy", "yz", "zz"))
+    momentum = explicit(applied(ImmutableDenseMatrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), omega.value))
+    return momentum, -explicit(Cross(omega.value, momentum))
+
+
 def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
     """The tensor must be about the point that stays at rest; that point is the word of the step."""
     require_kind(verb, "inertia", inertia, "moment of inertia")
@@ -156,7 +163,12 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
         key=key,
         kind="energy",
         words=words,
-        context={"rate": lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r)))},
+        context={
+            "rate": lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r))),
+            "any_axes": lambda N: (
+                explicit(Dot(omega.value, N)) + explicit(Dot(omega.value, _left_by_turning(omega)[1]))
+            ),
+        },
     )
 
 
@@ -186,6 +198,9 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         context={
             "about": words["about"],
             "rate": lambda: _over_the_body(inertia, lambda r: Cross(r, acceleration(r))),
+            "any_axes": lambda N: (
+                explicit(Dot(applied(inertia.value, omega.value), N)) + explicit(Dot(*_left_by_turning(omega)))
+            ),
         },
     )
 
