@@ -134,6 +134,12 @@ ROUTES: list[tuple[str, str, str, str, str]] = [
         "kinetic_energy_rate",
     ),
     ("rate_under", CONSERVATION, "in_time - taken_off", "in_time - 2 * taken_off", "kinetic_energy_rate"),
-    ("rate_under", ROTATION, "r), acceleration(r)))},", "r), r))},", "kinetic_energy_rate"),
+    (
+        "rate_under",
+        ROTATION,
+        "Dot(Cross(omega.value, r), acceleration(r)))",
+        "Dot(Cross(omega.value, r), r))",
+        "kinetic_energy_rate",
+    ),
     ("squared_magnitude", EQUATIONS, "turning(v) ** 2)", "turning(v) ** 3)", "squared_magnitude"),
 ]
