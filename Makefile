@@ -6,12 +6,22 @@
 MAKEFLAGS += --no-builtin-rules
 PYTHON := .venv/bin/python
 
-SETS := $(patsubst problems/%/set.yaml,%,$(wildcard problems/*/set.yaml))
-ENGINE := $(wildcard derive/*.py derive/*/*.py derive/*/*/*.py)
-TEMPLATES := $(wildcard templates templates/* templates/*/* templates/*/*/*)
-ENVIRONMENT := pyproject.toml constraints.txt derive/bootstrap.py
+# Names are words of rules and of commands: of sets and files, those with other characters are not named here, and no
+# set may have the name of another target. What lies in build/ is read as words, never as rules.
+RESERVED := all always bench build check clean derive help problems templates test tests
+SETS := $(shell cd problems 2>/dev/null && LC_ALL=C && for name in *; do \
+    test -e "$$name/set.yaml" || continue; \
+    case "$$name" in ([!A-Za-z0-9]*|*[!A-Za-z0-9_-]*) why='a name has letters, digits, - and _ only' ;; \
+      (*) case " $(RESERVED) " in (*" $$name "*) why='make has a target of that name' ;; (*) why= ;; esac ;; esac; \
+    case "$$name" in (*[!\ -~]*) shown='?' ;; (*) shown="$$name" ;; esac; \
+    if test -z "$$why"; then echo "$$name"; \
+    else printf 'warning[set-name]: the set "%s" is left out: %s\n' "$$shown" "$$why" >&2; fi; done)
+files_in = $(shell LC_ALL=C find -H $(1) '(' -name '*[!A-Za-z0-9._-]*' -o -name __pycache__ ')' -prune -o -print 2>/dev/null)
+ENGINE := $(filter %.py,$(call files_in,derive))
+TEMPLATES := $(call files_in,templates)
+ENVIRONMENT := pyproject.toml constraints.txt tools/bootstrap.py
 
-.PHONY: all help check bench test clean always $(SETS)
+.PHONY: all help check bench test mutants clean always $(SETS)
 
 all: .venv/.runtime $(SETS)
 
@@ -20,19 +30,20 @@ help:
 	@$(foreach set,$(SETS),echo 'make $(set)      the PDFs of $(set)';)
 	@echo 'make check    derive every problem, verify each line, compare with the reference'
 	@echo 'make test     lint, types and the whole test suite'
+	@echo 'make mutants  change the code and the results in every place that can be changed: what is not refused (hours)'
 	@echo 'make bench    how long a build takes, as ratios to the least it could take'
 	@echo 'make clean    empty build/; .venv stays'
 	@echo 'DERIVE_ENGINE=latexmk (or pdflatex, lualatex, tectonic) chooses another TeX; .venv/bin/derive doctor shows them'
 
 # An output that was deleted, or made with other options, is made again although its stamp is new.
 define RULES_OF_A_SET
--include build/$(1)/.outputs.mk
-build/$(1)/.outputs.mk: ;
+record_of_$(1) := $$(shell test -f build/$(1)/.outputs && while read -r word; do \
+    case "$$$$word" in (*[!A-Za-z0-9._/=-]*) ;; (*) echo "$$$$word" ;; esac; done < build/$(1)/.outputs)
 $(1): build/$(1)/.built
 build/$(1)/%: build/$(1)/.built ;
-build/$(1)/.built: .venv/.runtime $(ENGINE) $(TEMPLATES) problems/$(1) $(wildcard problems/$(1)/* problems/$(1)/*/*) \
-    $$(if $$(filter-out $$(wildcard $$(outputs_of_$(1))),$$(outputs_of_$(1))),always) \
-    $$(if $$(filter-out $$(options_of_$(1)),engine=$$(DERIVE_ENGINE)/detail=),always)
+build/$(1)/.built: .venv/.runtime $$(ENGINE) $$(TEMPLATES) $$(call files_in,problems/$(1)) \
+    $$(if $$(filter-out $$(wildcard $$(record_of_$(1))),$$(wordlist 2,9999,$$(record_of_$(1)))),always) \
+    $$(if $$(filter-out $$(firstword $$(record_of_$(1))),engine=$$(DERIVE_ENGINE)/detail=),always)
 	@$$(PYTHON) -m derive build $(1)
 endef
 $(foreach set,$(SETS),$(eval $(call RULES_OF_A_SET,$(set))))
@@ -49,6 +60,10 @@ test: .venv/.tests
 	@$(PYTHON) -m mypy --no-error-summary
 	@$(PYTHON) -m pytest -n 2
 
+mutants: .venv/.tests
+	@$(PYTHON) -m tests.perturbation
+	@$(PYTHON) -m tests.mutation
+
 clean:
 	@rm -rf build/*/
 
@@ -56,11 +71,11 @@ clean:
 .venv/.runtime .venv/.tests: $(ENVIRONMENT) $(if $(wildcard $(PYTHON)),,always)
 	@for python in python3 python3.14 python3.13 python3.12 python3.11; do \
 	  if $$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
-	    exec $$python -I derive/bootstrap.py $(@F); \
+	    exec $$python -I tools/bootstrap.py $(@F); \
 	  fi; \
 	done; \
 	if command -v uv >/dev/null 2>&1; then \
-	  exec uv run --no-project --python '>=3.11' python -I derive/bootstrap.py $(@F); \
+	  exec uv run --no-project --python '>=3.11' python -I tools/bootstrap.py $(@F); \
 	fi; \
 	found=$$(python3 --version 2>&1) || found='no python3'; \
 	echo "error[python]: derive needs Python 3.11 or later, and found $$found: install one (apt install python3), or install uv" >&2; \

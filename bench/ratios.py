@@ -22,7 +22,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from derive.render.pdf import chosen_engine, typeset
+from derive.building.tex import chosen_engine, typeset
 
 ROOT = Path(__file__).resolve().parent.parent
 ROUNDS = 5

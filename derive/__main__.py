@@ -4,6 +4,6 @@ from __future__ import annotations
 
 import sys
 
-from derive.cli import main
+from derive.cli.options import main
 
 sys.exit(main())

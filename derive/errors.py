@@ -13,17 +13,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NoReturn
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where in a file: 1-based line and column, the line itself, how many columns to underline."""
+    """Where in a file: 1-based line and column, the line itself, how many columns to underline.
+
+    Of a long line `text` is a piece, before which `cut` columns were left out.
+    """
 
     path: str
     line: int
     column: int = 1
     text: str = ""
     width: int = 1
+    cut: int = 0
 
 
 @dataclass(frozen=True)
@@ -48,7 +53,7 @@ class Complaint:
         if p.text.strip():
             # A tab is one column wide here, so that the caret stands under what it marks.
             lines.append(f"  {p.line} | " + p.text.rstrip("\r\n").replace("\t", " "))
-            lines.append(f"  {gutter} | " + " " * (p.column - 1) + "^" * max(1, p.width))
+            lines.append(f"  {gutter} | " + " " * max(0, p.column - p.cut - 1) + "^" * max(1, p.width))
         return "\n".join([*lines, *self._footer(gutter)])
 
     def _footer(self, gutter: str) -> list[str]:
@@ -63,7 +68,10 @@ class DeriveError(Exception):
 
     def __init__(self, complaints: Complaint | Iterable[Complaint]):
         self.complaints = (complaints,) if isinstance(complaints, Complaint) else tuple(complaints)
-        super().__init__("\n".join(c.shown() for c in self.complaints))
+        super().__init__(self.complaints)
+
+    def __str__(self) -> str:
+        return "\n".join(complaint.shown() for complaint in self.complaints)
 
     def __reduce__(self) -> tuple[type, tuple[tuple[Complaint, ...]]]:
         return type(self), (self.complaints,)
@@ -85,3 +93,64 @@ class Misused(DeriveError):
     """The command line asks for something that does not exist or make sense."""
 
     exit_code = 2
+
+
+# --- collected and helped ---------------------------------------------------------------------------------------------
+
+
+def nearest(name: str, candidates: Iterable[str]) -> str | None:
+    """The candidate that was probably meant, if any is close."""
+    import difflib  # only where something is wrong
+
+    close = difflib.get_close_matches(name.casefold(), {c.casefold(): c for c in candidates}, 1, 0.6)
+    return next((c for c in candidates if c.casefold() == close[0]), None) if close else None
+
+
+def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
+    """A help line, or nothing."""
+    close = nearest(name, tuple(candidates))
+    return f"did you mean `{close}`?" if close else None
+
+
+class Faults:
+    """Collects complaints, so that one run of the command tells everything that is wrong with a file."""
+
+    def __init__(self) -> None:
+        self._complaints: dict[Complaint, None] = {}
+
+    def __bool__(self) -> bool:
+        return bool(self._complaints)
+
+    def add(self, complaint: Complaint) -> None:
+        self._complaints.setdefault(complaint)
+
+    def error(
+        self, code: str, message: str, place: Place | None, *, notes: tuple[str, ...] = (), help: str | None = None
+    ) -> None:
+        self.add(Complaint(code, message, place, notes, help))
+
+    def __enter__(self) -> Faults:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> bool:
+        """`with faults:` keeps what was rejected inside and goes on after it."""
+        if isinstance(error, Rejected):
+            for complaint in error.complaints:
+                self.add(complaint)
+            return True
+        return False
+
+    def stop(self) -> None:
+        """Raise everything collected, in the order of the file; pass if there is nothing."""
+        if self._complaints:
+            raise Rejected(sorted(self._complaints, key=_reading_order))
+
+
+def _reading_order(complaint: Complaint) -> tuple[str, int, int]:
+    p = complaint.place
+    return (p.path, p.line, p.column) if p else ("", 0, 0)
+
+
+def rejected(code: str, message: str, place: Place | None, help: str | None = None, *notes: str) -> NoReturn:
+    """Give up one reading with one complaint; `with faults:` takes it up."""
+    raise Rejected(Complaint(code, message, place, notes, help))

@@ -1,445 +1,49 @@
-"""The kinds that a script's `solve()` asks for, and how what a problem gives becomes a checked value.
-
-A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. To a type checker `Mass` is a SymPy `Expr`. A number
-with a unit becomes a symbol that remembers its number (`Measured`), so the derivation stays symbolic to its end.
-"""
+"""What a script says of its givens: kinds that annotate `solve()`, and `require` for what must hold between them."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import Annotated, Any, NoReturn, TypeAlias, get_args
-
-from sympy import Expr, Integer, Rational, Symbol, pi
-
-from derive.dimensions import NUMBER, dimension_of_kind, kind_with_article, named, unit_of_kind
-from derive.errors import Place
-from derive.expressions import Amount
-from derive.mechanics.direction import Direction
-from derive.reading import RESERVED, Declared, rational, read_expression
-from derive.source import Faults, Node, Scalar, Sequence, did_you_mean, rejected, shape_of
-from derive.units import begins_with_unit, read_unit
-
-DIRECTION_NAMES = ("diagonal", "x", "y", "z")
-
-# Letters of these kinds stand for positive numbers; every other letter is only real.
-_POSITIVE = {
-    "mass",
-    "length",
-    "time",
-    "area",
-    "volume",
-    "density",
-    "surface density",
-    "line density",
-    "speed",
-    "acceleration",
-    "angular speed",
-    "spring constant",
-    "moment of inertia",
-}
-# A minus sign on these is a direction (a block turning the other way); on the other positive ones it is a mistake.
-_SIGNED = {"speed", "acceleration", "angular speed"}
-
-_NUMBER_UNIT = re.compile(
-    r"\s*(?P<sign>[-+]?)\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*/\s*(?P<over>\d+))?"
-    r"(?P<unit>\s*(?:[A-Za-z°]|1\s*/).*|\s*)",
-    re.ASCII | re.DOTALL,
-)
-
-
-def plural(kind: str) -> str:
-    """Moments of inertia, angular speeds."""
-    noun, of, rest = kind.partition(" of ")
-    return f"{noun}s{of}{rest}"
-
-
-@dataclass(frozen=True)
-class Kind:
-    """What a parameter of `solve()` may be: `name` in the script, `each` in `symbols:`, letters for numbers."""
-
-    name: str
-    each: str
-    letters: tuple[str, ...] = ()
-    count: int = 1
-
-    @property
-    def wanted(self) -> str:
-        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {plural(self.each)}"
-
-
-Mass: TypeAlias = Annotated[Expr, Kind("Mass", "mass", ("M", "m"))]
-Length: TypeAlias = Annotated[Expr, Kind("Length", "length", ("l", "a", "b", "c", "d"))]
-Lengths: TypeAlias = Annotated[tuple[Expr, Expr, Expr], Kind("Lengths", "length", ("a", "b", "c"), 3)]
-Time: TypeAlias = Annotated[Expr, Kind("Time", "time", ("t_0", "t_1"))]
-Angle: TypeAlias = Annotated[Expr, Kind("Angle", "angle", ("theta", "alpha", "beta", "phi"))]
-AngularSpeed: TypeAlias = Annotated[Expr, Kind("AngularSpeed", "angular speed", ("omega", "Omega"))]
-Speed: TypeAlias = Annotated[Expr, Kind("Speed", "speed", ("v", "u"))]
-Acceleration: TypeAlias = Annotated[Expr, Kind("Acceleration", "acceleration", ("g", "a"))]
-Density: TypeAlias = Annotated[Expr, Kind("Density", "density", ("rho", "sigma"))]
-SurfaceDensity: TypeAlias = Annotated[Expr, Kind("SurfaceDensity", "surface density", ("sigma", "mu"))]
-LineDensity: TypeAlias = Annotated[Expr, Kind("LineDensity", "line density", ("lambda_l", "mu"))]
-Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
-MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I_0", "J_0"))]
-MomentsOfInertia: TypeAlias = Annotated[
-    tuple[Expr, Expr, Expr], Kind("MomentsOfInertia", "moment of inertia", ("A", "B", "C"), 3)
-]
-SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
-Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
-
-_DIRECTION = Kind("Direction", "direction", (), 3)
-_MEASURES = (
-    Mass,
-    Length,
-    Lengths,
-    Time,
+from derive.algebra.direction import Direction
+from derive.algebra.kinds import (
+    Acceleration,
     Angle,
     AngularSpeed,
-    Speed,
-    Acceleration,
     Density,
-    SurfaceDensity,
-    LineDensity,
     Force,
+    Frequency,
+    Length,
+    Lengths,
+    LineDensity,
+    Mass,
+    MomentOfInertia,
+    MomentsOfInertia,
+    Number,
+    PolarAngle,
+    Speed,
+    SpringConstant,
+    SurfaceDensity,
+    Time,
 )
-_OTHERS = (MomentOfInertia, MomentsOfInertia, SpringConstant, Number)
-_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, *_OTHERS)), _DIRECTION)
-KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
+from derive.course.requirement import require
 
-
-def kind_of_annotation(annotation: Any) -> Kind | None:
-    """The kind that a parameter's annotation names, also when it is a string."""
-    if annotation is Direction:
-        return _DIRECTION
-    if isinstance(annotation, str):
-        return KINDS.get(annotation.strip().rpartition(".")[2])
-    return next((arg for arg in get_args(annotation) if isinstance(arg, Kind)), None)
-
-
-@dataclass(frozen=True)
-class Measured:
-    """A number put in at the end: 900 rpm for omega, which is exactly 30*pi in the SI."""
-
-    symbol: Symbol
-    number: Rational
-    unit: str
-    si: Expr
-
-    @property
-    def factor(self) -> Expr:
-        """What one of its unit is in the SI; unlike `si / number` it is there for a zero too."""
-        return read_unit(self.unit).factor if self.unit else Integer(1)
-
-
-@dataclass(frozen=True)
-class Given:
-    """One key of `given:`: what goes to `solve()`, the numbers behind its letters, and its word if it is one.
-
-    A value that is used exactly, such as pi/4, is `written` as it was given, 45 deg.
-    """
-
-    name: str
-    kind: Kind
-    value: Any
-    measured: tuple[Measured, ...] = ()
-    word: str | None = None
-    written: Amount | None = None
-
-
-@dataclass(frozen=True)
-class _Number:
-    """A number with its unit, before it has a letter."""
-
-    number: Rational
-    unit: str
-    si: Expr
-
-
-@dataclass(frozen=True)
-class _Wanted:
-    """What is being read, for messages: its name, its kind, and where `solve()` asks for it."""
-
-    name: str
-    kind: str
-    notes: tuple[str, ...] = ()
-    one_of_many: bool = False
-
-    @property
-    def must(self) -> str:
-        return f"each of `{self.name}` must be" if self.one_of_many else f"`{self.name}` must be"
-
-    @property
-    def must_be_it(self) -> str:
-        return f"{self.must} {kind_with_article(self.kind)}"
-
-    def refuse(self, code: str, message: str, place: Place, help: str | None = None) -> NoReturn:
-        rejected(code, message, place, help, *self.notes)
-
-
-def symbol_of_kind(name: str, kind: str) -> Symbol:
-    return Symbol(name, real=True, positive=True) if kind in _POSITIVE else Symbol(name, real=True)
-
-
-def read_givens(
-    nodes: Mapping[str, Node],
-    kinds: Mapping[str, Kind],
-    symbols: Mapping[str, Declared],
-    faults: Faults,
-    *,
-    notes: Mapping[str, str] | None = None,
-    used: Iterable[str] = (),
-) -> tuple[tuple[Given, ...], dict[str, Declared]]:
-    """The givens in the order of `nodes`, and all symbols, with those that were introduced for numbers.
-
-    `notes` says for each name where `solve()` asks for it; `used` are symbols that already have a number.
-    """
-    read: dict[str, tuple[Expr | _Number, ...] | Direction] = {}
-    for name, node in nodes.items():
-        with faults:
-            note = (notes or {}).get(name)
-            read[name] = _read_one(name, node, kinds[name], symbols, faults, (note,) if note else ())
-    letters = _Letters(symbols, {*used, *_names_in(read.values())})
-    return tuple(_given(name, kinds[name], value, letters) for name, value in read.items()), letters.symbols
-
-
-def read_measured(key: Scalar, node: Node, symbols: Mapping[str, Declared]) -> Measured:
-    """An entry of `values:`: a number, with its unit, for a declared symbol."""
-    declared = symbols.get(key.text)
-    if declared is None:
-        help_line = did_you_mean(key.text, symbols) or "declare it under `symbols:`"
-        rejected("undeclared-symbol", f"`{key.text}` is not declared", key.place, help_line)
-    wanted = _Wanted(key.text, declared.kind)
-    scalar = _scalar(node, wanted, key.place)
-    value = _value(scalar, wanted, symbols)
-    if not isinstance(value, _Number):
-        if not value.is_Rational:
-            wanted.refuse("wrong-kind", f"`{key.text}` needs a number here", scalar.place, _unit_example(declared.kind))
-        value = _Number(value, "", value)
-    if declared.symbol.is_positive and not value.number > 0:
-        wanted.refuse("not-positive", f"`{key.text}` must be positive, but `{scalar.text}` is not", scalar.place)
-    return Measured(declared.symbol, value.number, value.unit, value.si)
-
-
-def read_value(name: str, node: Node, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
-    """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
-    wanted = _Wanted(name, kind, notes)
-    value = _value(_scalar(node, wanted), wanted, symbols)
-    return value.si if isinstance(value, _Number) else value
-
-
-def _read_one(
-    name: str, node: Node, kind: Kind, symbols: Mapping[str, Declared], faults: Faults, notes: tuple[str, ...]
-) -> tuple[Expr | _Number, ...] | Direction:
-    wanted = _Wanted(name, kind.each, notes, one_of_many=kind.count > 1)
-    if kind is _DIRECTION:
-        return _direction(node, wanted, symbols)
-    if kind.count == 1:
-        return (_value(_scalar(node, wanted), wanted, symbols),)
-    items = _three(node, wanted, f"{kind.count} {plural(kind.each)}", "write it as `[a, b, c]`")
-    values = []
-    own = Faults()
-    for item in items:
-        with own:
-            values.append(_value(_scalar(item, wanted), wanted, symbols))
-    own.stop()
-    return tuple(values)
-
-
-def _three(node: Node, wanted: _Wanted, what: str, help: str) -> tuple[Node, ...]:
-    if not isinstance(node, Sequence):
-        wanted.refuse("wrong-kind", f"`{wanted.name}` must be {what}, but it is {shape_of(node)}", node.place, help)
-    if (n := len(node.items)) != 3:
-        message = f"`{wanted.name}` must be {what}, but {n} {'is' if n == 1 else 'are'} given"
-        bare = n > 3 and any(isinstance(item, Scalar) and item.text.isdigit() for item in node.items)
-        help_line = "a decimal has a point: `2.5 cm`" if bare else None
-        wanted.refuse("wrong-length", message, node.place, help_line)
-    return node.items
-
-
-def _scalar(node: Node, wanted: _Wanted, where: Place | None = None) -> Scalar:
-    if isinstance(node, Scalar) and not node.empty:
-        return node
-    if isinstance(node, Scalar):
-        wanted.refuse("missing-value", f"{wanted.must_be_it}, but nothing is given", where or node.place)
-    wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but it is {shape_of(node)}", node.place)
-
-
-def _value(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Expr | _Number:
-    """A scalar as an expression, or as a number with its unit; its kind and its sign are checked."""
-    if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
-        point = f"{comma[1]}.{comma[2]}{comma[3]}"
-        wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
-    number = _number_with_unit(scalar, wanted, symbols)
-    if number is not None:
-        _check_sign(number.si, scalar, wanted)
-        return number
-    expr, dimension = read_expression(scalar, symbols)
-    text = " ".join(scalar.text.split())
-    is_bare = expr.is_Rational and dimension == NUMBER and not (expr.is_zero and wanted.kind == "angle")
-    if expr.is_zero and wanted.kind in _POSITIVE:
-        _check_sign(expr, scalar, wanted)
-    if is_bare and wanted.kind != "number":
-        units = ("deg", "rad") if wanted.kind == "angle" else (unit_of_kind(wanted.kind),)
-        help_line = "write " + " or ".join(f"`{text} {unit}`" for unit in units)
-        wanted.refuse("missing-unit", f"`{text}` needs a unit: {wanted.must_be_it}", scalar.place, help_line)
-    if dimension != dimension_of_kind(wanted.kind):
-        declared = symbols.get(text)
-        is_a = kind_with_article(declared.kind) if declared else named(dimension)
-        wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place)
-    _check_sign(expr, scalar, wanted)
-    return expr
-
-
-def _number_with_unit(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> _Number | None:
-    """`1.5 kg`; nothing if the text is an expression."""
-    match = _NUMBER_UNIT.fullmatch(scalar.text)
-    if not match or not match["unit"].strip() or len(scalar.text) > 80:
-        return None
-    first = re.match(r"\s*([A-Za-z_][A-Za-z0-9_]*)", match["unit"])
-    if first and not begins_with_unit(match["unit"]) and (first[1] in symbols or first[1] in RESERVED):
-        return None
-    start = match.start("unit") + len(match["unit"]) - len(match["unit"].lstrip())
-    unit = read_unit(match["unit"], scalar.place_within(start, len(scalar.text.rstrip()) - start))
-    text = " ".join(scalar.text.split())
-    if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):
-        is_a = named(unit.dimension) if unit.dimension != NUMBER else kind_with_article("angle")
-        product = f"{match['number']}*{match['unit'].strip()}" if first and first[1] in symbols else None
-        help_line = f"write `{product}` for the symbol" if product else None
-        wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place, help_line)
-    if wanted.kind == "angular speed" and "Hz" in unit.names:
-        help_line = f"write `{text.replace('Hz', 'rev/s')}` for turns"
-        wanted.refuse("ambiguous-unit", f"`{text}` could be turns or radians", scalar.place, help_line)
-    if len(match["number"]) > 30 or (match["over"] or "1").strip("0") == "" or abs(_ten_power(match["number"])) > 50:
-        wanted.refuse("too-large", f"`{text}` is not a number to calculate with", scalar.place)
-    value = rational(match["number"]) / int(match["over"] or 1) * (-1 if match["sign"] == "-" else 1)
-    return _Number(value, unit.text, value * unit.factor)
-
-
-def _ten_power(number: str) -> int:
-    power = number.lower().partition("e")[2]
-    return int(power) if power and len(power) < 6 else 99 * bool(power)
-
-
-def _check_sign(value: Expr, scalar: Scalar, wanted: _Wanted) -> None:
-    """Refused when it is known to be wrong; `a - b` may well be positive."""
-    text = " ".join(scalar.text.split())
-    if wanted.kind in _POSITIVE - _SIGNED and value.is_nonpositive:
-        wanted.refuse("not-positive", f"{wanted.must} positive, but `{text}` is not", scalar.place)
-    if wanted.kind in _SIGNED and value.is_zero:
-        wanted.refuse("not-positive", f"`{wanted.name}` must not be zero", scalar.place)
-
-
-def _unit_example(kind: str) -> str:
-    unit = unit_of_kind(kind)
-    return f"write it as `1.5 {unit}`" if unit else "write it as `1.5`"
-
-
-def _direction(node: Node, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Direction:
-    names = ", ".join(f"`{name}`" for name in DIRECTION_NAMES)
-    if isinstance(node, Scalar) and not node.empty:
-        if node.text not in DIRECTION_NAMES:
-            help_line = did_you_mean(node.text, DIRECTION_NAMES) or f"the names are {names}"
-            message = f"`{wanted.name}` must be a direction, but {shape_of(node)} names none"
-            wanted.refuse("wrong-kind", message, node.place, help_line)
-        return Direction(node.text)
-    items = _three(node, wanted, "a direction or 3 components", f"write {names}, or `[1, 1, 0]`")
-    wanted = _Wanted(wanted.name, "number", wanted.notes, one_of_many=True)
-    own = Faults()
-    components = []
-    dimension = None
-    for item in items:
-        with own:
-            scalar = _scalar(item, wanted)
-            expr, found = read_expression(scalar, symbols)
-            components.append(expr)
-            if not expr.is_zero:
-                dimension = dimension or found
-                if found != dimension:
-                    message = f"`{scalar.text}` is {named(found)}, but the components before it are not"
-                    wanted.refuse("dimension", message, scalar.place)
-    own.stop()
-    if all(component.is_zero for component in components):
-        wanted.refuse("zero-axis", f"`{wanted.name}` has no direction: every component is zero", node.place)
-    x, y, z = components
-    return Direction(None, (x, y, z))
-
-
-# -- letters for numbers ----------------------------------------------------------------------------------------------
-
-
-def _names_in(values: Iterable[tuple[Expr | _Number, ...] | Direction]) -> set[str]:
-    exprs: list[Any] = []
-    for value in values:
-        exprs.extend(value.components or () if isinstance(value, Direction) else value)
-    return {str(symbol) for expr in exprs if isinstance(expr, Expr) for symbol in expr.free_symbols}
-
-
-class _Letters:
-    """Finds a letter for a number: one declared for its kind and not yet used, else a usual one that is free."""
-
-    def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
-        self.symbols = dict(symbols)
-        self.used = used
-
-    def letter(self, kind: Kind) -> Symbol:
-        declared = (d for d in self.symbols.values() if d.kind == kind.each and d.name not in self.used)
-        chosen = next(declared, None)
-        if chosen is None:
-            free = (name for name in self.usual(kind) if name not in self.symbols)
-            name = next(free)
-            chosen = Declared(name, symbol_of_kind(name, kind.each), kind.each)
-            self.symbols[name] = chosen
-        self.used.add(chosen.name)
-        return chosen.symbol
-
-    def usual(self, kind: Kind) -> Iterable[str]:
-        yield from kind.letters
-        for n in range(1, len(self.symbols) + 2):
-            yield f"{kind.letters[0].partition('_')[0]}_{n}"
-
-
-def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction, letters: _Letters) -> Given:
-    if isinstance(value, Direction):
-        return Given(name, kind, value, (), value.name)
-    if isinstance(value[0], _Number) and kind.each == "angle" and _is_exact_angle(value[0].si):
-        number = value[0]
-        return Given(name, kind, number.si, written=Amount(number.number, number.unit, number.si / number.number))
-    measured: dict[Expr, Measured] = {}
-    exprs: list[Expr] = []
-    smallest = _common_measure(value)
-    for entry in value:
-        if isinstance(entry, Expr):
-            exprs.append(entry)
-            continue
-        if entry.number == 0:
-            # Zero is exact in every unit: a letter would only hide it.
-            exprs.append(Integer(0))
-            continue
-        # A letter that is assumed positive takes the size; the sign stays outside.
-        sign = -1 if kind.each in _SIGNED and entry.number < 0 else 1
-        size = entry.si * sign
-        # Equal numbers share a letter, so that a cube stays a cube; 2 cm, 4 cm, 6 cm are a, 2a, 3a.
-        times = size / smallest.si if smallest else 1
-        if smallest:
-            entry, size = smallest, smallest.si
-        if size not in measured:
-            measured[size] = Measured(letters.letter(kind), entry.number * sign, entry.unit, size)
-        exprs.append(sign * times * measured[size].symbol)
-    return Given(name, kind, exprs[0] if kind.count == 1 else tuple(exprs), tuple(measured.values()))
-
-
-def _is_exact_angle(angle: Expr) -> bool:
-    """30, 45, 60, 90 degrees and their multiples, whose sines are single roots; not 0, which has no unit to show."""
-    parts = angle / pi
-    return bool(parts.is_Rational and parts != 0 and (4 * parts).is_Integer | (6 * parts).is_Integer)
-
-
-def _common_measure(value: tuple[Expr | _Number, ...]) -> _Number | None:
-    """The smallest of several positive numbers, if all of them are small whole multiples of it."""
-    numbers = [entry for entry in value if isinstance(entry, _Number) and entry.number > 0]
-    if len(numbers) < len(value):
-        return None
-    smallest = min(numbers, key=lambda entry: float(entry.si))
-    ratios = [entry.si / smallest.si for entry in numbers]
-    return smallest if all(ratio.is_Integer and ratio <= 12 for ratio in ratios) else None
+__all__ = [
+    "Acceleration",
+    "Angle",
+    "AngularSpeed",
+    "Density",
+    "Direction",
+    "Force",
+    "Frequency",
+    "Length",
+    "Lengths",
+    "LineDensity",
+    "Mass",
+    "MomentOfInertia",
+    "MomentsOfInertia",
+    "Number",
+    "PolarAngle",
+    "Speed",
+    "SpringConstant",
+    "SurfaceDensity",
+    "Time",
+    "require",
+]

@@ -9,13 +9,13 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import derive
+import derive.building
 from derive.errors import Complaint, Place, Rejected
+from derive.render.rendered import Rendered, Tex
 
 TEX = """#!/bin/sh
 for source; do :; done
@@ -25,23 +25,8 @@ if line=$(grep -n BAD "$source"); then
   echo "./$source:${line%%:*}: Undefined control sequence." > "${source%.tex}.log"
   exit 1
 fi
-cp "$source" "${source%.tex}.pdf"
+{ echo "%PDF-1.5"; cat "$source"; echo startxref; echo "%%EOF"; } > "${source%.tex}.pdf"
 """
-
-
-@dataclass(frozen=True)
-class Rendered:
-    id: str
-    title: str
-    points: str
-    latex: str
-    text: str
-    json: str
-    warnings: tuple[Complaint, ...]
-    inputs: tuple[str, ...]
-    grades: dict[str, int]
-    agreed: bool
-    files: tuple[tuple[str, bytes], ...] = ()
 
 
 def rendered(
@@ -67,12 +52,16 @@ def rendered(
         id=problem_id,
         title=said,
         points="3",
-        latex=said,
+        latex=Tex(said),
+        title_latex=Tex(said),
+        sheet=Tex(said),
+        checked=Tex(said),
         text=f"{said} ω\n",
         json='{"steps": [{}, {}], "reference": []}\n',
         warnings=warnings,
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
+        counts={},
         agreed=said != "differs",
         files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),)
         if draws and said.startswith("draws")
@@ -85,15 +74,15 @@ def headline(root: Path, problem_id: str) -> tuple[str, str]:
     return found.points, found.title
 
 
-def problem_document(root: Path, problem: Rendered, set_id: str) -> str:
+def problem_document(root: Path, problem: Rendered, heading: object) -> str:
     return f"%% derive: {problem.id}\n{problem.latex}\n"
 
 
-def set_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
-    return "".join(problem_document(root, problem, set_id) for problem in problems)
+def set_document(root: Path, heading: object, problems: list[Rendered]) -> str:
+    return "".join(problem_document(root, problem, heading) for problem in problems)
 
 
-def sheet_document(root: Path, set_id: str, problems: list[Rendered]) -> str:
+def sheet_document(root: Path, heading: object, problems: list[Rendered]) -> str:
     return "".join(f"questions of {problem.id}\n" for problem in problems)
 
 
@@ -151,11 +140,11 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 
 def replace_derivation(monkeypatch: Any) -> None:
-    """Put the stand-ins where `derive.solution` and `derive.set_document` are imported from."""
+    """Put the stand-ins where `derive.building.solution` and `derive.building.set_document` are imported from."""
     modules = {"solution": (rendered, headline), "set_document": (problem_document, set_document, sheet_document)}
     for name, functions in modules.items():
-        fake = ModuleType(f"derive.{name}")
+        fake = ModuleType(f"derive.building.{name}")
         for function in functions:
             setattr(fake, function.__name__, function)
         monkeypatch.setitem(sys.modules, fake.__name__, fake)
-        monkeypatch.setattr(derive, name, fake, raising=False)
+        monkeypatch.setattr(derive.building, name, fake, raising=False)

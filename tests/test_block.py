@@ -14,15 +14,15 @@ from sympy import Matrix, Rational, acos, cos, diag, simplify, sqrt, symbols
 from sympy import sympify as sympy_reads  # tests read the JSON as any stranger would
 
 from derive.errors import DeriveError, Rejected
-from derive.solution import Rendered, rendered
-from tests.course import course_in
+from derive.render.rendered import Rendered
+from tests.courses import course_in, rendered_once
 
 a, b, c, M, omega = symbols("a b c M omega")
 x, y, z = symbols("omega_x omega_y omega_z")
 
 
 def solved(folder: Path, edits: dict[str, str] | None = None, detail: str | None = None) -> Rendered:
-    return rendered(course_in(folder, edits), "hw9/block", detail)
+    return rendered_once(course_in(folder, edits), "hw9/block", detail)
 
 
 def answers(solution: Rendered) -> dict[str, Any]:
@@ -208,7 +208,7 @@ def test_parts_in_another_order_show_each_step_where_it_is_first_needed(tmp_path
 """
     solution = solved(tmp_path, {last: "", "parts:\n": f"parts:\n{last}"})
     text = solution.text
-    assert text.index("(a) What torque") < text.index("L⃗ = I ω⃗") < text.index("(b) Find the inertia tensor")
+    assert text.index("(a) What torque") < text.index("L⃗ = I⃡ ω⃗") < text.index("(b) Find the inertia tensor")
     assert text.count("I_xx = J_xx") == 1
 
 
@@ -264,8 +264,10 @@ def test_text_is_text_for_tex(tmp_path: Path) -> None:
 
 
 def test_a_step_without_an_answer_is_warned_of(tmp_path: Path) -> None:
-    course = course_in(tmp_path, script={"    return I,": '    kinetic_energy(I, omega, key="extra")\n    return I,'})
-    solution = rendered(course, "hw9/block")
+    course = course_in(
+        tmp_path, script={"    return I,": '    kinetic_energy(I, omega, "T_2", "extra")\n    return I,'}
+    )
+    solution = rendered_once(course, "hw9/block")
     assert [warning.code for warning in solution.warnings] == ["not-shown"]
     assert "`extra`" in solution.warnings[0].message
 
@@ -314,7 +316,7 @@ def test_a_slip_in_a_script_is_refused_and_not_printed_as_proved(
 ) -> None:
     course = course_in(tmp_path, script={written: instead})
     with pytest.raises(DeriveError) as refused:
-        rendered(course, "hw9/block")
+        rendered_once(course, "hw9/block")
     assert [complaint.code for complaint in refused.value.complaints] == [code]
     assert refused.value.complaints[0].place is not None
 
@@ -326,7 +328,7 @@ def test_about_a_corner_that_stays_at_rest_the_words_and_the_numbers_follow(tmp_
         "kinetic_energy(I, any": "kinetic_energy(J, any",
         "angular_momentum(I, omega)": "angular_momentum(J, omega)",
     }
-    solution = rendered(course_in(tmp_path, {"axis: diagonal": "axis: z"}, script), "hw9/block")
+    solution = rendered_once(course_in(tmp_path, {"axis: diagonal": "axis: z"}, script), "hw9/block")
     assert "Since the corner is at rest" in flat(solution)
     assert "the weight included" in flat(solution)
     # J_zz = 5/3 M a^2
@@ -337,3 +339,14 @@ def test_about_a_corner_that_stays_at_rest_the_words_and_the_numbers_follow(tmp_
 def test_what_the_page_cannot_print_is_named_where_it_stands(tmp_path: Path, title: str) -> None:
     with pytest.raises(Rejected, match=r"block.yaml:1:[0-9]+: error.character"):
         solved(tmp_path, {"title: A block": f"title: {title}"})
+
+
+def test_a_note_stands_after_the_last_part_and_may_name_what_was_derived(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    with open(root / "problems" / "hw9" / "block.yaml", "a", encoding="utf-8") as file:
+        file.write("note: Real bearings carry <<magnitude>> at every turn, by <<eq torque>>.\n")
+    solution = rendered_once(root, "hw9/block")
+    text = flat(solution)
+    assert text.index("Real bearings carry |τ⃗| at every turn, by (") > text.index("√42/28 M a² ω²")
+    assert "Real bearings carry" in solution.latex
+    assert "Real bearings carry" not in solution.sheet

@@ -5,18 +5,20 @@ from __future__ import annotations
 import ast
 import inspect
 import re
+import tempfile
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import derive.mechanics
-import derive.numbers
-from derive.step import Quantity
-from tests.course import ROOT
+import derive.steps.numeric
+from derive.steps.step import Quantity
+from tests.courses import ROOT
 from tests.mechanics.block import a, known_block
-from tests.test_wording import VARIANTS, WORDS
+from tests.page.test_wording import VARIANTS, WORDS
 
 SOURCE = ROOT / "derive"
 MODULES = {
@@ -26,52 +28,24 @@ MODULES = {
 }
 TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MODULES.items()}
 
-# Imports point downwards, or sideways without a circle. A package stands for its modules.
-LAYERS = (
-    ("errors", "dimensions"),
-    ("expressions", "integrals", "exact", "evidence", "tidy", "rounding", "measured"),
-    ("step", "derivation", "encoding", "homogeneity", "numbers"),
-    ("mechanics", "figures"),
-    (
-        "source",
-        "units",
-        "terms",
-        "reading",
-        "latex",
-        "prose",
-        "schema",
-        "parts",
-        "script",
-        "given",
-        "placement",
-        "problem",
-        "stated",
-        "verdicts",
-        "errata",
-        "reference",
-    ),
-    ("wording", "references", "checks", "curves", "depiction", "document"),
-    ("output", "render"),
-    (
-        "solution",
-        "set_document",
-        "stored",
-        "drawn",
-        "manifest",
-        "workers",
-        "build",
-        "doctor",
-        "terminal",
-        "commands",
-        "cli",
-        "bootstrap",
-        "__main__",
-    ),
+# From the ground up: a room imports from the floors below it, and two rooms of one floor not from each other. What
+# scripts import, `given`, and the front door stand before the rooms.
+FLOORS = (
+    ("errors",),
+    ("algebra",),
+    ("steps",),
+    ("mechanics", "course"),
+    ("figures",),
+    ("page",),
+    ("render",),
+    ("building",),
+    ("cli",),
 )
-LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
-ENGINE = {name for name in MODULES if LAYER[name.partition(".")[0]] <= 3}
-PRINTING = {"cli", "commands", "terminal", "doctor", "bootstrap"}
-VERB_MODULES = sorted({name.partition(".")[2] for name in MODULES if name.startswith("mechanics.")})
+DOORS = {"given": "course", "__main__": "cli"}
+FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
+ENGINE = {name for name in MODULES if name.partition(".")[0] in {"errors", "algebra", "steps", "mechanics", "figures"}}
+PRINTING = {"cli.options", "cli.commands", "cli.terminal", "building.doctor"}
+VERB_MODULES = sorted(name for name in MODULES if name.startswith("mechanics."))
 DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let", "axis_vector"}
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
@@ -104,15 +78,37 @@ def strings(name: str) -> Iterator[ast.Constant]:
 # --- modules ---
 
 
-def test_every_module_has_its_layer_and_every_layer_its_modules() -> None:
-    assert {name.partition(".")[0] for name in MODULES} == set(LAYER)
+def room(name: str) -> str:
+    return name.partition(".")[0]
+
+
+def test_the_house_has_these_rooms() -> None:
+    assert {room(name) for name in MODULES} == set(FLOOR) | set(DOORS)
+
+
+def test_each_room_says_what_it_is_for() -> None:
+    for folder in (path.parent for path in SOURCE.rglob("__init__.py")):
+        assert ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))), folder
+
+
+def test_the_tests_stand_in_the_rooms() -> None:
+    """Beside the house itself, its pages and what is tried on everything: mutants, perturbations, printed lines."""
+    folders = {path.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").glob("*/**/test_*.py")}
+    assert folders - set(FLOOR) == {"printed", "tools"}
+
+
+@pytest.mark.parametrize("name", FLOOR)
+def test_the_readme_shows_each_room_with_its_sentence(name: str) -> None:
+    file = SOURCE / f"{name}.py" if (SOURCE / f"{name}.py").exists() else SOURCE / name / "__init__.py"
+    said = (ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or "").partition("\n\n")[0]
+    assert f"\n{name:10} {said}\n" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", MODULES)
 def test_imports_point_down(name: str) -> None:
-    own = LAYER[name.partition(".")[0]]
-    upwards = {module for module in imported(name) if LAYER[module.partition(".")[0]] > own}
-    assert upwards == set()
+    own = DOORS.get(name, room(name))
+    allowed = {other for other in FLOOR if FLOOR[other] < FLOOR[own]} | {own}
+    assert {module for module in imported(name) if room(module) not in allowed} == set()
 
 
 def test_imports_go_in_no_circle() -> None:
@@ -155,7 +151,7 @@ def test_only_the_command_line_prints(name: str) -> None:
 def test_nothing_is_evaluated_from_text(name: str) -> None:
     banned = {"eval", "exec", "sympify", "parse_expr", "parse_latex", "S"}
     called = {ast.unparse(n.func) for n in ast.walk(TREES[name]) if isinstance(n, ast.Call)}
-    allowed = {"exec"} if name == "script" else set()  # a problem's own script is code, and trusted
+    allowed = {"exec"} if name == "course.script" else set()  # a problem's own script is code, and trusted
     assert called & banned <= allowed
 
 
@@ -166,11 +162,21 @@ def test_modules_of_the_engine_import_no_reader_of_files() -> None:
         assert not modules & {"yaml", "jinja2", "pathlib", "os", "subprocess", "pylatexenc", "io"}
 
 
-def test_nothing_that_is_shipped_names_this_machine() -> None:
-    kept = [*SOURCE.rglob("*.py"), *(ROOT / "templates").rglob("*.*"), *(ROOT / "problems").rglob("*.*")]
-    for path in kept:
-        text = path.read_text(encoding="utf-8") if path.suffix in {".py", ".yaml", ".j2"} else ""
-        assert not re.search(r"/home/|/work/|/tmp/|https?://(?!docs\.|www\.bipm|yaml\.org)\S*index", text), path
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "NOTATION.md", "docs/soundness.md", "docs/json.md"])
+def test_what_a_page_says_stands_somewhere_stands_there(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    named = re.findall(r"`((?:derive|tests|templates|docs|tools)/[\w./-]+)`", text)
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+def test_nothing_that_is_shipped_names_a_machine() -> None:
+    """No folder of whoever runs this, and no address of a package index."""
+    own = "|".join(re.escape(f"{folder}/") for folder in (ROOT, Path.home(), Path(tempfile.gettempdir())))
+    for path in (
+        p for folder in ("derive", "templates", "problems", "docs", "tools") for p in (ROOT / folder).rglob("*.*")
+    ):
+        text = path.read_text(encoding="utf-8") if path.suffix in {".py", ".yaml", ".j2", ".md"} else ""
+        assert not re.search(rf"{own}|https?://(?!docs\.|www\.bipm|yaml\.org)\S*index", text), path
 
 
 # --- verbs ---
@@ -179,8 +185,8 @@ def test_nothing_that_is_shipped_names_this_machine() -> None:
 def verbs() -> dict[str, Any]:
     """Every public function of mechanics and numbers that yields a quantity."""
     modules = [
-        derive.numbers,
-        *(getattr(derive.mechanics, name) for name in VERB_MODULES),
+        derive.steps.numeric,
+        *(import_module(f"derive.{name}") for name in VERB_MODULES),
     ]
     return {
         name: function
@@ -330,7 +336,7 @@ def test_quantities_are_made_by_establish_alone() -> None:
         made = [
             n for n in ast.walk(TREES[name]) if isinstance(n, ast.Call) and ast.unparse(n.func) in {"Quantity", "Step"}
         ]
-        assert not made or name in {"step", "derivation"}, name
+        assert not made or name in {"steps.establish", "steps.derivation"}, name
     assert isinstance(known_block()["torque"], Quantity)
     assert a.is_positive
 

@@ -5,13 +5,13 @@ After a change that is meant, `python -m tests.test_transcripts` writes them ane
 
 from __future__ import annotations
 
+import os
 import tempfile
 from pathlib import Path
 
 import pytest
 
-from derive.solution import rendered
-from tests.course import course_in
+from tests.courses import course_in, rendered_once
 
 FOLDER = Path(__file__).parent / "transcripts"
 # page -> edits of the pinned problem that its name begins with, and the detail
@@ -68,7 +68,7 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
 def page(name: str, folder: Path) -> str:
     edits, detail = PAGES[name]
     problem = name.partition("-")[0]
-    return rendered(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).text
+    return rendered_once(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).text
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -78,6 +78,7 @@ def test_the_page_reads_as_its_transcript(name: str, tmp_path: Path) -> None:
 
 
 if __name__ == "__main__":
-    for each in PAGES:
-        with tempfile.TemporaryDirectory() as temporary:
-            (FOLDER / f"{each}.txt").write_text(page(each, Path(temporary)), encoding="utf-8")
+    with tempfile.TemporaryDirectory() as temporary:
+        os.environ["XDG_STATE_HOME"] = temporary
+        for each in PAGES:
+            (FOLDER / f"{each}.txt").write_text(page(each, Path(temporary) / each), encoding="utf-8")

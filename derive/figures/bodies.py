@@ -8,8 +8,8 @@ from typing import Any
 
 from sympy import Expr, Integer, Rational
 
+from derive.algebra.expressions import AXES, column, scalar
 from derive.errors import Complaint, Rejected
-from derive.expressions import AXES, column, scalar
 from derive.figures.marks import (
     Axis,
     BallMark,
@@ -23,10 +23,10 @@ from derive.figures.marks import (
     Polygon,
     RodMark,
 )
-from derive.mechanics.bodies import Cuboid
-from derive.mechanics.regions import Point
-from derive.mechanics.solids import Ball, Cone, Cylinder
-from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
+from derive.mechanics.bodies.body import Cuboid
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.bodies.solids import Ball, Cone, Cylinder
+from derive.mechanics.bodies.thin_bodies import Disc, Hoop, Plate, Rod
 
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))

@@ -10,7 +10,7 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, Rational, Symbol, cos, pi, sin
 
-from derive.expressions import column, scalar
+from derive.algebra.expressions import column, scalar
 from derive.figures.bodies import ORIGIN, Y, Z, round_outline
 from derive.figures.marks import (
     AngleMark,
@@ -26,10 +26,10 @@ from derive.figures.marks import (
     Support,
     Turn,
 )
-from derive.mechanics.composed import Composed, Part
-from derive.mechanics.solids import Ball, Cone, Cylinder
-from derive.mechanics.thin_bodies import Rod
-from derive.step import Quantity
+from derive.mechanics.bodies.solids import Ball, Cone, Cylinder
+from derive.mechanics.bodies.thin_bodies import Rod
+from derive.mechanics.rotation.composite import Composed, Part
+from derive.steps.step import Quantity
 
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
 

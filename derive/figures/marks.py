@@ -1,22 +1,22 @@
 """What a drawing shows, as data: marks whose places and directions are SymPy expressions in the problem's letters.
 
 A mark knows what it is, not how it looks: which lines are hidden, how long an arrow is and where a label stands is
-decided when it is drawn (`derive.render.picture`). Places are columns (x, y, z) in one frame, the same for all marks of
-a drawing. `keys` are those of the steps that a mark rests on, so that no drawing gives an answer away too early.
+decided when it is drawn (`derive.render.drawing.picture`). Places are columns (x, y, z) in one frame, the same for
+all marks of a drawing. `keys` are those of the steps that a mark rests on, so that no drawing gives an answer away too
+early.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
 from dataclasses import dataclass, fields
 from typing import Any, TypeAlias
 
 from sympy import Symbol
 
 from derive.errors import Complaint, Rejected
+from derive.steps.record import current_run
 
 Place: TypeAlias = Any  # a column of three expressions
 SPACE, PLANE = "space", "plane"
@@ -237,31 +237,18 @@ def letters_in(thing: Any) -> set[Symbol]:
 
 Recorded: TypeAlias = Drawing | Plot
 
-_record: ContextVar[list[Recorded] | None] = ContextVar("drawings", default=None)
-
-
-@contextmanager
-def drawings_recorded() -> Iterator[list[Recorded]]:
-    """Collect every drawing that a script asks for within."""
-    record: list[Recorded] = []
-    token = _record.set(record)
-    try:
-        yield record
-    finally:
-        _record.reset(token)
-
 
 def noted(drawing: Recorded) -> Recorded:
     """The drawing, after it was put on the record; a name stands for one drawing."""
     if not _KEY.fullmatch(drawing.key):
         help_line = "use small letters, digits and _"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))
-    record = _record.get()
-    if record is not None:
-        if any(other.key == drawing.key for other in record):
+    run = current_run.get()
+    if run is not None:
+        if any(other.key == drawing.key for other in run.drawings):
             message = f"two drawings are both called `{drawing.key}`"
             raise Rejected(Complaint("key-clash", message, help="give one of them another name"))
-        record.append(drawing)
+        run.drawings.append(drawing)
     return drawing
 
 

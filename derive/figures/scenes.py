@@ -12,9 +12,9 @@ from typing import Any
 
 from sympy import Expr, Integer, MatrixBase, Rational, Symbol
 
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import AXES, column, explicit, scalar
 from derive.errors import Complaint, Rejected
-from derive.evidence import Grade
-from derive.expressions import AXES, column, explicit, scalar
 from derive.figures.bodies import ORIGIN, outline
 from derive.figures.marks import (
     PLANE,
@@ -33,8 +33,8 @@ from derive.figures.marks import (
     flat,
     noted,
 )
-from derive.mechanics.regions import Point
-from derive.step import Quantity
+from derive.mechanics.bodies.regions import Point
+from derive.steps.step import Quantity
 
 LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
 

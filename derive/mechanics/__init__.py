@@ -1,7 +1,30 @@
 """The verbs and nouns of mechanics, as a problem's script imports them."""
 
-from derive.mechanics.bodies import Cuboid, centre_of_mass, density
-from derive.mechanics.composed import (
+from inspect import isfunction
+
+import derive.mechanics.outcomes  # from here on it is known what each word of a step must fulfil
+import derive.mechanics.outcomes.told  # noqa: F401  and what else its sentence tells
+from derive.algebra.direction import Direction
+from derive.mechanics.arguments import checked
+from derive.mechanics.bodies.body import Cuboid, centre_of_mass, density
+from derive.mechanics.bodies.solids import Ball, Cone, Cylinder, volume
+from derive.mechanics.bodies.thin_bodies import Disc, Hoop, Plate, Rod
+from derive.mechanics.equations.conservation import rate_under
+from derive.mechanics.equations.euler_equations import (
+    RigidBody,
+    changing_angular_velocity,
+    euler_equations,
+    principal_tensor,
+    rate_in_body,
+    rate_in_space,
+)
+from derive.mechanics.equations.inequalities import boundary_case, positive_where
+from derive.mechanics.equations.oscillations import frequency, frequency_squared, linearised
+from derive.mechanics.equations.quadratics import discriminant, roots_of
+from derive.mechanics.equations.special_cases import isotropic_where
+from derive.mechanics.equations.stability import curvature_at, leading_order, slope
+from derive.mechanics.equations.values import at, let, magnitude, squared_magnitude, with_values
+from derive.mechanics.rotation.composite import (
     Composed,
     Part,
     axial_moment,
@@ -10,52 +33,9 @@ from derive.mechanics.composed import (
     total_mass,
     transverse_moment,
 )
-from derive.mechanics.conditions import boundary_case, positive_where
-from derive.mechanics.conservation import rate_under
-from derive.mechanics.constraints import (
-    Tie,
-    contact_forces,
-    equation_with_multipliers,
-    force_of_constraint,
-    free_lagrangian,
-    multipliers_eliminated,
-    tie,
-)
-from derive.mechanics.coordinates import Coordinate, coordinate, rate_of
-from derive.mechanics.cyclic import conserved_momentum
-from derive.mechanics.direction import Direction
-from derive.mechanics.equations import at, let, magnitude, squared_magnitude, with_values
-from derive.mechanics.free_rotation import (
-    RigidBody,
-    changing_angular_velocity,
-    euler_equations,
-    principal_tensor,
-    rate_in_body,
-    rate_in_space,
-)
-from derive.mechanics.inertia import agreement, inertia_tensor, moment_of_inertia, moved_from_centre, moved_to
-from derive.mechanics.lagrangian import (
-    equation_of_motion,
-    generalized_force,
-    generalized_momentum,
-    lagrangian,
-    momentum_rate,
-    plane_kinetic_energy,
-    weight_energy,
-)
-from derive.mechanics.oscillations import frequency, frequency_squared, linearised
-from derive.mechanics.potentials import curvature_at, leading_order, slope
-from derive.mechanics.precession import (
-    no_steady_precession,
-    precession_condition,
-    precession_rates,
-    steady_precession,
-    steady_rates,
-)
-from derive.mechanics.principal import principal_axes, principal_moments
-from derive.mechanics.quadratics import discriminant, roots_of
-from derive.mechanics.rolling import rolled_centre
-from derive.mechanics.rotation import (
+from derive.mechanics.rotation.inertia import agreement, inertia_tensor, moment_of_inertia, moved_from_centre, moved_to
+from derive.mechanics.rotation.principal import principal_axes, principal_moments
+from derive.mechanics.rotation.vectors import (
     angle_between,
     angular_momentum,
     any_angular_velocity,
@@ -64,11 +44,36 @@ from derive.mechanics.rotation import (
     spin,
     torque,
 )
-from derive.mechanics.sleeping import effective_potential, sleeping_spin, upright_rate
-from derive.mechanics.solids import Ball, Cone, Cylinder, volume
-from derive.mechanics.special_cases import isotropic_where
-from derive.mechanics.thin_bodies import Disc, Hoop, Plate, Rod
-from derive.mechanics.tops import (
+from derive.mechanics.systems.constraints import (
+    Tie,
+    contact_forces,
+    equation_with_multipliers,
+    force_of_constraint,
+    free_lagrangian,
+    multipliers_eliminated,
+    tie,
+)
+from derive.mechanics.systems.coordinates import Coordinate, coordinate, rate_of
+from derive.mechanics.systems.cyclic import conserved_momentum
+from derive.mechanics.systems.lagrangian import (
+    equation_of_motion,
+    generalized_force,
+    generalized_momentum,
+    lagrangian,
+    momentum_rate,
+    plane_kinetic_energy,
+    weight_energy,
+)
+from derive.mechanics.systems.rolling import rolled_centre
+from derive.mechanics.tops.precession import (
+    no_steady_precession,
+    precession_condition,
+    precession_rates,
+    steady_precession,
+    steady_rates,
+)
+from derive.mechanics.tops.sleeping import effective_potential, sleeping_spin, upright_rate
+from derive.mechanics.tops.top import (
     EulerAngles,
     Top,
     centre_height,
@@ -172,3 +177,7 @@ __all__ = [
     "weight_energy",
     "with_values",
 ]
+
+for _name in __all__:
+    if isfunction(globals()[_name]):
+        globals()[_name] = checked(globals()[_name])

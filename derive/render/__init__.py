@@ -1,1 +1,1 @@
-"""From a document to text, LaTeX, JSON and PDF."""
+"""The tree as text, LaTeX, JSON and drawings; no disk, no subprocess."""

@@ -1,7 +1,7 @@
 """A spinning top: at which rates it precesses steadily, and how fast it must spin to sleep upright."""
 
 from derive.figures import drawing, leaning_top
-from derive.given import Acceleration, Angle, AngularSpeed, Length, Mass
+from derive.given import Acceleration, AngularSpeed, Length, Mass, PolarAngle, require
 from derive.mechanics import (
     Composed,
     Disc,
@@ -45,9 +45,10 @@ def solve(
     rod_mass: Mass,
     rod_length: Length,
     spin: AngularSpeed,
-    tilt: Angle,
+    tilt: PolarAngle,
     gravity: Acceleration,
 ):
+    require(disc_at <= rod_length, "disc_at", "must not lie beyond the end of the rod")
     disc, rod = Disc(radius, disc_mass), Rod(rod_length, rod_mass)
     body = Composed(Part("disc", disc, at=disc_at), Part("rod", rod, at=rod_length / 2))
     mass = total_mass(body)

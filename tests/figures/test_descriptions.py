@@ -7,10 +7,10 @@ import json
 import pytest
 from sympy import Matrix, cos, sin
 
+from derive.algebra.expressions import column
 from derive.errors import Rejected
-from derive.expressions import column
 from derive.figures import arc, arrow, drawing, outline, plot, point, slab_on_cylinder
-from derive.figures.kept import drawings_from_data, drawings_to_data
+from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import (
     AngleMark,
     Arrow,
@@ -23,9 +23,9 @@ from derive.figures.marks import (
     Length,
     Polygon,
     RodMark,
-    drawings_recorded,
 )
 from derive.mechanics import Ball, Coordinate, Cuboid, Cylinder, Hoop, Plate, rolled_centre
+from derive.steps.record import recorded
 from tests.figures.scenery import CONE, M, R, a, h, leaning, theta, vectors_of_block
 from tests.mechanics.block import known_block
 
@@ -70,14 +70,14 @@ def test_drawings_go_to_json_and_back_unchanged() -> None:
 
 
 def test_drawings_are_recorded_in_their_order() -> None:
-    with drawings_recorded() as record:
+    with recorded() as run:
         drawing("b", point(column(0, 0, 0)))
         drawing("a", point(column(0, 0, 0)))
-    assert [found.key for found in record] == ["b", "a"]
+    assert [found.key for found in run.drawings] == ["b", "a"]
 
 
 def test_a_name_stands_for_one_drawing() -> None:
-    with drawings_recorded():
+    with recorded():
         drawing("one", point(column(0, 0, 0)))
         with pytest.raises(Rejected, match="both called `one`"):
             drawing("one", point(column(1, 0, 0)))

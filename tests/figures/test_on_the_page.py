@@ -9,13 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from derive import drawn
-from derive.build import Options, built_set
+from derive.building import drawn
+from derive.building.set_document import problem_document
+from derive.building.sets import Options, built_set
+from derive.building.solution import rendered
+from derive.course.problem import problem_set
 from derive.errors import Rejected
-from derive.set_document import problem_document
-from derive.solution import Rendered, rendered
-from tests.course import ROOT, course_in
-from tests.test_stored import forbid_deriving
+from derive.render.rendered import Rendered
+from tests.building.test_stored import forbid_deriving
+from tests.courses import ROOT, course_in, rendered_once
 
 CAPTION = "  vectors:\n"
 CUBE = {"[a, 2*a, 3*a]": "[a, a, a]"}
@@ -28,13 +30,13 @@ def drawings(solved: Rendered) -> dict[str, dict]:
 
 def faults(folder: Path, edits: dict[str, str] | None = None, script: dict[str, str] | None = None) -> list[str]:
     with pytest.raises(Rejected) as caught:
-        rendered(course_in(folder, edits, script), "hw9/block")
+        rendered_once(course_in(folder, edits, script), "hw9/block")
     return [complaint.shown() for complaint in caught.value.complaints]
 
 
 @pytest.fixture(scope="module")
 def block(tmp_path_factory: pytest.TempPathFactory) -> Rendered:
-    return rendered(course_in(tmp_path_factory.mktemp("block")), "hw9/block", draws=True)
+    return rendered_once(course_in(tmp_path_factory.mktemp("block")), "hw9/block", draws=True)
 
 
 # --- words -----------------------------------------------------------------------------------------------------------
@@ -66,7 +68,7 @@ def test_a_terminal_shows_the_words_in_the_place_of_the_drawing(block: Rendered)
 
 
 def test_the_words_follow_the_given(tmp_path: Path) -> None:
-    told = drawings(rendered(course_in(tmp_path, CUBE), "hw9/block"))["vectors"]["alt"]
+    told = drawings(rendered_once(course_in(tmp_path, CUBE), "hw9/block"))["vectors"]["alt"]
     assert "edges a, a and a" in told
     assert "ω⃗ along (1, 1, 1)" in told
     assert "L⃗ along (1, 1, 1)" in told
@@ -74,21 +76,21 @@ def test_the_words_follow_the_given(tmp_path: Path) -> None:
 
 
 def test_a_negative_rate_reverses_the_vectors(tmp_path: Path) -> None:
-    told = drawings(rendered(course_in(tmp_path, {"rate: omega": "rate: -omega"}), "hw9/block"))["vectors"]["alt"]
+    told = drawings(rendered_once(course_in(tmp_path, {"rate: omega": "rate: -omega"}), "hw9/block"))["vectors"]["alt"]
     assert "ω⃗ along (-1, -2, -3)" in told
     assert "the angle θ of 21.6°" in told
 
 
 def test_no_number_is_told_that_depends_on_letters(tmp_path: Path) -> None:
     edits = {"[a, 2*a, 3*a]": "[a, b, c]", "{a: length,": "{a: length, b: length, c: length,"}
-    told = drawings(rendered(course_in(tmp_path, edits), "hw9/block"))["vectors"]["alt"]
+    told = drawings(rendered_once(course_in(tmp_path, edits), "hw9/block"))["vectors"]["alt"]
     assert "the angle θ" in told
     assert "°" not in told
 
 
 def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
     edits = {"ask: Find the angle between": "ask: In <<figure vectors>>, find the angle between"}
-    assert "(c) In Figure 1, find" in rendered(course_in(tmp_path, edits), "hw9/block").text
+    assert "(c) In Figure 1, find" in rendered_once(course_in(tmp_path, edits), "hw9/block").text
 
 
 def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> None:
@@ -101,7 +103,7 @@ def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> Non
 
 
 def test_a_drawing_stands_where_all_that_it_shows_is_derived(tmp_path: Path) -> None:
-    assert drawings(rendered(course_in(tmp_path), "hw9/block"))["vectors"]["at"] == "c"
+    assert drawings(rendered_once(course_in(tmp_path), "hw9/block"))["vectors"]["at"] == "c"
 
 
 def test_a_drawing_may_stand_later_or_not_at_all(tmp_path: Path) -> None:
@@ -109,7 +111,8 @@ def test_a_drawing_may_stand_later_or_not_at_all(tmp_path: Path) -> None:
         folder = tmp_path / where
         folder.mkdir()
         assert (
-            list(drawings(rendered(course_in(folder, {CAPTION: CAPTION + f"    at: {where}\n"}), "hw9/block"))) == keys
+            list(drawings(rendered_once(course_in(folder, {CAPTION: CAPTION + f"    at: {where}\n"}), "hw9/block")))
+            == keys
         )
 
 
@@ -130,7 +133,7 @@ WITHOUT_THE_ANGLE = {
 
 
 def test_a_drawing_of_what_no_part_asks_for_is_left_out(tmp_path: Path) -> None:
-    assert "vectors" not in drawings(rendered(course_in(tmp_path, WITHOUT_THE_ANGLE), "hw9/block"))
+    assert "vectors" not in drawings(rendered_once(course_in(tmp_path, WITHOUT_THE_ANGLE), "hw9/block"))
 
 
 def test_a_drawing_of_what_no_part_asks_for_that_is_given_a_place_is_told(tmp_path: Path) -> None:
@@ -139,7 +142,7 @@ def test_a_drawing_of_what_no_part_asks_for_that_is_given_a_place_is_told(tmp_pa
 
 
 def test_a_drawing_may_stand_with_the_step_that_a_part_asks_for(tmp_path: Path) -> None:
-    placed = rendered(course_in(tmp_path, {CAPTION: CAPTION + "    at: torque\n"}), "hw9/block")
+    placed = rendered_once(course_in(tmp_path, {CAPTION: CAPTION + "    at: torque\n"}), "hw9/block")
     assert drawings(placed)["vectors"]["at"] == "d"
 
 
@@ -189,7 +192,7 @@ def test_each_drawing_is_a_pdf_and_an_svg(block: Rendered) -> None:
 def test_a_derivation_draws_nothing(tmp_path: Path) -> None:
     course_in(tmp_path)
     program = (
-        "import sys; from pathlib import Path; from derive.solution import rendered; "
+        "import sys; from pathlib import Path; from derive.building.solution import rendered; "
         "found = rendered(Path(sys.argv[1]), 'hw9/block'); "
         "sys.exit(bool(found.files) or 'matplotlib' in sys.modules or 'numpy' in sys.modules)"
     )
@@ -218,7 +221,8 @@ def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: R
     rendered(course, "hw9/block", None, kept, draws=True)
     file = tmp_path / "block.vectors.drawing.json"
     data = json.loads(file.read_text())
-    data["files"]["pdf"] = data["files"]["svg"]
+    files = json.loads(data["kept"])
+    data["kept"] = json.dumps({**files, "pdf": files["svg"]})
     file.write_text(json.dumps(data))
     assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
     file.write_text("[]")
@@ -227,7 +231,7 @@ def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: R
 
 def test_a_width_and_numbers_of_its_own_change_only_that_drawing(tmp_path: Path, block: Rendered) -> None:
     edits = {CAPTION: CAPTION + "    width: 3 cm\n"}
-    changed = dict(rendered(course_in(tmp_path, edits), "hw9/block", draws=True).files)
+    changed = dict(rendered_once(course_in(tmp_path, edits), "hw9/block", draws=True).files)
     same = {name for name, content in block.files if changed[name] == content}
     assert same == {"block-axes.pdf", "block-axes.svg"}
 
@@ -259,9 +263,10 @@ def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Pa
 
 
 def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: Path, block: Rendered) -> None:
-    from derive.render.pdf import chosen_engine, typeset
+    from derive.building.tex import chosen_engine, typeset
 
-    tex = problem_document(course_in(tmp_path), block, "hw9")
+    root = course_in(tmp_path)
+    tex = problem_document(root, block, problem_set(root, "hw9"))
     pages = {}
     for name, files in (("with", block.files), ("without", ())):
         target = tmp_path / f"{name}.pdf"
@@ -277,5 +282,5 @@ def test_a_value_for_a_letter_that_the_drawing_no_longer_has_is_told_as_a_warnin
         "a: length": "a: length, b: length",
         CAPTION: CAPTION + "    values: {a: 2 cm}\n",
     }
-    found = rendered(course_in(tmp_path, edits), "hw9/block").warnings
+    found = rendered_once(course_in(tmp_path, edits), "hw9/block").warnings
     assert [w.code for w in found] == ["unused-letter"]

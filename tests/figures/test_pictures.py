@@ -8,16 +8,16 @@ from math import atan2, cos, degrees, hypot, isclose, pi, sin
 import pytest
 from sympy import Rational, Symbol, sqrt
 
-from derive.expressions import column
+from derive.algebra.expressions import column
 from derive.figures import arc, arrow, axis_of_rotation, drawing, length, outline, point, slab_on_cylinder
 from derive.figures.marks import AngleMark, ConeMark, CylinderMark, Drawing, Polygon, Turn
 from derive.mechanics import Coordinate, Cuboid, rolled_centre
-from derive.render.labels import placed
-from derive.render.notation import Notation
-from derive.render.outlines import Bullet, Patch, Tag, hull
-from derive.render.picture import POINTS_PER_CM
-from derive.render.sketch import sheet_of
-from derive.render.stance import Numbers, best_stance, dot, size_of, stance_from, stand_ins, unit
+from derive.render.drawing.camera import Numbers, best_stance, dot, size_of, stance_from, stand_ins, unit
+from derive.render.drawing.canvas import sheet_of
+from derive.render.drawing.hidden_lines import Bullet, Patch, Tag, hull
+from derive.render.drawing.labels import placed
+from derive.render.drawing.picture import POINTS_PER_CM
+from derive.render.notation.notation import Notation
 from tests.figures.scenery import (
     CONE,
     NUMBERS,

@@ -8,10 +8,10 @@ from typing import Any
 
 from sympy import Integer, Rational, Symbol, pi, symbols
 
-from derive.expressions import Amount
+from derive.algebra.expressions import Amount
 from derive.mechanics import Direction
-from derive.step import Quantity
-from tests.mechanics.alteration import verbs_as_imported
+from derive.steps.step import Quantity
+from tests.mechanics.verbs import verbs_as_imported
 
 a, b, c, M, omega = symbols("a b c M omega", positive=True)
 

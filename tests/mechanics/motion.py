@@ -6,7 +6,7 @@ from typing import Any
 
 from sympy import Integer, symbols
 
-from derive.expressions import scalar
+from derive.algebra.expressions import scalar
 from derive.mechanics import (
     Coordinate,
     coordinate,
@@ -19,7 +19,8 @@ from derive.mechanics import (
     rate_of,
     weight_energy,
 )
-from derive.step import Quantity, establish
+from derive.steps.establish import establish
+from derive.steps.step import Quantity
 
 m, l, g, b = symbols("m l g b", positive=True)
 ZERO = Integer(0)

@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import symbols
 
-from derive.step import Quantity
+from derive.steps.step import Quantity
 from tests.mechanics.block import with_what_they_rest_on
 
 R, h, M, a, m = symbols("R h M a m", positive=True)

@@ -8,9 +8,9 @@ from typing import Any
 
 from sympy import symbols
 
-from derive.step import Quantity
-from tests.mechanics.alteration import verbs_as_imported
+from derive.steps.step import Quantity
 from tests.mechanics.block import with_what_they_rest_on
+from tests.mechanics.verbs import verbs_as_imported
 
 R, a, M, I, g = symbols("R a M I g", positive=True)
 

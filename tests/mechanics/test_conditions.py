@@ -9,12 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Expr, Integer, Rational, pi, sin, sqrt, symbols
 
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import Amount, Relation
 from derive.errors import Rejected
-from derive.evidence import Grade
-from derive.expressions import Amount, Relation
 from derive.mechanics import boundary_case, let, positive_where
-from derive.numbers import comparison_of
-from derive.step import Quantity
+from derive.steps.numeric import comparison_of
+from derive.steps.step import Quantity
 
 R, a, b, g, M = symbols("R a b g M", positive=True)
 u, v = symbols("u v", real=True)

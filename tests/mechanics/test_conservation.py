@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 from sympy import Expr, Integer, Symbol, cos, sin, symbols
 
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import Relation, explicit
 from derive.errors import Rejected
-from derive.evidence import Grade
-from derive.expressions import Relation, explicit
 from derive.mechanics import coordinate, rate_under
-from derive.step import Quantity, establish
+from derive.steps.establish import establish
+from derive.steps.step import Quantity
 
 M, k, b, g, l = symbols("M k b g l", positive=True)
 x = coordinate("x", "length")

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from sympy import Expr, Integer, cos, sin, symbols
 
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation
 from derive.errors import Unverified
-from derive.evidence import equal
-from derive.expressions import Relation
 from derive.mechanics import (
     Coordinate,
     coordinate,
@@ -19,7 +19,7 @@ from derive.mechanics import (
     multipliers_eliminated,
     tie,
 )
-from derive.step import Quantity
+from derive.steps.step import Quantity
 from tests.mechanics.motion import THETA, ZERO, X, b, g, l, m, motion, position
 from tests.mechanics.slab import I as moment
 from tests.mechanics.slab import M, R, a, known_slab

@@ -9,12 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Derivative, Expr, Function, Integer, Matrix, Symbol, cos, exp, log, sin, symbols
 
+from derive.algebra.equality import equal
+from derive.algebra.expressions import TimeRate, explicit, rate, scalar
 from derive.errors import Rejected
-from derive.evidence import equal
-from derive.expressions import TimeRate, explicit, rate, scalar
 from derive.mechanics import equation_of_motion, lagrangian, rate_of, slope
-from derive.mechanics.coordinates import T as time
-from derive.mechanics.coordinates import by_functions_of_time, changing, kind_of_rate, letters_of, unchanging
+from derive.mechanics.systems.coordinates import T as time
+from derive.mechanics.systems.coordinates import by_functions_of_time, changing, kind_of_rate, letters_of, unchanging
 from tests.mechanics.motion import THETA, X, energies, position
 from tests.mechanics.slab import known_slab
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import pytest
 from sympy import Integer, Matrix, Rational, sqrt, symbols
 
+from derive.algebra.expressions import vector
 from derive.errors import Rejected
-from derive.expressions import vector
 from derive.mechanics import Cuboid, Direction, any_angular_velocity, at, kinetic_energy, let, magnitude, spin
-from derive.step import Quantity, establish
+from derive.steps.establish import establish
+from derive.steps.step import Quantity
 from tests.mechanics.block import M, a, b, c, known_block, omega, outcomes, values
 
 

@@ -8,11 +8,10 @@ from typing import Any
 import pytest
 from sympy import Expr, Integer, Matrix, Rational, Symbol, diff, expand, lambdify, symbols
 
-from derive.derivation import derivation_of, from_json, to_json, with_ancestors
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import Relation, component_names, explicit, rate, scalar
+from derive.algebra.normal_form import vanishes
 from derive.errors import Rejected, Unverified
-from derive.evidence import Grade
-from derive.exact import vanishes
-from derive.expressions import Relation, component_names, explicit, rate, scalar
 from derive.mechanics import (
     RigidBody,
     angular_momentum,
@@ -25,7 +24,9 @@ from derive.mechanics import (
     rate_under,
     squared_magnitude,
 )
-from derive.step import Quantity, establish
+from derive.steps.derivation import derivation_of, from_json, to_json, with_ancestors
+from derive.steps.establish import establish
+from derive.steps.step import Quantity
 
 I_x, I_y, I_z, A, C = symbols("I_x I_y I_z A C", positive=True)
 N = symbols("N_x N_y N_z", real=True)
@@ -215,10 +216,10 @@ def rates_by(steps: dict[str, Quantity]) -> dict[Symbol, Expr]:
 
 def turned(state: list[float], follow: list[Any]) -> list[float]:
     """Rates of the angular velocity in the body, and of the nine components of the body's axes in space."""
-    w, axes = state[:3], Matrix(3, 3, state[3:])
+    w, axes = state[:3], [state[3 + 3 * i : 6 + 3 * i] for i in range(3)]
     spin = [[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]]
-    rows = [[sum(axes[i, k] * spin[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
-    return [*(f(*w) for f in follow), *(float(entry) for row in rows for entry in row)]
+    rows = [[sum(axes[i][k] * spin[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+    return [*(f(*w) for f in follow), *(entry for row in rows for entry in row)]
 
 
 def followed(state: list[float], rates: Any, step: float, count: int) -> list[float]:

@@ -13,7 +13,7 @@ from derive.errors import Rejected
 from derive.mechanics import Cuboid, inertia_tensor, moved_to
 from tests.mechanics.block import M, a, b, c, known_block, outcomes, values
 
-GENERAL = {"sides": (a, b, c)}
+GENERAL = {"sides": (a, b, c), "axis": "z"}
 CUBE = {"sides": (a, a, a)}
 sizes = st.fractions(min_value=Rational(1, 50), max_value=50, max_denominator=50)
 

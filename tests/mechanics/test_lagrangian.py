@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from sympy import Integer, cos, sin, symbols
 
+from derive.algebra.equality import Grade, equal
+from derive.algebra.expressions import Relation
 from derive.errors import Rejected, Unverified
-from derive.evidence import Grade, equal
-from derive.expressions import Relation
 from derive.mechanics import (
     coordinate,
     equation_of_motion,

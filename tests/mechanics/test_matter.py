@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from sympy import Integer, Matrix, Rational, cos, eye, rot_axis3, sin, symbols
 
-from derive.evidence import equal
-from derive.expressions import rate
+from derive.algebra.equality import equal
+from derive.algebra.expressions import rate
 from derive.mechanics import coordinate
-from derive.mechanics.matter import Load, MassPoint, Matter, plane_body, symmetric_body
+from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, plane_body, symmetric_body
 from tests.mechanics.motion import THETA, X, b, g, l, m
 from tests.mechanics.slab import I
 

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from sympy import Integer, Rational, cos, pi, sin, sqrt
 
+from derive.algebra.equality import equal
 from derive.errors import Rejected
-from derive.evidence import equal
 from derive.mechanics import coordinate, equation_of_motion, frequency, frequency_squared, lagrangian, linearised
-from derive.step import Quantity
+from derive.steps.step import Quantity
 from tests.mechanics.motion import THETA, X, b, energies, g, l, m, motion, small_oscillations
 from tests.mechanics.slab import I, M, R, a, known_slab
 

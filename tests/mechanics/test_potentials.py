@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 from sympy import Expr, Rational, cos, cosh, pi, sin, symbols
 
+from derive.algebra.equality import Grade, equal
+from derive.algebra.expressions import Relation
 from derive.errors import Rejected
-from derive.evidence import Grade, equal
-from derive.expressions import Relation
 from derive.mechanics import curvature_at, leading_order, slope, weight_energy
-from derive.step import Quantity
+from derive.steps.step import Quantity
 from tests.mechanics.motion import THETA, X, b, energies, g, l, m, position
 from tests.mechanics.slab import M, R, a, known_slab
 
@@ -120,5 +120,9 @@ def test_a_stable_slab_has_another_equilibrium_to_either_side_and_a_thick_one_ha
 
 def test_a_border_may_be_given_by_hand() -> None:
     potential = known_slab()["potential_energy"]
-    stable = leading_order(potential, where=Relation(R, "=", 2 * a))
-    assert stable.step.outcome == "minimum_at_bound"
+    assert leading_order(potential, where=Relation(R, "=", a / 2)).step.outcome == "maximum_at_bound"
+
+
+def test_a_case_in_which_the_curvature_does_not_vanish_is_no_border() -> None:
+    with pytest.raises(Rejected, match="not its border"):
+        leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a))

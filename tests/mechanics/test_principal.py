@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from sympy import Integer, Matrix, eye, simplify, sqrt, symbols, zeros
 
+from derive.algebra.expressions import Relation, explicit
 from derive.errors import Rejected
-from derive.expressions import Relation, explicit
 from derive.mechanics import (
     Cone,
     Cuboid,
@@ -20,7 +20,7 @@ from derive.mechanics import (
     principal_axes,
     principal_moments,
 )
-from derive.mechanics.bodies import Body
+from derive.mechanics.bodies.body import Body
 from tests.mechanics.round_bodies import M, R, a, h
 
 b, c = symbols("b c", positive=True)

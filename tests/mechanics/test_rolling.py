@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from sympy import Integer, cos, pi, sin, symbols
 
-from derive.evidence import Grade, equal
+from derive.algebra.equality import Grade, equal
 from derive.mechanics import coordinate, rate_of, rolled_centre
 from tests.mechanics.motion import THETA
 

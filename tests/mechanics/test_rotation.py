@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Integer, Matrix, Rational, acos, cos, pi, simplify, sin, sqrt, symbols, zeros
 
-from derive.errors import Rejected, Unverified
+from derive.errors import Rejected
 from derive.mechanics import (
     Cuboid,
     Direction,
@@ -22,7 +22,7 @@ from derive.mechanics import (
     spin,
     torque,
 )
-from derive.step import Quantity
+from derive.steps.step import Quantity
 from tests.mechanics.block import M, a, b, c, known_block, omega, outcomes, values
 
 GENERAL = {"sides": (a, b, c)}
@@ -190,8 +190,14 @@ def test_two_vectors_of_one_name_and_two_values_are_refused() -> None:
 
 
 def test_a_vector_that_vanishes_has_no_angle() -> None:
-    with pytest.raises(Unverified):
-        angle_between(along(1, 0, 0), known_block(**CUBE)["torque"])
+    block = known_block(**CUBE)
+    with pytest.raises(Rejected, match="vanishes"):
+        angle_between(block["spin"], block["torque"])
+
+
+def test_vectors_of_two_bodies_make_no_angle() -> None:
+    with pytest.raises(Rejected, match="must belong to one body"):
+        angle_between(known_block()["spin"], known_block(**CUBE)["angular_momentum"])
 
 
 # --- torque ---

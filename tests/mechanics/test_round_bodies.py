@@ -6,10 +6,10 @@ from functools import cache
 from typing import Any
 
 import pytest
-from sympy import Matrix, Rational, diag, integrate, pi, simplify, symbols, zeros
+from sympy import Matrix, Rational, diag, integrate, pi, simplify, sqrt, symbols, zeros
 
+from derive.algebra.equality import Grade
 from derive.errors import Rejected
-from derive.evidence import Grade
 from derive.mechanics import (
     Ball,
     Composed,
@@ -31,10 +31,10 @@ from derive.mechanics import (
     total_mass,
     transverse_moment,
 )
-from derive.mechanics.bodies import Body
-from derive.step import Quantity
-from tests.mechanics.alteration import verbs_as_imported
+from derive.mechanics.bodies.body import Body
+from derive.steps.step import Quantity
 from tests.mechanics.round_bodies import M, R, a, cone_derivation, h, m, top_derivation
+from tests.mechanics.verbs import verbs_as_imported
 
 b = symbols("b", positive=True)
 CONE = Cone(R, h, M)
@@ -44,6 +44,7 @@ TABLES: list[tuple[Body, str, Any]] = [
     (Rod(a, M), "end", diag(1, 1, 0) * M * a**2 / 3),
     (Disc(R, M), "centre", diag(1, 1, 2) * M * R**2 / 4),
     (Disc(R, M), "rim", diag(1, 5, 6) * M * R**2 / 4),
+    (Disc(sqrt(a**2 + b**2), M), "centre", diag(1, 1, 2) * M * (a**2 + b**2) / 4),
     (Hoop(R, M), "centre", diag(1, 1, 2) * M * R**2 / 2),
     (Hoop(R, M), "rim", diag(1, 3, 4) * M * R**2 / 2),
     (Plate((a, b), M), "centre", diag(b**2, a**2, a**2 + b**2) * M / 12),

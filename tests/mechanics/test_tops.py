@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 from sympy import Integer, Rational, Symbol, cos, pi, sin, sqrt
 
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import PLUS_MINUS, Relation, explicit, rate, scalar
 from derive.errors import Rejected
-from derive.evidence import Grade
-from derive.expressions import PLUS_MINUS, Relation, explicit, rate, scalar
-from derive.measured import numbers_known, sign_known
 from derive.mechanics import (
     precession_condition,
     precession_rates,
@@ -20,9 +19,12 @@ from derive.mechanics import (
     steady_rates,
     turning_rate,
 )
-from derive.step import Quantity, establish
-from tests.mechanics.alteration import verbs_as_imported
-from tests.mechanics.laws_of_tops import S, a, g, m, motion_of, sleeping
+from derive.steps.establish import establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import Run, recorded
+from derive.steps.step import Quantity
+from tests.mechanics.spinning_top import S, a, g, m, motion_of, sleeping
+from tests.mechanics.verbs import verbs_as_imported
 
 DISC_ON_ROD = {a: Rational(1, 10), g: Rational(49, 5), S: 30 * pi}
 phi_dot, theta = scalar("phi_dot"), scalar("theta")
@@ -39,7 +41,7 @@ def steady(top: SimpleNamespace) -> Quantity:
 
 
 def at(steady: Quantity, tilt: Any, numbers: dict[Symbol, Any] | None = None) -> tuple[Quantity, Quantity, Quantity]:
-    with numbers_known(numbers or {}):
+    with recorded(Run(numbers=numbers or {})):
         rates = precession_rates(steady, tilt)
         return rates, *steady_rates(rates, precession_condition(rates, S))
 
@@ -173,13 +175,13 @@ def test_only_quadratic_equations_have_these_roots() -> None:
     cubic = establish(
         "equations.let", None, lambda: Relation(x**3 - 1, "=", 0), {}, key="cubic", definition=True, arranged=explicit
     )
-    with pytest.raises(Rejected, match="not a quadratic equation in x"):
+    with pytest.raises(Rejected, match="not a linear or quadratic equation in x"):
         roots_of(cubic, x)
 
 
 def test_the_sign_of_an_expression_is_told_by_its_letters_or_else_by_their_numbers() -> None:
     b = Symbol("b", real=True)
     assert (sign_known(a * g), sign_known(-a), sign_known(b), sign_known(a - a)) == (1, -1, None, 0)
-    with numbers_known({b: Integer(-2)}):
+    with recorded(Run(numbers={b: Integer(-2)})):
         assert (sign_known(b), sign_known(a * b), sign_known(b + 2)) == (-1, -1, 0)
     assert sign_known(b) is None

@@ -1,0 +1,1 @@
+"""The expressions of mechanics, and when two of them are equal: no physics, no pages."""

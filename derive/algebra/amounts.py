@@ -1,0 +1,50 @@
+"""Numbers with their units, as nodes: `2 cm`, and a vector or tensor in one unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, MatrixExpr
+from sympy.core.symbol import Str
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, Value, explicit
+
+
+class Amount(ScalarNode):
+    """A number with its unit, `2 cm`. Arguments: the number, the unit as text, the factor to the SI unit."""
+
+    def __new__(cls, number: Expr, unit: str | Str, factor: Expr) -> Amount:
+        return super().__new__(cls, number, Str(unit) if isinstance(unit, str) else unit, factor)  # type: ignore[no-any-return]
+
+    def doit(self, **hints: Any) -> Expr:
+        return explicit(self.args[0]) * self.args[2]
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return None  # its unit is told to the reader, and checked where it is read
+
+    def lowered(self, text: TextOf) -> str:
+        return f"({text(self.args[0])}*{text(self.args[2])})"
+
+
+class MatrixAmount(Node, MatrixExpr):
+    """A vector or tensor of numbers with one unit. Arguments: the numbers, the unit as text, the factor to the SI."""
+
+    def __new__(cls, numbers: Any, unit: str | Str, factor: Expr) -> MatrixAmount:
+        return super().__new__(cls, numbers, Str(unit) if isinstance(unit, str) else unit, factor)  # type: ignore[no-any-return]
+
+    @property
+    def shape(self) -> tuple[Any, Any]:
+        return self.args[0].shape  # type: ignore[no-any-return]
+
+    def doit(self, **hints: Any) -> Value:
+        return explicit(self.args[0]) * self.args[2]
+
+    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
+        return explicit(self)[i, j]
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return None
+
+    def lowered(self, text: TextOf) -> str:
+        return f"({text(self.args[2])}*{text(self.args[0])})"

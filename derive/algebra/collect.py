@@ -1,0 +1,95 @@
+"""How a line about a motion is written: the highest rates first, each with what multiplies it in one bracket."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Add, Expr, Mul, Rational, Symbol, cos, factor, sin
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import rate
+from derive.algebra.tidy import tidied
+
+
+def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Accelerations first, then squares and products of rates, then what has neither; each with one factor in front."""
+    return by_rates(value, moving, 2)
+
+
+def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
+    """The terms gathered by the rates that they contain, highest rates first; `halves` writes (1/2)(...) q_dot^2."""
+    orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
+    present = [s for s in orders if value.has(s)]
+    value = value.expand()
+    if value == 0 or not present:
+        return tidied(value)
+    try:
+        gathered = value.as_poly(*present)
+    except PolynomialError:
+        return tidied(value)
+    if gathered is None:
+        return tidied(value)
+    terms = sorted(gathered.terms(), key=lambda term: term[0], reverse=True)
+    parts = [
+        _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves) for powers, c in terms
+    ]
+    return Add(*parts, evaluate=len(parts) < 2)
+
+
+def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Terms with rates first, then products of the coordinates; a difference before a product is subtracted.
+
+    I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and round.
+    """
+    rates = [rate(q, n) for n in (2, 1) for q in moving]
+    present = [s for s in (*rates, *moving) if value.has(s)]
+    try:
+        gathered = value.expand().as_poly(*present) if present else None
+    except PolynomialError:
+        gathered = None
+    if gathered is None:
+        return by_rates(value, moving, 2)
+    parts = []
+    for powers, coefficient in gathered.terms():
+        product = Mul(*(s**n for s, n in zip(present, powers, strict=True)))
+        signs = {term.could_extract_minus_sign() for term in Add.make_args(coefficient)}
+        parts.append(-Mul(-coefficient, product) if len(signs) == 2 else coefficient * product)
+    return Add(*parts)
+
+
+def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
+    """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
+    if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
+        return Mul(Rational(1, 2), spread(2 * coefficient), *(s**n for s, n in rates), evaluate=False)
+    return Mul(spread(coefficient), *(s**n for s, n in rates))
+
+
+def spread(value: Expr) -> Expr:
+    """I + M a^2/4, not (4 I + M a^2)/4: a number below a sum is put into it where that makes a term simpler."""
+    value = tidied(value)
+    number, letters = value.as_coeff_Mul()
+    sums = [f for f in Mul.make_args(letters) if f.is_Add]
+    if number.q == 1 or len(sums) != 1:
+        return value
+    terms = [term * Rational(1, number.q) for term in sums[0].args]
+    if all(term.as_coeff_Mul()[0].q == number.q for term in terms):
+        return value
+    return Mul(number.p, *(f for f in Mul.make_args(letters) if f is not sums[0]), Add(*terms))
+
+
+def by_terms(value: Expr) -> Expr:
+    """A sum with each of its terms tidy, not over one denominator; a denominator that is a power is written as one."""
+    return Add(*(_shorter(tidied(term)) for term in Add.make_args(value)))
+
+
+def _shorter(term: Expr) -> Expr:
+    numerator, denominator = term.as_numer_denom()
+    return min((term, numerator / factor(denominator)), key=lambda form: int(form.count_ops()))
+
+
+def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
+    """One product, or a sum of tidy terms, whichever is shorter to write; a sum if angles stand in a denominator."""
+    if tidied(value).as_numer_denom()[1].has(sin, cos):
+        return by_terms(others[0] if others else value)
+    forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]
+    return min(forms, key=lambda form: int(form.count_ops()))

@@ -1,0 +1,112 @@
+"""An expression as nested lists, and back, unchanged: `["Mul", ["Rational", 13, 12], ["Symbol", "M", ...]]`.
+
+Reading back builds objects of the listed classes only; nothing is evaluated from text.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+from sympy import ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Rational, Symbol
+from sympy.core.symbol import Str
+
+from derive.algebra.node import NODES
+
+# fmt: off
+_SYMPY = (
+    "Add", "Mul", "Pow", "Integral", "Derivative", "Tuple", "Abs", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
+    "exp", "log", "sinh", "cosh", "tanh", "Identity", "MatMul", "MatAdd", "Equality", "Unequality",
+    "StrictGreaterThan", "StrictLessThan", "GreaterThan", "LessThan",
+)
+# fmt: on
+_CLASSES: dict[str, Any] = {getattr(sympy, name).__name__: getattr(sympy, name) for name in _SYMPY}
+_PLAIN = {"None", "Symbol", "Integer", "Rational", "Str", "MatrixSymbol"}
+MAX_NODES, MAX_DEPTH, MAX_BITS, MAX_SIZE = 200_000, 300, 20_000, 100
+_CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": sympy.I, "Infinity": sympy.oo}
+
+
+def encoded(expr: Any) -> list[Any]:
+    """A tree of lists, strings and integers."""
+    if expr is None:
+        return ["None"]
+    if isinstance(expr, Symbol):
+        return ["Symbol", expr.name, _assumptions(expr)]
+    if isinstance(expr, Integer):
+        return ["Integer", int(expr)]
+    if isinstance(expr, Rational):
+        return ["Rational", expr.p, expr.q]
+    if isinstance(expr, Str):
+        return ["Str", expr.name]
+    if isinstance(expr, MatrixSymbol):
+        return ["MatrixSymbol", expr.name, *(int(n) for n in expr.shape)]
+    if isinstance(expr, MatrixBase):
+        return ["Matrix", *expr.shape, [encoded(entry) for entry in expr]]
+    name = type(expr).__name__
+    if name in _CONSTANTS:
+        return [name]
+    if _CLASSES.get(name, NODES.get(name)) is not type(expr):
+        raise TypeError(f"{name} has no encoding")
+    return [name, *(encoded(arg) for arg in expr.args)]
+
+
+def _assumptions(symbol: Symbol) -> dict[str, bool]:
+    """The fewest assumptions that make an equal symbol: SymPy does not tell apart how they were first written."""
+    usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
+    for assumptions in usual:
+        if Symbol(symbol.name, **assumptions) == symbol:
+            return assumptions
+    return dict(sorted(symbol.assumptions0.items()))
+
+
+def decoded(data: Any) -> Any:
+    """The expression that `encoded` wrote; ValueError for anything else, whatever it is."""
+    left = [MAX_NODES]
+
+    def made(tree: Any, depth: int) -> Any:
+        left[0] -= 1
+        if depth > MAX_DEPTH or left[0] < 0 or not isinstance(tree, list) or not tree or not isinstance(tree[0], str):
+            raise ValueError("this is no expression, or too large a one")
+        name, *args = tree
+        if name in _PLAIN:
+            return _plain(name, args)
+        if name == "Matrix":
+            rows, columns, entries = args
+            if not (_is_small(rows) and _is_small(columns) and isinstance(entries, list)):
+                raise ValueError("this is no matrix")
+            return ImmutableDenseMatrix(rows, columns, [made(entry, depth + 1) for entry in entries])
+        if name in _CONSTANTS:
+            return _CONSTANTS[name]
+        kind = _CLASSES.get(name) or NODES.get(name)
+        if kind is None:
+            raise ValueError(f"{name} has no encoding")
+        as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # else 2(a + b) is multiplied out
+        return kind(*(made(arg, depth + 1) for arg in args), **as_written)
+
+    return made(data, 0)
+
+
+def _plain(name: str, args: list[Any]) -> Any:
+    """What is made of words and whole numbers alone."""
+    match name, args:
+        case "None", []:
+            return None
+        case "Symbol", [str(letter), dict(assumed)] if all(v in (True, False) for v in assumed.values()):
+            return Symbol(letter, **assumed)
+        case "Integer", [int(n)] if _is_bounded(n):
+            return Integer(n)
+        case "Rational", [int(p), int(q)] if _is_bounded(p) and _is_bounded(q) and q:
+            return Rational(p, q)
+        case "Str", [str(word)]:
+            return Str(word)
+        case "MatrixSymbol", [str(letter), rows, columns] if _is_small(rows) and _is_small(columns):
+            return MatrixSymbol(letter, rows, columns)
+    raise ValueError(f"this is no {name}")
+
+
+def _is_bounded(number: int) -> bool:
+    return number.bit_length() <= MAX_BITS
+
+
+def _is_small(size: Any) -> bool:
+    return type(size) is int and 0 <= size <= MAX_SIZE

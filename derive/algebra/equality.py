@@ -1,0 +1,325 @@
+"""Are two expressions equal, two relations equivalent, and how do we know?
+
+    proved          decided exactly, by `derive.algebra.normal_form`
+    sampled         agrees at random exact points, but no exact method decided it
+    refuted         differs at a point, which is named
+    definition      nothing to compare: the line says what a symbol means
+    approximation   a rounded value or a series, itself checked
+
+Points come first: they are cheap and refute at once. A sample never counts as a proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import islice
+from typing import Any
+
+from sympy import (
+    Basic,
+    Expr,
+    Float,
+    Integer,
+    MatrixBase,
+    MatrixExpr,
+    Mul,
+    Rational,
+    cancel,
+    nan,
+    oo,
+    sin,
+    together,
+    zoo,
+)
+from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR5
+
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.normal_form import vanishes
+from derive.algebra.samples import (
+    DIGITS,
+    NoNumber,
+    Sample,
+    Undefined,
+    compared_at,
+    letters_of,
+    points,
+    seed_of,
+    shown,
+    value_at,
+)
+
+FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
+UNDEFINED = (nan, zoo, oo, -oo)
+
+
+class Grade(StrEnum):
+    PROVED = "proved"
+    SAMPLED = "sampled"
+    DEFINITION = "definition"
+    APPROXIMATION = "approximation"
+    REFUTED = "refuted"
+
+
+LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One claim about a step, how it was decided, and what is needed to look again."""
+
+    claim: str
+    grade: Grade
+    detail: str = ""
+
+    @property
+    def is_of_line(self) -> bool:
+        """Whether it compares two lines of a chain; else it is of a second route, or of a definition."""
+        return self.claim.startswith("line ")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The outcome of a comparison; `point` refutes when the grade is `refuted`."""
+
+    grade: Grade
+    detail: str = ""
+    point: tuple[tuple[str, str], ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.grade is not Grade.REFUTED
+
+
+def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
+    """Compare two scalars, two matrices entry by entry, or two relations.
+
+    A matrix is as sure as its least sure entry. Relations are equal when each follows from the other; `nonzero` are
+    factors that may be divided out because they are known not to vanish (in an inequality, to be positive).
+    """
+    given: tuple[Any, Any] = (left, right)
+    if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is no expression")
+    try:
+        left, right = explicit(left), explicit(right)
+    except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # an integral that SymPy cannot do
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
+    try:
+        return _compared(left, right, nonzero)
+    except (TypeError, ValueError, NotImplementedError) as error:  # SymPy gives up on what is hardly an expression
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
+
+
+def _compared(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
+    if isinstance(left, Relation) or isinstance(right, Relation):
+        return _equivalent(left, right, nonzero)
+    if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        return _equal_matrices(left, right)
+    return _equal_scalars(left, right)
+
+
+def _equal_matrices(left: Any, right: Any) -> Verdict:
+    if getattr(left, "shape", None) != getattr(right, "shape", None):
+        return Verdict(Grade.REFUTED, "the shapes differ")
+    left, right = (side.as_explicit() if isinstance(side, MatrixExpr) else side for side in (left, right))
+    worst = Verdict(Grade.PROVED, "identical")
+    for a, b in zip(left, right, strict=True):
+        verdict = _equal_scalars(a, b)
+        if not verdict:
+            return verdict
+        if verdict.grade is Grade.SAMPLED or worst.detail == "identical":
+            worst = verdict if worst.grade is not Grade.SAMPLED else worst
+    return worst
+
+
+def _equal_scalars(left: Expr, right: Expr) -> Verdict:
+    if left.has(*UNDEFINED) or right.has(*UNDEFINED):
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is undefined")
+    if left == right:
+        return Verdict(Grade.PROVED, "identical")
+    if not (isinstance(left, Expr) and isinstance(right, Expr) and left.is_commutative and right.is_commutative):
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is no number")
+    left, right = _stripped(left, right)
+    for sample in _samples(left, right, FIRST):
+        if not sample.agree:
+            return _refutation(sample)
+    difference = left - right
+    if vanishes(difference):
+        return Verdict(Grade.PROVED, "polynomial normal form")
+    seen = 0
+    for sample in _samples(left, right, POINTS, thoroughly=True):
+        if not sample.agree:
+            return _refutation(sample)
+        seen += 1
+    if seen == 0:
+        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    if not letters_of(difference):
+        # No letters to vary: one number, computed to many digits, is still only a sample.
+        return Verdict(Grade.SAMPLED, f"to {DIGITS} digits")
+    return Verdict(Grade.SAMPLED, f"{seen} points to {DIGITS} digits")
+
+
+def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
+    """acos(u) and acos(v) agree exactly if u and v do: take off what is one-to-one."""
+    while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan"} and len(left.args) == 1:
+        left, right = left.args[0], right.args[0]
+    return left, right
+
+
+# --- samples ---------------------------------------------------------------------------------------------------------
+
+
+def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
+    """What both sides are at points at which both are defined."""
+    letters = letters_of(left) | letters_of(right)
+    drawn = points(letters, seed_of(left, right))
+    found = 0
+    for point in islice(drawn, 2 * count if letters else 1):
+        try:
+            yield compared_at(left, right, point, thoroughly)
+        except (Undefined, NoNumber):
+            continue
+        found += 1
+        if found == count:
+            return
+
+
+def _refutation(sample: Sample) -> Verdict:
+    where = tuple((str(letter), str(value)) for letter, value in sample.point.items())
+    return Verdict(Grade.REFUTED, f"{shown(sample.left)!s} against {shown(sample.right)!s}", where)
+
+
+# --- relations -------------------------------------------------------------------------------------------------------
+
+_TURNED = {"=": "=", "!=": "!=", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
+
+
+def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
+    """Whether two equations, or two inequalities, say the same: their residuals differ by a factor of known sign."""
+    if not (isinstance(left, Relation) and isinstance(right, Relation)):
+        return Verdict(Grade.REFUTED, "a relation against a value")
+    if left.has(*UNDEFINED) or right.has(*UNDEFINED):
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is undefined")
+    if left == right:
+        return Verdict(Grade.PROVED, "identical")
+    if any(isinstance(side, MatrixBase) for side in (*left.sides, *right.sides)):
+        return _equivalent_by_entries(left, right)
+    if left.residual == 0 or right.residual == 0:
+        if left.mark != right.mark:
+            return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
+        return _equal_scalars(left.residual, right.residual)
+    if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
+        return Verdict(Grade.PROVED, "both sides squared, neither negative")
+    for sign in (1, -1):
+        if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
+            if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
+                return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
+            return Verdict(Grade.PROVED, "polynomial normal form")
+    whole = factor = _ratio(left.residual, right.residual)
+    for known in nonzero:
+        factor = _without_factor(factor, known)
+    known_sign = _known_sign(factor)
+    if not _same_mark(left.mark, right.mark, known_sign or 0):
+        return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
+    if known_sign is None and not _never_vanishes(factor):
+        apart = _counterexample(left.residual, right.residual) if left.mark == "=" else None
+        if apart is not None:  # a refutation is false as a truth value
+            return apart
+        return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
+    verdict = _equal_scalars(left.residual, whole * right.residual)
+    return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
+
+
+def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
+    """Equations between matrices: the same, or with their sides exchanged."""
+    shapes = {getattr(side, "shape", None) for side in (*left.sides, *right.sides)}
+    if left.mark != right.mark or left.mark != "=" or len(shapes) > 1:
+        return Verdict(Grade.REFUTED, f"`{left}` against `{right}`")
+    verdicts = [_equal_matrices(left.left - left.right, sign * (right.left - right.right)) for sign in (1, -1)]
+    return next((verdict for verdict in verdicts if verdict), verdicts[0])
+
+
+def _known_sign(factor: Expr) -> int | None:
+    """1 or -1 where the letters show that the factor has that sign wherever they may be; else None."""
+    above, below = factor.as_numer_denom()
+    if all(part.is_positive or part.is_negative for part in (above, below)):
+        return 1 if above.is_positive == below.is_positive else -1
+    return None
+
+
+def _never_vanishes(factor: Expr) -> bool:
+    """Whether the letters show that the factor is nowhere zero, and nowhere undefined."""
+    return all(part.is_nonzero for part in factor.as_numer_denom())
+
+
+def _counterexample(left: Expr, right: Expr) -> Verdict | None:
+    """A point at which the second equation holds and the first does not: solved for a letter that it holds linearly."""
+    drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
+    for letter in sorted(right.free_symbols, key=lambda s: (not str(s).endswith("dot"), str(s))):
+        slope = right.diff(letter)
+        if slope == 0 or slope.has(letter) or letter.is_positive:
+            continue
+        for _, point in zip(range(FIRST), drawn, strict=False):
+            others = {name: value for name, value in point.items() if name != letter}
+            try:
+                solved = value_at(-right.xreplace({letter: Integer(0)}) / slope, others)
+                off, zero = (value_at(side, {**others, letter: solved}) for side in (left, right))
+            except (Undefined, NoNumber):
+                continue
+            if abs(zero) < Rational(1, 10**30) < abs(off):
+                where = tuple((str(name), str(value)) for name, value in others.items())
+                return Verdict(Grade.REFUTED, f"where one holds, the other has {off.evalf(6)} for 0", where)
+    return None
+
+
+def _short(value: Any) -> str:
+    try:
+        text = str(value)
+    except ValueError:  # a whole number of thousands of digits
+        return type(value).__name__
+    return text if len(text) <= 80 else text[:80] + " ..."
+
+
+def _same_mark(left: str, right: str, sign: int) -> bool:
+    """An equation bears any factor, an inequality keeps its mark under a positive one and is turned by a negative."""
+    if left in {"=", "!="} or right in {"=", "!="}:
+        return left == right
+    return bool(sign) and left == (right if sign > 0 else _TURNED[right])
+
+
+def _both_squared(left: Relation, right: Relation) -> bool:
+    """x^2 > y^2, or a positive multiple of it, says the same as x > y when neither x nor y is negative."""
+    for squares, roots in ((left, right), (right, left)):
+        difference = roots.left**2 - roots.right**2
+        if difference != 0 and all(side.is_nonnegative for side in roots.sides):
+            factor = _ratio(squares.residual, difference)
+            if factor.is_positive and vanishes(squares.residual - factor * difference):
+                return True
+    return False
+
+
+def _ratio(above: Expr, below: Expr) -> Expr:
+    if above.has(Float) or below.has(Float):  # what is not exact is not cancelled
+        return above / below
+    try:
+        return cancel(together(_by_cosines(above) / _by_cosines(below)))
+    except PolynomialError:
+        return above / below
+
+
+def _by_cosines(expr: Expr) -> Expr:
+    """Multiplied out, with the squares of sines written by those of cosines, so that common factors show."""
+    return TR5(expr.expand(), max=8) if expr.has(sin) else expr
+
+
+def _without_factor(expr: Expr, known: Expr) -> Expr:
+    """The expression without a factor, in whatever power, that is known to be positive or not to vanish."""
+    left: list[Expr] = []
+    for factor in Mul.make_args(together(expr)):
+        base, power = factor.as_base_exp()
+        if not power.is_Integer or base not in {known, -known}:
+            left.append(factor)
+        elif base != known:
+            left.append(Integer(-1) ** power)  # b - a where a - b is known to be positive
+    return Mul(*left)

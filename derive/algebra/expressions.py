@@ -1,0 +1,426 @@
+"""Names, and the unevaluated forms in which mechanics is written down.
+
+A *name* is what a formula calls something: a SymPy `Symbol` for a scalar, a `MatrixSymbol` of shape (3, 1) for a
+vector and (3, 3) for a tensor. A *node* is an operation that is shown before it is carried out: `Dot(omega, L)`.
+`explicit()` carries everything out. Nodes know no notation; `derive.render` does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    MatMul,
+    Matrix,
+    MatrixBase,
+    MatrixExpr,
+    MatrixSymbol,
+    Symbol,
+    Tuple,
+    diff,
+    sqrt,
+)
+from sympy.core.symbol import Str
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.amounts import Amount as Amount
+from derive.algebra.amounts import MatrixAmount as MatrixAmount
+from derive.algebra.dimensions import Dimension, common, dimension_of_kind, power, product, quotient
+from derive.algebra.mass_integral import MassIntegral as MassIntegral
+from derive.algebra.node import (
+    DimensionOf,
+    Node,
+    ScalarNode,
+    TextOf,
+    Value,
+    VectorNode,
+    dimension_of_first,
+    product_of_dimensions,
+)
+from derive.algebra.node import explicit as explicit
+from derive.algebra.relation import Relation as Relation
+from derive.algebra.relation import sympify_number as sympify_number
+
+AXES = ("x", "y", "z")
+DURATION = dimension_of_kind("time")
+
+
+def scalar(name: str, **assumptions: bool) -> Symbol:
+    """A real scalar by name; more is assumed of it only when said."""
+    return Symbol(name, **{"real": True, **assumptions})
+
+
+PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign that is either: its square is 1, so b + PLUS_MINUS*c is b +- c
+
+TIME = scalar("t")  # there is one time: what contains it changes as it passes
+
+RATES = ("", "_dot", "_ddot", "_dddot")
+
+
+def rate(coordinate: Symbol, order: int = 1) -> Symbol:
+    """The name of a coordinate's rate of change: theta -> theta_dot, theta_dot -> theta_ddot."""
+    name = coordinate.name
+    now = next(n for n in (3, 2, 1, 0) if name.endswith(RATES[n]))
+    return scalar(name.removesuffix(RATES[now]) + RATES[now + order])
+
+
+def vector(name: str) -> MatrixSymbol:
+    return MatrixSymbol(name, 3, 1)
+
+
+def tensor(name: str) -> MatrixSymbol:
+    return MatrixSymbol(name, 3, 3)
+
+
+def component_names(name: str) -> tuple[Symbol, Symbol, Symbol]:
+    """The scalars that stand for a vector's components: `omega` -> omega_x, omega_y, omega_z."""
+    x, y, z = (scalar(f"{name}_{axis}") for axis in AXES)
+    return x, y, z
+
+
+def column(*components: Any) -> ImmutableMatrix:
+    return ImmutableDenseMatrix(3, 1, list(components))
+
+
+def is_matrix(value: Any) -> bool:
+    return isinstance(value, MatrixBase | MatrixExpr)
+
+
+class Dot(ScalarNode):
+    """a . b"""
+
+    def _evaluated(self, a: Matrix, b: Matrix) -> Expr:
+        return sum((x * y for x, y in zip(a, b, strict=True)), Integer(0))
+
+    dimension = product_of_dimensions
+
+    def lowered(self, text: TextOf) -> str:
+        a, b = (text(arg) for arg in self.args)
+        return f"({a}.T*{b})[0, 0]"
+
+
+class Norm(ScalarNode):
+    """|a|"""
+
+    is_nonnegative = True
+
+    def _evaluated(self, a: Matrix) -> Expr:
+        return sqrt(sum((x**2 for x in a), Integer(0)))
+
+    dimension = dimension_of_first
+
+    def lowered(self, text: TextOf) -> str:
+        a = text(self.args[0])
+        return f"sqrt(({a}.T*{a})[0, 0])"
+
+
+class Cross(VectorNode):
+    """a x b"""
+
+    def _evaluated(self, a: Matrix, b: Matrix) -> ImmutableMatrix:
+        return column(
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        )
+
+    dimension = product_of_dimensions
+
+    def lowered(self, text: TextOf) -> str:
+        a, b = (_entries(arg, text) for arg in self.args)
+        return f"{a}.cross({b})"
+
+
+class CarriedRate(VectorNode):
+    """dA/dt in space of a vector A that turns with angular velocity omega. Arguments: A, omega, and the coordinates
+    that move; without any, A is constant in the body.
+
+    Evaluated by carrying A round and differentiating, not by omega x A: A(t) = R(t) A, where the columns of R(t) are
+    the body's axes after the time t. The rotation is Euler's: rotate about z and y until omega lies along z, turn by
+    |omega| t, rotate back.
+    """
+
+    def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:
+        in_body = Matrix([explicit(TimeRate(component, *moving)) for component in a])
+        rate = sqrt(sum((w**2 for w in omega), Integer(0)))
+        if rate == 0:
+            return ImmutableDenseMatrix(in_body)
+        t = Dummy("t", real=True)  # counted from now: A and omega are those of this moment
+        to_z = _rotation_onto_z(omega / rate)
+        turn = Matrix([[_c(rate * t), -_s(rate * t), 0], [_s(rate * t), _c(rate * t), 0], [0, 0, 1]])
+        # The turn alone depends on that time, so it alone is differentiated.
+        return ImmutableDenseMatrix(in_body + to_z.T * diff(turn, t).subs(t, 0) * to_z * Matrix(a))
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return product(of(arg) for arg in self.args[:2])
+
+    def lowered(self, text: TextOf) -> str:
+        a, omega = (_entries(arg, text) for arg in self.args[:2])
+        return f"({a}.diff(t) + {omega}.cross({a}))"
+
+
+def _c(x: Expr) -> Expr:
+    from sympy import cos
+
+    return cos(x)
+
+
+def _s(x: Expr) -> Expr:
+    from sympy import sin
+
+    return sin(x)
+
+
+def _rotation_onto_z(n: Matrix) -> Matrix:
+    """The rotation about z, then y, that brings the unit vector n onto the z axis."""
+    level = sqrt(n[0] ** 2 + n[1] ** 2)
+    cos_phi, sin_phi = (n[0] / level, n[1] / level) if level != 0 else (Integer(1), Integer(0))
+    about_z = Matrix([[cos_phi, sin_phi, 0], [-sin_phi, cos_phi, 0], [0, 0, 1]])
+    about_y = Matrix([[n[2], 0, -level], [0, 1, 0], [level, 0, n[2]]])
+    return about_y * about_z
+
+
+class BodyRate(VectorNode):
+    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without any, A is constant there."""
+
+    def _evaluated(self, a: Matrix, *moving: Symbol) -> ImmutableMatrix:
+        return column(*(explicit(TimeRate(component, *moving)) for component in a))
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return quotient(of(self.args[0]), DURATION)
+
+    def lowered(self, text: TextOf) -> str:
+        return f"{_entries(self.args[0], text)}.diff(t)"
+
+
+class Component(ScalarNode):
+    """The component of a vector along an axis. Arguments: the vector, the axis as text."""
+
+    def __new__(cls, v: Any, axis: str | Str) -> Component:
+        return super().__new__(cls, v, Str(axis) if isinstance(axis, str) else axis)  # type: ignore[no-any-return]
+
+    def doit(self, **hints: Any) -> Expr:
+        return explicit(self.args[0])[AXES.index(self.args[1].name)]
+
+    dimension = dimension_of_first
+
+    def lowered(self, text: TextOf) -> str:
+        return f"{_entries(self.args[0], text)}[{AXES.index(self.args[1].name)}, 0]"
+
+
+class Group(ScalarNode):
+    """A value kept together in its bracket: the `(6 a^3 rho)` that is about to become M."""
+
+    def __new__(cls, inner: Expr) -> Expr:
+        return inner if isinstance(inner, Group) else super().__new__(cls, inner)
+
+    def _evaluated(self, inner: Expr) -> Expr:
+        return inner
+
+    dimension = dimension_of_first
+
+    def lowered(self, text: TextOf) -> str:
+        return text(self.args[0])
+
+
+class Factors(ScalarNode):
+    """Factors as written, in that order: `a * 3a * [y^3/3]`."""
+
+    def _evaluated(self, *factors: Expr) -> Expr:
+        result: Expr = Integer(1)
+        for factor in factors:
+            result = result * factor
+        return result
+
+    dimension = product_of_dimensions
+
+    def lowered(self, text: TextOf) -> str:
+        return f"({'*'.join(text(arg) for arg in self.args)})"
+
+
+class Terms(ScalarNode):
+    """Terms as written, in that order, none collected: `8a^5 + 18a^5`."""
+
+    def _evaluated(self, *terms: Expr) -> Expr:
+        result: Expr = Integer(0)
+        for term in terms:
+            result = result + term
+        return result
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return common(self.args, of)
+
+    def lowered(self, text: TextOf) -> str:
+        return f"({' + '.join(text(arg) for arg in self.args)})"
+
+
+class Ratio(ScalarNode):
+    """A fraction as written, nothing cancelled."""
+
+    def _evaluated(self, numerator: Expr, denominator: Expr) -> Expr:
+        return numerator / denominator
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return quotient(*(of(arg) for arg in self.args))
+
+    def lowered(self, text: TextOf) -> str:
+        above, below = (text(arg) for arg in self.args)
+        return f"({above}/{below})"
+
+
+class Root(ScalarNode):
+    """A square root as written, nothing drawn out of it."""
+
+    def _evaluated(self, inside: Expr) -> Expr:
+        return sqrt(inside)
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return power(of(self.args[0]), Fraction(1, 2))
+
+    def lowered(self, text: TextOf) -> str:
+        return f"sqrt({text(self.args[0])})"
+
+
+class Bracket(ScalarNode):
+    """[F(x)] between two limits: an antiderivative, before the limits are put in. Arguments F, x, lower, upper."""
+
+    def doit(self, **hints: Any) -> Expr:
+        antiderivative, x, lower, upper = self.args
+        f = explicit(antiderivative)
+        return f.subs(x, upper) - f.subs(x, lower)
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        antiderivative, x, *limits = self.args
+        return of(antiderivative, {x: common(limits, of)})
+
+    def lowered(self, text: TextOf) -> str:
+        f, x = (text(arg, (self.args[1],)) for arg in self.args[:2])
+        lower, upper = (f"Subs({f}, {x}, {text(limit)})" for limit in self.args[2:])
+        return f"({upper} - {lower})"
+
+
+class Partial(ScalarNode):
+    """The partial derivative of f by a coordinate or by a rate, all others held fixed. Arguments: f, the variable."""
+
+    def doit(self, **hints: Any) -> Expr:
+        f, variable = self.args
+        return diff(explicit(f), variable)
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return quotient(*(of(arg) for arg in self.args))
+
+    def lowered(self, text: TextOf) -> str:
+        f, variable = (text(arg) for arg in self.args)
+        return f"Derivative({f}, {variable})"
+
+
+class TimeRate(ScalarNode):
+    """df/dt along a motion. Arguments: f, then the coordinates that move.
+
+    Evaluated by the chain rule: each coordinate, and each of its rates, contributes its partial derivative times the
+    next rate, and where the time itself occurs there is the partial derivative by it.
+    """
+
+    def doit(self, **hints: Any) -> Expr:
+        f, *coordinates = self.args
+        value = explicit(f)
+        moving = [rate(q, n) if n else q for q in coordinates for n in range(3)]
+        along = [diff(value, s) * rate(s) for s in moving if s in value.free_symbols]
+        return Add(*along, diff(value, TIME))
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return quotient(of(self.args[0]), DURATION)
+
+    def lowered(self, text: TextOf) -> str:
+        return f"Derivative({text(self.args[0])}, t)"
+
+
+class Slope(ScalarNode):
+    """The n-th derivative of a function of one variable. Arguments: f, the variable, n."""
+
+    def doit(self, **hints: Any) -> Expr:
+        f, x, order = self.args
+        return diff(explicit(f), x, order)
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        f, x, order = self.args
+        return quotient(of(f), power(of(x), Fraction(int(order))))
+
+    def lowered(self, text: TextOf) -> str:
+        f, x, order = self.args
+        return f"Derivative({text(f)}, ({text(x)}, {order}))"
+
+
+class At(ScalarNode):
+    """The value of a function at one place. Arguments: f, the variable, its value."""
+
+    def doit(self, **hints: Any) -> Expr:
+        f, x, place = self.args
+        return explicit(f).subs(x, place)
+
+    dimension = dimension_of_first
+
+    def lowered(self, text: TextOf) -> str:
+        f, x, place = (text(arg) for arg in self.args)
+        return f"Subs({f}, {x}, {place})"
+
+
+class Truncated(ScalarNode):
+    """A series that breaks off: the polynomial, its variable, the place it is about, the order up to which it holds."""
+
+    def doit(self, **hints: Any) -> Expr:
+        return explicit(self.args[0])
+
+    dimension = dimension_of_first
+
+    def lowered(self, text: TextOf) -> str:
+        return text(self.args[0])
+
+
+class Outer(Node, MatrixExpr):
+    """The dyad a b: entries a_i b_j."""
+
+    shape = (Integer(3), Integer(3))
+
+    def _evaluated(self, a: Matrix, b: Matrix) -> Value:
+        return ImmutableDenseMatrix(Matrix(a) * Matrix(b).T)
+
+    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
+        return explicit(self)[i, j]
+
+    dimension = product_of_dimensions
+
+    def lowered(self, text: TextOf) -> str:
+        a, b = (text(arg) for arg in self.args)
+        return f"({a}*{b}.T)"
+
+
+def _entries(vector: Value, text: TextOf) -> str:
+    """A vector that SymPy can take to its entries, be it a name."""
+    return text(vector) if isinstance(vector, MatrixBase) else f"Matrix({text(vector)})"
+
+
+def applied(operator: Value, v: Value) -> MatMul:
+    """A tensor acting on a vector, not yet multiplied out."""
+    return MatMul(operator, v, evaluate=False)
+
+
+def scaled(factor: Expr, v: Value) -> MatMul:
+    """A scalar times a vector or tensor, not yet multiplied out."""
+    return MatMul(factor, v, evaluate=False)
+
+
+def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
+    """The expression with names replaced by what they stand for."""
+    return expr.xreplace(dict(values)) if values else expr
+
+
+def tuple_of_limits(limits: Sequence[tuple[Symbol, Expr, Expr]]) -> list[Tuple]:
+    return [Tuple(*limit) for limit in limits]

@@ -1,0 +1,51 @@
+"""The integral of f(r) dm over a body, as a node, and what dimension the variables of an integral have."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, Integral, MatrixExpr
+
+from derive.algebra.dimensions import Dimension, common, product
+from derive.algebra.node import DimensionOf, Node, TextOf, Value, explicit
+
+
+class MassIntegral(Node, MatrixExpr):
+    """The integral of f(r) dm over a body, f a vector or a tensor.
+
+    Arguments: f in terms of the vector name r; r; the density; the position and the volume element's factor in the
+    coordinates of the region; the limits, innermost first.
+    """
+
+    @property
+    def shape(self) -> tuple[Any, Any]:
+        return self.args[0].shape  # type: ignore[no-any-return]
+
+    def doit(self, **hints: Any) -> Value:
+        integrand, r, density, position, jacobian, *limits = self.args
+        at = explicit(integrand.xreplace({r: position}))
+        outside, inside = density.as_independent(*(x for x, *_ in limits), as_Add=False)
+        return at.applyfunc(lambda f: outside * explicit(Integral(inside * f * jacobian, *limits)))
+
+    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
+        return explicit(self)[i, j]
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        integrand, r, density, position, jacobian, *limits = self.args
+        inner = dimensions_of_variables(limits, of)
+        inner[r] = common(position, lambda entry: of(entry, inner))
+        parts = [of(part, inner) for part in (integrand, density, jacobian)]
+        return product([*parts, *(inner[x] for x, *_ in limits)])
+
+    def lowered(self, text: TextOf) -> str:
+        integrand, r, density, position, jacobian, *limits = self.args
+        at = explicit(integrand.xreplace({r: position}))
+        return text(at.applyfunc(lambda f: Integral(density * f * jacobian, *limits)))
+
+
+def dimensions_of_variables(limits: Any, of: DimensionOf) -> dict[Any, Dimension | None]:
+    """A variable of an integral has the dimension of its limits, which may hold variables further out."""
+    inner: dict[Any, Dimension | None] = {}
+    for x, *ends in reversed(limits):
+        inner[x] = common(ends, lambda end: of(end, inner))
+    return inner

@@ -1,0 +1,114 @@
+"""What every unevaluated form of `derive.algebra.expressions` shares, and how all of them are carried out.
+
+A node says of itself all that others ask: its value (`doit`), its dimension (`dimension`), and what SymPy without
+these classes has in its place (`lowered`). That it goes to lists and back, it owes to `NODES`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any, TypeAlias
+
+from sympy import Basic, Expr, ImmutableDenseMatrix, Integer, Integral, MatrixBase, MatrixExpr, MatrixSymbol, nan
+
+from derive.algebra.dimensions import Dimension, product
+from derive.algebra.integrals import definite, has_root
+
+Value: TypeAlias = Any  # an Expr, an ImmutableMatrix or a MatrixExpr: SymPy has no common type for them
+
+# The dimension of a part of a node; a second argument gives the dimensions of the variables that the node binds.
+DimensionOf: TypeAlias = Callable[..., Dimension | None]
+# The plain SymPy text of a part, fit to stand as a factor; a second argument names the variables that the node binds.
+TextOf: TypeAlias = Callable[..., str]
+
+NODES: dict[str, Any] = {}  # every kind of node by its name
+
+
+class Node(Basic):
+    """What every unevaluated form shares: `doit()` evaluates the operands, then `_evaluated` the form itself."""
+
+    def __init_subclass__(cls, abstract: bool = False, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        if abstract:
+            return
+        if cls.__name__ in NODES:
+            raise TypeError(f"there already is a node {cls.__name__}")
+        NODES[cls.__name__] = cls
+
+    def __new__(cls, *args: Any) -> Any:
+        return super().__new__(cls, *(Integer(arg) if isinstance(arg, int) else arg for arg in args))
+
+    def doit(self, **hints: Any) -> Value:
+        if not hints.get("deep", True):
+            return self._evaluated(*self.args)
+        return self._evaluated(*(explicit(arg) if isinstance(arg, Basic | MatrixBase) else arg for arg in self.args))
+
+    def _evaluated(self, *args: Any) -> Value:
+        raise AttributeError(f"{type(self).__name__} must say how it is evaluated")
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        """Its dimension; raises `Inhomogeneous` where its terms differ."""
+        raise AttributeError(f"{type(self).__name__} must say what dimension it has")
+
+    def lowered(self, text: TextOf) -> str:
+        """What SymPy alone has for it, as text that may stand as a factor."""
+        raise AttributeError(f"{type(self).__name__} must say what it is to SymPy")
+
+
+def dimension_of_first(node: Node, of: DimensionOf) -> Dimension | None:
+    """That of the first argument: a bracket, a component, a length."""
+    return of(node.args[0])
+
+
+def product_of_dimensions(node: Node, of: DimensionOf) -> Dimension | None:
+    return product(of(arg) for arg in node.args)
+
+
+class ScalarNode(Node, Expr, abstract=True):
+    """A node whose value is a real number."""
+
+    is_commutative = True
+    is_real = True
+
+
+class VectorNode(Node, MatrixExpr, abstract=True):
+    """A node whose value is a column of three."""
+
+    shape = (Integer(3), Integer(1))
+
+    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
+        return explicit(self)[i, j]
+
+
+def explicit(expr: Value) -> Value:
+    """The expression with every node carried out, and matrices as explicit matrices."""
+    if isinstance(expr, MatrixBase):
+        return ImmutableDenseMatrix(expr.applyfunc(explicit))
+    if isinstance(expr, Basic):
+        return _carried_out(expr)
+    if not isinstance(expr, int):  # SymPy would cut 1.5 to 1
+        raise TypeError(f"{expr!r} is no exact number")
+    return Integer(expr)
+
+
+@lru_cache(maxsize=4096)  # each line of a chain is compared with the one before and the one after
+def _carried_out(expr: Basic) -> Value:
+    value = _definite(expr) if isinstance(expr, Integral) else expr.doit()
+    if isinstance(value, MatrixExpr) and not value.has(MatrixSymbol):
+        value = value.as_explicit()
+    return ImmutableDenseMatrix(value) if isinstance(value, MatrixBase) else value
+
+
+def _definite(integral: Integral) -> Expr:
+    """A definite integral: by the kinds that solids need, for which SymPy's integrator is slow, else by SymPy.
+
+    An integral over a root of its variable that is of no such kind is left undefined, which equals nothing: there
+    SymPy may be wrong, or not come back.
+    """
+    integrand = explicit(integral.function)
+    value = definite(integrand, integral.limits)
+    if value is not None:
+        return value
+    ends = [end for _, *limits in integral.limits for end in limits]
+    return nan if any(has_root(part) for part in [integrand, *ends]) else integral.doit()

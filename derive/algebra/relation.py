@@ -1,0 +1,66 @@
+"""An equation or an inequality, as a node: two sides and the mark between them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, Integer
+from sympy.core.symbol import Str
+
+from derive.algebra.dimensions import Dimension, common
+from derive.algebra.node import DimensionOf, Node, TextOf, explicit
+
+MARKS = {"=": "equals", "!=": "unequal", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least"}
+_IN_SYMPY = {"=": "Eq", "!=": "Ne", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge"}
+
+
+class Relation(Node):
+    """An equation or an inequality. Arguments: the left side, the mark as text, the right side."""
+
+    def __new__(cls, left: Any, mark: str | Str, right: Any) -> Relation:
+        mark = Str(mark) if isinstance(mark, str) else mark
+        return super().__new__(cls, sympify_number(left), mark, sympify_number(right))  # type: ignore[no-any-return]
+
+    @property
+    def left(self) -> Any:
+        return self.args[0]
+
+    @property
+    def mark(self) -> str:
+        return str(self.args[1].name)
+
+    @property
+    def right(self) -> Any:
+        return self.args[2]
+
+    @property
+    def sides(self) -> tuple[Any, Any]:
+        return self.args[0], self.args[2]
+
+    @property
+    def word(self) -> str:
+        """The mark as a page's tree names it."""
+        return MARKS[self.mark]
+
+    @property
+    def residual(self) -> Expr:
+        """Left minus right: what vanishes, or has the sign that the mark says."""
+        return self.left - self.right
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return common(self.sides, of)
+
+    def lowered(self, text: TextOf) -> str:
+        left, right = (text(side) for side in self.sides)
+        return f"{_IN_SYMPY[self.mark]}({left}, {right}, evaluate=False)"
+
+    def doit(self, **hints: Any) -> Relation:
+        return Relation(explicit(self.left), self.args[1], explicit(self.right))
+
+    def __str__(self) -> str:
+        return f"{self.left} {self.mark} {self.right}"
+
+
+def sympify_number(value: Any) -> Any:
+    """A plain whole number as a SymPy one; anything else as it is."""
+    return Integer(value) if isinstance(value, int) else value

@@ -1,0 +1,187 @@
+"""The form in which a result is handed on: one fraction, common factors in front, roots in the numerator.
+
+`tidied()` changes no value. It is what a person does before writing a result down and what keeps the next step small.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache, reduce
+from typing import Any
+
+from sympy import (
+    Add,
+    Expr,
+    Function,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixBase,
+    Mul,
+    Pow,
+    Rational,
+    cancel,
+    cos,
+    expand,
+    factor,
+    factor_list,
+    factor_terms,
+    gcd,
+    lcm,
+    radsimp,
+    sin,
+    together,
+)
+from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR5, TR6
+
+from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
+from derive.algebra.normal_form import vanishes
+
+
+def tidied(value: Any) -> Any:
+    """The explicit value in its tidy form, entry by entry for a matrix."""
+    value = _signs_squared(explicit(value))
+    if isinstance(value, Relation):
+        return Relation(tidied(value.left), value.mark, tidied(value.right))
+    if isinstance(value, MatrixBase):
+        return ImmutableDenseMatrix(value.applyfunc(_tidied_scalar))
+    return _tidied_scalar(value)
+
+
+def _signs_squared(value: Any) -> Any:
+    """Whichever sign a plus-or-minus is, its square is one."""
+    powers = [p for p in value.atoms(Pow) if p.base == PLUS_MINUS and p.exp.is_Integer]
+    return value.xreplace({p: PLUS_MINUS if p.exp % 2 else Integer(1) for p in powers}) if powers else value
+
+
+@lru_cache(maxsize=4096, typed=True)  # neighbouring steps have entries, factors and terms in common
+def _tidied_scalar(value: Expr) -> Expr:
+    if value.is_Atom or value.is_number and not value.has(Pow):
+        return value
+    if isinstance(value, Function):
+        return value.func(*(_tidied_scalar(arg) for arg in value.args))
+    if _has_roots(value):
+        if value.atoms(Add) and vanishes(value):
+            return Integer(0)
+        value = _roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value))))
+        return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
+    return min((_as_one_fraction(form) for form in (value, *_by_one_square(value))), key=_length)
+
+
+def _as_one_fraction(value: Expr) -> Expr:
+    try:
+        return min((_in_front(cancel(value)), _in_front(value)), key=_length)
+    except PolynomialError:
+        return _in_front(value)
+
+
+def _by_one_square(value: Expr) -> list[Expr]:
+    """The value multiplied out, with sin^2 written by cos^2, and with cos^2 by sin^2."""
+    if not value.atoms(sin) or not value.atoms(cos):
+        return []
+    return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
+
+
+def _length(value: Expr) -> tuple[int, str]:
+    """How much there is to write; between equals, always the same one."""
+    return int(value.count_ops()), str(value)
+
+
+def _has_roots(value: Expr) -> bool:
+    return any(power.exp.is_Rational and not power.exp.is_Integer for power in value.atoms(Pow))
+
+
+def _roots_in_the_numerator(value: Expr) -> Expr:
+    """7/sqrt(14) is sqrt(14)/2; a root of letters stays below, where it is easier to read."""
+    numerator, denominator = value.as_numer_denom()
+    if denominator.is_number or not denominator.has(Pow):
+        return radsimp(value) if len(Add.make_args(denominator)) <= 4 else value
+    above, below = (part.as_independent(*part.free_symbols, as_Add=False) for part in (numerator, denominator))
+    return radsimp(above[0] / below[0]) * above[1] / below[1]
+
+
+def _expanded_above(value: Expr) -> Expr:
+    numerator, denominator = value.as_numer_denom()
+    return expand(numerator) / denominator
+
+
+def _roots_drawn_out(value: Expr) -> Expr:
+    """Squares out from under each root, where their sign is known: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+
+    def drawn(power: Expr) -> Expr:
+        base = together(power.base)
+        numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
+        (outside, inside), (below, under) = numerator, denominator
+        root = Rational(1, power.exp.q)
+        return (outside / below) ** power.exp.p * Pow(inside / under, root) ** power.exp.p
+
+    return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, drawn)
+
+
+def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
+    """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
+    outside, inside = Integer(1), Integer(1)
+    for piece in Mul.make_args(factor_terms(part)):
+        out, kept = _square_free_factor(piece, q)
+        outside, inside = outside * out, inside * kept
+    return outside, inside
+
+
+def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
+    if part.is_number:
+        return Integer(1), part
+    try:
+        content, factors = factor_list(part)
+    except PolynomialError:
+        return Integer(1), part
+    outside, inside = Integer(1), content
+    for base, power in factors:
+        whole = power // q if base.is_nonnegative else 0
+        outside *= base**whole
+        inside *= base ** (power - q * whole)
+    # A sum that lost no factor is left as it was written, not multiplied out.
+    return (outside, part) if outside == 1 else (outside, inside)
+
+
+def _in_front(value: Expr) -> Expr:
+    """Common factors of the terms in front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
+    numerator, denominator = together(value).as_numer_denom()
+    return Mul(factor_terms(numerator), Pow(factor_terms(denominator), -1))
+
+
+def common_factor(entries: list[Expr]) -> Expr:
+    """What the entries of a vector or tensor have in common: M a^2/12 of M a^2 diag(13, 10, 5)/12."""
+    present = [entry for entry in entries if entry != 0]
+    if not present:
+        return Integer(1)
+    parts = [together(entry).as_numer_denom() for entry in present]
+    try:
+        top = reduce(gcd, (n for n, _ in parts))
+        bottom = reduce(lcm, (d for _, d in parts))
+    except PolynomialError:
+        return Integer(1)
+    top = factor(top)
+    roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))
+    common = top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
+    return -common if all(_leads_negative(entry) for entry in present) else common
+
+
+def _numeric_roots(expr: Expr) -> set[Expr]:
+    return {f for f in Mul.make_args(expr) if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer}
+
+
+def _leads_negative(entry: Expr) -> bool:
+    return bool(entry.could_extract_minus_sign())
+
+
+def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
+    """A matrix as (common factor, what is left)."""
+    common = common_factor(list(matrix))
+    return common, ImmutableDenseMatrix(matrix.applyfunc(lambda e: tidied(e / common)))
+
+
+def size_and_rest(v: Any) -> tuple[Expr, Any]:
+    """A vector as (size of its common factor, what is left), so that its length is the size times that of the rest."""
+    common, rest = factored_matrix(v)
+    if common.is_nonnegative:
+        return common, rest
+    return (-common if common.is_nonpositive else abs(common)), rest

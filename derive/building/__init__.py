@@ -1,0 +1,1 @@
+"""What changed is made again: derivations, sheets and PDFs, in workers of their own."""

@@ -1,0 +1,101 @@
+"""Files that derive writes: whole or not at all, and only when their content changed.
+
+A file appears under its name by one rename, so a reader, a second build and a kill at any moment see the old content or
+the new. What the disk refuses becomes one complaint.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from derive.errors import BuildFailed, Complaint
+
+_REASONS = {
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk quota is used up",
+    errno.EACCES: "permission denied",
+    errno.EPERM: "permission denied",
+    errno.EROFS: "the disk is read-only",
+    errno.ENOTDIR: "a file stands where a folder should be",
+    errno.EEXIST: "a file stands where a folder should be",
+    errno.EISDIR: "a folder stands where a file should be",
+    errno.ENAMETOOLONG: "the name is too long",
+    errno.ELOOP: "a link stands where a file should be",
+    errno.EBADF: "it is closed",
+}
+_SHORT = {
+    errno.EMFILE: "too many files are open",
+    errno.ENFILE: "too many files are open",
+    errno.ENOMEM: "memory is short",
+    errno.EAGAIN: "there are too many processes, or memory is short",
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk quota is used up",
+    errno.EIO: "the disk or the terminal fails",
+}
+
+
+def shown_path(path: Path) -> str:
+    """Relative to the folder the user is in, where that is shorter than absolute."""
+    try:
+        relative = os.path.relpath(path)
+    except FileNotFoundError:  # the folder the user is in is gone
+        return str(path)
+    return str(path) if relative.startswith("..") else relative
+
+
+def cannot_write(path: Path, error: OSError) -> BuildFailed:
+    reason = _REASONS.get(error.errno or 0, (error.strerror or str(error)).lower())
+    return BuildFailed(Complaint("cannot-write", f"cannot write `{shown_path(path)}`: {reason}"))
+
+
+def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
+    """The complaint that the system is short of something; nothing if that is not what the error says."""
+    reason = _SHORT.get(error.errno or 0)
+    return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """What the system says against writing `path`, as a complaint."""
+    try:
+        yield
+    except OSError as error:
+        raise cannot_write(path, error) from None
+
+
+def folder(path: Path) -> Path:
+    with writing(path):
+        path.mkdir(parents=True, exist_ok=True)
+    return path
+
+
+def write(path: Path, content: str | bytes) -> bool:
+    """Put `content` at `path`, and say whether that changed anything."""
+    raw = content.encode() if isinstance(content, str) else content
+    folder(path.parent)
+    with writing(path):
+        if path.is_file() and path.read_bytes() == raw:
+            return False
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        try:
+            with open(handle, "wb") as temporary:
+                temporary.write(raw)
+                temporary.flush()
+                os.fsync(handle)
+            os.chmod(name, 0o666 & ~_umask())
+            os.replace(name, path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
+    return True
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

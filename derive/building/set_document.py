@@ -1,0 +1,96 @@
+"""Whole documents from solved problems: one solution, the solutions of a set, and the sheet for its students."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from derive.building.solution import template_folder
+from derive.course.parts import points_text
+from derive.course.problem import ProblemSet
+from derive.page.wording import Phrases, phrases
+from derive.render.formats.latex_page import dotted, whole_latex
+from derive.render.rendered import Rendered, Tex
+
+COLUMNS = (
+    "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
+    "routes", "routes_proved", "agree", "agree_to_figures", "errata",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A problem as its set shows it."""
+
+    number: str
+    problem: Rendered
+
+    @property
+    def id(self) -> Tex:
+        return Tex(self.problem.id)
+
+    @property
+    def anchor(self) -> Tex:
+        return Tex(dotted(self.problem.id))
+
+    @property
+    def title(self) -> Tex:
+        return self.problem.title_latex
+
+    def numbered(self, fragment: Tex) -> Tex:
+        return Tex(fragment.replace("@NUMBER@", self.number))
+
+
+def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
+    """A complete .tex of one problem, numbered as in its set."""
+    number = heading.numbers.get(problem.id.rpartition("/")[2], "")
+    return _document(root, "document.tex.j2", heading, [Listed(str(number), problem)])
+
+
+def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
+    """A complete .tex of the set: cover block, its problems in order, how they were checked."""
+    return _document(root, "set.tex.j2", heading, _listed(problems))
+
+
+def sheet_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
+    """A complete .tex of the questions alone, for students."""
+    return _document(root, "sheet.tex.j2", heading, _listed(problems))
+
+
+def _listed(problems: Sequence[Rendered]) -> list[Listed]:
+    return [Listed(str(number), problem) for number, problem in enumerate(problems, 1)]
+
+
+def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
+    words: Phrases = phrases(template_folder(root))
+    total = _total(problems)
+    facts: dict[str, Any] = {
+        "set_id": Tex(heading.id),
+        "heading": heading,
+        "problems": problems,
+        "total": total,
+        "total_points": f"{total} {words.labels['points'][total != '1']}" if total else "",
+        "rows": _rows(problems, words),
+        "columns_of_counts": COLUMNS,
+        "labels": words.labels,
+        "grades": words.grades,
+    }
+    return whole_latex(template_folder(root), template, facts)
+
+
+def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
+    """The table of how the set was checked: a line for each problem, and their sums."""
+    rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
+    sums = {name: sum(counts[name] for _, counts in rows) for name in COLUMNS}
+    return [*rows, (words.labels["checked_page"]["all"], sums)] if len(rows) > 1 else rows
+
+
+def _total(problems: Sequence[Listed]) -> str:
+    """The points of all problems; nothing if any has none."""
+    if not all(listed.problem.points for listed in problems):
+        return ""
+    total = sum((Fraction(listed.problem.points) for listed in problems), Fraction(0))
+    return points_text(total)

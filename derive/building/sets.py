@@ -1,0 +1,346 @@
+"""A set of problems built: derive what changed, typeset what reads differently, leave the rest alone.
+
+Problems are derived and documents typeset by one crew of workers, so that one is typeset while another is derived. A
+problem that fails keeps its earlier outputs and stops no other; the document of the whole set then stays as it was.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import stat
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive.building.files import folder, shown_path, write, writing
+from derive.building.manifest import (
+    DOCUMENTS,
+    SHEET,
+    SOLUTIONS,
+    Manifest,
+    digest,
+    engine_digest,
+    file_digest,
+    outputs_of,
+)
+from derive.building.tex import Engine, chosen_engine, chosen_name, typeset
+from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+
+if TYPE_CHECKING:
+    from derive.course.problem import ProblemSet
+    from derive.render.rendered import Files, Rendered
+
+SET_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+# What the Makefile has other rules for, as targets or as folders.
+TARGETS = frozenset(
+    ["all", "always", "bench", "build", "check", "clean", "derive", "help", "problems", "templates", "test", "tests"]
+)
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to build; the defaults are those of `derive build`."""
+
+    engine: str | None = None
+    detail: str | None = None
+    force: bool = False
+    jobs: int = 0  # 0: as many as there are processors
+    limit: float = TIME_LIMIT
+
+
+@dataclass
+class Report:
+    """What a build did: how many problems it derived, which files changed, what went wrong."""
+
+    set_id: str
+    problems: int = 0
+    derived: int = 0
+    changed: list[Path] = field(default_factory=list)
+    complaints: list[Complaint] = field(default_factory=list)
+    warnings: list[Complaint] = field(default_factory=list)
+    bugs: list[Bug] = field(default_factory=list)
+    seconds: float = 0.0
+
+    @property
+    def failed(self) -> bool:
+        return bool(self.complaints or self.bugs)
+
+
+def set_folder(root: Path, set_id: str) -> Path:
+    return root / "build" / set_id
+
+
+def set_names(root: Path) -> list[str]:
+    """The sets below the root, without reading them; not those whose folders have a name that no set can have."""
+    folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
+    return [name for name in folders if not wrong_set_name(name)]
+
+
+def wrong_set_name(name: str) -> str:
+    """Why a set cannot be called so; empty if it can."""
+    if not SET_NAME.fullmatch(name):
+        return "the name of a set has letters, digits, `-` and `_` only"
+    return "`make` has a target of that name" if name in TARGETS else ""
+
+
+def misnamed_sets(root: Path) -> list[Complaint]:
+    """A warning about each folder that has a set.yaml, but a name that no set can have."""
+    folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
+    return [
+        Complaint("set-name", f"the set {name!r} is left out: {why}", help="rename its folder", severity="warning")
+        for name in folders
+        if (why := wrong_set_name(name))
+    ]
+
+
+def built_set(root: Path, set_id: str, options: Options, tell: Callable[[str], None]) -> Report:
+    """Build one set. `tell` shows what is under way to someone who waits."""
+    engine = chosen_engine(options.engine)
+    if set_id not in set_names(root):
+        from derive.course.problem import problem_set
+
+        if (root / "problems" / set_id / "set.yaml").is_file() and (why := wrong_set_name(set_id)):
+            raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
+        problem_set(root, set_id)  # which says so, with the nearest name
+    outputs = folder(set_folder(root, set_id))
+    with _alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+        return _Build(root, set_id, options, engine, outputs, tell).report()
+
+
+@contextmanager
+def _alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
+    """One build of a set at a time. A lock of this kind is not inherited by workers, and dies with its process."""
+    path = outputs / ".lock"
+    with writing(path):  # neither through a link, nor waiting for the other end of a pipe
+        lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    try:
+        if not stat.S_ISREG(os.fstat(lock).st_mode):
+            raise BuildFailed(Complaint("cannot-write", f"`{shown_path(path)}` is not a file", help="remove it"))
+        try:
+            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            waiting()
+            fcntl.lockf(lock, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(lock)
+
+
+class _Build:
+    """The state of one build of one set."""
+
+    def __init__(
+        self, root: Path, set_id: str, options: Options, engine: Engine, outputs: Path, tell: Callable[[str], None]
+    ):
+        self.root, self.set_id, self.options, self.engine, self.outputs = root, set_id, options, engine, outputs
+        self.started = time.time_ns()
+        self.recipe = digest(engine_digest(root), options.detail or "")
+        self.manifest = Manifest.read(outputs)
+        self.result = Report(set_id)
+        self.derived: dict[str, Rendered] = {}
+        self.names: list[str] = []
+        self.heading: ProblemSet
+        self.whole_failed: Outcome | None = None
+        self.then: dict[Job, Callable[[Outcome], None]] = {}
+        self.tell = tell
+        self.crew = Crew(options.jobs or os.cpu_count() or 1, self._tick)
+
+    def report(self) -> Report:
+        manifest, result = self.manifest, self.result
+        current = manifest.tex_engine == self.engine.identity and manifest.is_current(self.recipe, self.root)
+        if current and not self.options.force:
+            self.names = manifest.problems
+        else:
+            self._rebuild()
+        result.problems = len(self.names)
+        if not result.failed:
+            self._stamp()
+        result.seconds = (time.time_ns() - self.started) / 1e9
+        return result
+
+    def _rebuild(self) -> None:
+        from derive.course.problem import problem_set
+
+        self.manifest.complete = False
+        reading = partial(problem_set, self.root, self.set_id)
+        heading = self.heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
+        self.names = [problem.rpartition("/")[2] for problem in heading.problems]
+        with self.crew:
+            try:
+                for name in self.manifest.recipes.keys() - set(self.names):
+                    self.manifest.forget(name)
+                for name in self.names:
+                    self._derive(name)
+                self._whole()
+                for outcome in self.crew.outcomes():
+                    self.then.pop(outcome.job)(outcome)
+                if self.whole_failed and not self.result.failed:  # else a problem's own document said the same
+                    self._took(self.whole_failed)
+                if not self.result.failed:
+                    self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
+                    self.manifest.problems = self.names
+                    self.manifest.tex_engine = self.engine.identity
+                    self.manifest.complete = len(self.derived) == len(self.names)
+            finally:
+                # An interrupted build saves what it has finished, and is not complete.
+                self.manifest.save()
+
+    def _kept(self, name: str) -> Path | None:
+        """Where the steps of a problem are kept between builds; nowhere if everything is to be done again."""
+        return None if self.options.force else self.outputs / ".derived" / f"{name}.steps.json"
+
+    def _tick(self, running: list[str]) -> None:
+        done = f"{len(self.derived)} of {len(self.names)} derived"
+        self.tell(f"{self.set_id}: {done}; {', '.join(running)} ({(time.time_ns() - self.started) // 10**9} s)")
+
+    def _put(self, job: Job, then: Callable[[Outcome], None]) -> None:
+        self.then[job] = then
+        self.crew.put(job)
+
+    def _took(self, outcome: Outcome) -> bool:
+        """Whether it went well; if not, its complaints are kept."""
+        if isinstance(outcome.error, DeriveError):
+            self.result.complaints += outcome.error.complaints
+        elif outcome.error:
+            self.result.bugs.append(outcome.error)
+        return outcome.error is None
+
+    def _derive(self, name: str) -> None:
+        current = not self.options.force and self.manifest.is_derived(name, self.recipe, self.root)
+        kept = self._recalled(name) if current else None
+        if kept is not None:
+            self.derived[name] = kept
+            self._document(name)
+            return
+        from derive.building.solution import rendered
+
+        problem = f"{self.set_id}/{name}"
+        work = partial(rendered, self.root, problem, self.options.detail, self._kept(name), draws=True)
+        self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
+
+    def _recalled(self, name: str) -> Rendered | None:
+        data = self.manifest.kept(name)
+        if data is None:
+            return None
+        from derive.render.rendered import Rendered
+
+        return Rendered.from_data(data)
+
+    def _was_derived(self, name: str, outcome: Outcome) -> None:
+        if not self._took(outcome):
+            return
+        derived = self.derived[name] = outcome.value
+        self.result.derived += 1
+        self.result.warnings += derived.warnings
+        paths = {*derived.inputs, f"problems/{self.set_id}/reference.yaml"}
+        inputs = {path: self._input_digest(path) for path in sorted(paths)}
+        self.manifest.keep(name, derived.to_data(), self.recipe, inputs)
+        self._check_files(name, derived)
+        self._document(name)
+        self._whole()
+
+    def _check_files(self, name: str, derived: Rendered) -> None:
+        """Drawings that the problem no longer has are removed; a name is not given to two outputs."""
+        files = [file for file, _ in derived.files]
+        others = {output for other in self.names for output in outputs_of(other)}
+        for file in self.manifest.drawings.get(name, []):
+            if file not in {*files, *others}:
+                self.manifest.remove(file)
+        self.manifest.drawings[name] = files
+        for file in others & set(files):
+            message = f"the drawing `{file}` of `{name}` would have the name of another output"
+            self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
+
+    def _input_digest(self, path: str) -> str:
+        """Of a file as it was when the build began; one that changed since then must be read again next time."""
+        file = self.root / path
+        edited = file.exists() and file.stat().st_mtime_ns > self.started
+        return "edited during the build" if edited else file_digest(file)
+
+    def _document(self, name: str) -> None:
+        from derive.building.set_document import problem_document
+
+        derived = self.derived[name]
+        texts = {f"{name}.txt": derived.text, f"{name}.json": derived.json}
+        if self._record(dict(derived.files)):
+            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files)
+
+    def _whole(self) -> None:
+        """The documents of the set, as soon as its last problem is derived."""
+        if len(self.derived) < len(self.names) or self.result.failed:
+            return
+        from derive.building.set_document import set_document, sheet_document
+
+        parts = [self.derived[name] for name in self.names]
+        files = tuple(file for part in parts for file in part.files)
+        aux = self.outputs / ".derived" / f"{SOLUTIONS}.aux"  # the page numbers, so that one run is enough next time
+        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, aux)
+        self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files)
+
+    def _typeset(
+        self,
+        name: str,
+        document: Callable[[], str],
+        texts: dict[str, str],
+        files: Files,
+        aux: Path | None = None,
+    ) -> None:
+        pdf = f"{name}.pdf"
+        try:
+            tex = document()
+        except DeriveError as error:
+            self.result.complaints += error.complaints
+            return
+        source = digest(tex, self.engine.identity, *(content for _, content in files))
+        texts = {f"{name}.tex": tex, **texts}
+        current = self.manifest.sources.get(pdf) == source and self.manifest.holds(pdf)
+        if current and not self.options.force:
+            self._record(texts)
+            return
+        limit = self.options.limit
+        beside = [file for file in files if file[0].endswith(".pdf")]
+        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit, aux=aux, beside=beside)
+        job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
+        self._put(job, partial(self._was_typeset, pdf, source, texts))
+
+    def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
+        """The text and the source follow their PDF, so that what lies side by side belongs together."""
+        if pdf.removesuffix(".pdf") in DOCUMENTS and outcome.error:
+            self.whole_failed = outcome
+            return
+        if not self._took(outcome):
+            return
+        if outcome.value:
+            self.result.changed.append(self.outputs / pdf)
+        self.manifest.sources[pdf] = source
+        self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
+        self._record(texts)
+
+    def _record(self, contents: Mapping[str, str | bytes]) -> bool:
+        """Write outputs of a problem; whether the disk took them."""
+        try:
+            for name, content in contents.items():
+                if write(self.outputs / name, content):
+                    self.result.changed.append(self.outputs / name)
+                self.manifest.outputs[name] = file_digest(self.outputs / name)
+        except DeriveError as error:
+            self.result.complaints += error.complaints
+            return False
+        return True
+
+    def _stamp(self) -> None:
+        """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
+        names = [output for name in [*self.names, *DOCUMENTS] for output in self.manifest.outputs_of(name)]
+        outputs = [f"build/{self.set_id}/{name}" for name in names]
+        options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
+        write(self.outputs / ".outputs", "\n".join([options, *outputs, ""]))
+        (self.outputs / ".outputs.mk").unlink(missing_ok=True)  # what an earlier derive told as rules of `make`
+        write(self.outputs / ".built", "")
+        os.utime(self.outputs / ".built", ns=(self.started, self.started))

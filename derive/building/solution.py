@@ -1,0 +1,247 @@
+"""From a problem's id to its solution in every format: load, derive, number, word, print.
+
+Everything that leaves this module is plain text and numbers, so that it can cross from a worker to its parent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from sympy import Expr, Integer, Symbol
+
+from derive import FOLDER
+from derive.algebra.dimensions import NUMBER, Dimension, dimension_of_kind, unit_of_dimension, unit_of_kind
+from derive.algebra.expressions import Relation
+from derive.building.drawn import drawing_files
+from derive.building.stored import Solved, keep, key_of, recalled
+from derive.course.parts import Part, points_text
+from derive.course.problem import Problem, load_problem, problem_set, run_solve
+from derive.course.prose import PROBLEM
+from derive.course.reference.comparison import comparisons
+from derive.course.reference.statements import reference_path
+from derive.course.units import misfit, read_unit
+from derive.errors import Complaint, Faults, Rejected, did_you_mean
+from derive.page.document import document_of
+from derive.page.wording import AXIS_NAMES, Text, given_words, phrases, told
+from derive.render.formats.contract import contract
+from derive.render.formats.latex_page import problem_latex
+from derive.render.formats.text_page import inline_text, page_text
+from derive.render.notation.latex import unprintable
+from derive.render.notation.letters import letter_clashes
+from derive.render.notation.notation import Notation
+from derive.render.rendered import Rendered
+from derive.steps import record
+from derive.steps.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
+from derive.steps.homogeneity import dimension_table
+from derive.steps.numeric import coefficient_of, comparison_of, value_of
+from derive.steps.step import Level, Quantity, Step
+
+
+def rendered(
+    root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None, draws: bool = False
+) -> Rendered:
+    """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
+
+    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold;
+    `draws` says whether the files of its drawings are wanted too.
+    """
+    problem = load_problem(root, problem_id)
+    _check_characters(problem)
+    words = phrases(template_folder(root))
+    solved, failures = _solved(problem, kept)
+    derivation, values = solved.derivation, solved.values
+    problem = _answered_by(problem, derivation.steps)
+    heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
+    others = heading.numbers if heading else {}
+    level = Level(detail or "standard")
+    document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
+    found = Faults()
+    for fault in faults:
+        found.add(fault)
+    found.stop()
+    notation = Notation(document.dimensions)
+    fragments = problem_latex(document, words, notation, template_folder(root))
+    return Rendered(
+        id=problem_id,
+        title=inline_text(document.title, notation),
+        points="" if problem.points is None else points_text(problem.points),
+        latex=fragments.solution,
+        title_latex=fragments.title,
+        sheet=fragments.sheet,
+        checked=fragments.checked,
+        text=page_text(document, words, notation),
+        json=contract(
+            problem, derivation, values, document, notation, reference=[told.facts for told in solved.compared]
+        ),
+        warnings=(*document.warnings, *failures),
+        inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
+        grades=_grades(derivation, values),
+        counts=document.checks.counts(),
+        agreed=not failures,
+        files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
+    )
+
+
+def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complaint, ...]]:
+    """The steps, as they were kept or derived now, and what disagrees with the reference."""
+    key = key_of(problem) if kept else ""
+    solved = recalled(kept, key) if kept else None
+    if solved is not None:
+        return solved, ()
+    derivation, values, known, run = _derived(problem)
+    compared = comparisons(problem, known)
+    failures = tuple(c.complaint for c in compared if c.complaint)
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
+    if kept and not failures:
+        keep(kept, key, solved)
+    return solved, failures
+
+
+def _check_characters(problem: Problem) -> None:
+    """Prose may only have characters that can be printed."""
+    faults = []
+    for prose in problem.texts:
+        at = unprintable(prose.scalar.text)
+        if at is not None:
+            message = f"`{prose.scalar.text[at]}` cannot be printed"
+            help_line = "the fonts of the page have Latin and Greek letters and the usual signs"
+            faults.append(Complaint("character", message, prose.scalar.place_within(at), help=help_line))
+    if faults:
+        raise Rejected(faults)
+
+
+def _refers_to_problems(problem: Problem) -> bool:
+    return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
+
+
+def headline(root: Path, problem_id: str) -> tuple[str, str]:
+    """A problem's points and title without deriving it; a step that the title mentions is named by its key."""
+    problem = load_problem(root, problem_id)
+    words = phrases(template_folder(root))
+    names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
+    names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
+    title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None)
+    points = "" if problem.points is None else points_text(problem.points)
+    return points, inline_text(title, Notation(problem.dimensions))
+
+
+def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
+    """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
+    run = record.Run()
+    answers = returned_quantities(run_solve(problem, run), problem.script.returns)
+    known = with_ancestors(answers, problem.script.returns)
+    problem = _answered_by(problem, (quantity.step for quantity in known.values()))
+    _check_answers(problem, known)
+    _check_letters(problem, known)
+    derivation = derivation_of([part.answers for part in problem.parts], known, run)
+    values: dict[str, Step] = {}
+    dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
+    for part in problem.parts:
+        for key in part.answers:
+            value = _value(problem, part, known[key], dimensions)
+            if value is not None and not _compared_before(value.step, values.values()):
+                values[key] = value.step
+    return derivation, values, known, run
+
+
+def _answered_by(problem: Problem, steps: Iterable[Step]) -> Problem:
+    """The problem with each answer that has no step of its own answered by the step that stands for it."""
+    found = list(steps)
+    own = {step.key for step in found}
+    instead = {key: step.key for step in found for key in step.stands_for if key not in own}
+    if not instead:
+        return problem
+
+    def answered(part: Part) -> Part:
+        places = {instead.get(key, key): place for key, place in part.places.items()}
+        forms = {instead.get(key, key) if key else None: form for key, form in part.forms.items()}
+        return replace(part, answers=tuple(places), places=places, forms=forms)
+
+    return replace(problem, parts=tuple(answered(part) for part in problem.parts))
+
+
+def _compared_before(step: Step, others: Iterable[Step]) -> bool:
+    """Two answers may be the same condition: once is enough to say whether the numbers fulfil it."""
+    return step.rule == "numbers.comparison" and step.chain in [other.chain for other in others]
+
+
+def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
+    faults = [
+        Complaint(
+            "no-such-answer",
+            f"`solve()` returns nothing called `{key}`",
+            part.place_of(key),
+            help=did_you_mean(key, known)
+            or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
+        )
+        for part in problem.parts
+        for key in part.answers
+        if key not in known
+    ]
+    if faults:
+        raise Rejected(faults)
+
+
+def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
+    """A letter of the problem's own may not stand for anything else as well."""
+    faults = letter_clashes(problem, known)
+    if faults:
+        raise Rejected(faults)
+
+
+def _value(
+    problem: Problem, part: Part, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
+) -> Quantity | None:
+    """The number of an answer: in the unit and to the figures that the part asks for."""
+    form = part.form_of(answer.key)
+    if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
+        if form.places and answer.coordinates and (answer.key in part.forms or len(part.answers) == 1):
+            message = f"`{answer.key}` is a relation between things that move: no number of it could have a unit"
+            raise Rejected(Complaint("wrong-unit", message, form.places[0], help="leave its `unit` out"))
+        return None
+    kind, dimension = _kind_of(problem, answer, dimensions)
+    units: list[tuple[str, Expr]] = []
+    for unit, place in zip(form.units, form.places, strict=True):
+        asked = read_unit(unit, place)
+        wrong = misfit(asked, kind, dimension)
+        if wrong:
+            raise Rejected(Complaint(wrong.code, f"`{answer.key}` {wrong.why}", place, help=wrong.help))
+        units.append((unit, asked.factor))
+    first, *more = units or [(unit_of_kind(kind) if kind else unit_of_dimension(dimension), Integer(1))]
+    figures = form.figures or problem.figures
+    # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
+    compared = None if units else comparison_of(answer, problem.amounts)
+    value = compared or value_of(answer, problem.amounts, *first, figures, more=more)
+    return value or (coefficient_of(answer, figures) if not problem.measured else None)
+
+
+def _kind_of(
+    problem: Problem, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
+) -> tuple[str | None, Dimension]:
+    """The kind, if it has one, and the dimension of what a number is put in for: in a relation such as R > a/2 of R."""
+    kind, symbol = answer.step.kind, answer.symbol
+    if isinstance(answer.value, Relation):
+        symbol = answer.value.left
+        named = (q.step.kind for q in with_ancestors([answer]).values() if q.symbol == symbol)
+        letter = problem.symbols.get(str(symbol))
+        kind = next(named, None) or answer.coordinates.get(symbol) or (letter.kind if letter else None)
+    return kind, dimension_of_kind(kind) if kind else dimensions.get(symbol) or NUMBER
+
+
+def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int]:
+    counts = derivation.grades()
+    for step in values.values():
+        for evidence in step.evidence:
+            counts[evidence.grade.value] += 1
+    return counts
+
+
+def template_folder(root: Path) -> Path:
+    """The course's own templates if it has them, else those of the installation."""
+    for folder in (root / "templates", FOLDER / "templates", FOLDER.parent / "templates"):
+        if (folder / "phrases" / "en").is_dir():
+            return folder
+    raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))

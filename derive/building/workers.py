@@ -1,0 +1,347 @@
+"""Forked workers: each job runs in a child of one warm process, with a time limit, and can be killed at any moment.
+
+What a job returns or raises comes back to the parent. A child leads a process group of its own, so that killing it
+takes its TeX along, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import faulthandler
+import gc
+import multiprocessing
+import os
+import re
+import resource
+import select
+import signal
+import sys
+import threading
+import time
+import traceback
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkProcess
+from pathlib import Path
+from typing import Any
+
+from derive.building.files import of_system
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Place
+
+TIME_LIMIT = 120.0
+GIB = 2**30
+MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
+ASK = signal.SIGUSR1  # asks a worker which lines it is in
+MEMORY, TOO_DEEP = "memory-limit", "too-deep"
+_TICK = 0.2
+
+
+class Bug(Exception):
+    """Something in derive itself failed inside a worker; carries that worker's traceback."""
+
+    def __init__(self, summary: str, trace: str):
+        super().__init__(summary, trace)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    @property
+    def trace(self) -> str:
+        return str(self.args[1])
+
+
+@dataclass(frozen=True)
+class Job:
+    """A piece of work, named as the user knows it; `file` is what it is about, `shown_as` its path in messages."""
+
+    name: str
+    work: Callable[[], Any]
+    limit: float = TIME_LIMIT
+    file: Path | None = None
+    shown_as: str = ""
+
+
+def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
+    """Work on a problem, whose file is named if it gives no answer."""
+    path = f"problems/{problem_id}.yaml"
+    return Job(f"`{problem_id}`", work, limit, root / path, path)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a job: its value, or the error that ended it."""
+
+    job: Job
+    value: Any
+    error: DeriveError | Bug | None
+    seconds: float
+
+
+@dataclass
+class _Worker:
+    job: Job
+    child: ForkProcess
+    pipe: Connection
+    trace: int  # to where a worker writes the lines that it is in, when it is stopped or dies
+    started: float = field(default_factory=time.monotonic)
+
+    @property
+    def seconds(self) -> float:
+        return time.monotonic() - self.started
+
+
+class Crew:
+    """At most `size` workers at a time; leaving the `with` block kills whatever still runs."""
+
+    def __init__(self, size: int, tick: Callable[[list[str]], None] | None = None):
+        self._size = max(1, size)
+        self._tick = tick or (lambda _: None)
+        self._waiting: deque[Job] = deque()
+        self._running: list[_Worker] = []
+        self._fork = multiprocessing.get_context("fork")
+        self._lifeline = _pipe()
+
+    def __enter__(self) -> Crew:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for worker in self._running:
+            _kill(worker)
+        for end in self._lifeline:
+            os.close(end)
+
+    def put(self, job: Job) -> None:
+        self._waiting.append(job)
+
+    def outcomes(self) -> Iterator[Outcome]:
+        """Each job's outcome as it ends; more jobs may be put meanwhile."""
+        while self._waiting or self._running:
+            while self._waiting and len(self._running) < self._size:
+                self._running.append(self._started(self._waiting.popleft()))
+            self._tick([worker.job.name for worker in self._running])
+            wait([worker.pipe for worker in self._running], timeout=_TICK)
+            for worker in list(self._running):
+                outcome = _outcome(worker)
+                if outcome:
+                    self._running.remove(worker)
+                    yield outcome
+
+    def _started(self, job: Job) -> _Worker:
+        limit = memory_limit()
+        try:
+            ours, theirs = self._fork.Pipe(duplex=False)
+            trace, traced = os.pipe()
+            os.set_blocking(trace, False)
+            child = self._fork.Process(target=_child, args=(job.work, theirs, self._lifeline, traced, limit))
+            with _undisturbed():
+                child.start()
+        except OSError as error:
+            raise of_system(error, f"cannot start a process for {job.name}") or error from None
+        with contextlib.suppress(OSError):  # the child does the same; whoever is first
+            os.setpgid(child.pid or 0, child.pid or 0)
+        theirs.close()
+        os.close(traced)
+        return _Worker(job, child, ours, trace)
+
+
+def _pipe() -> tuple[int, int]:
+    try:
+        return os.pipe()
+    except OSError as error:
+        raise of_system(error) or error from None
+
+
+@contextlib.contextmanager
+def _undisturbed() -> Iterator[None]:
+    """A signal during a fork waits: Python would lose it in what it does before and after one."""
+    signals = (signal.SIGINT, signal.SIGTERM)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def memory_limit() -> int:
+    """How many bytes a worker may take, from DERIVE_MEMORY in GiB."""
+    text = os.environ.get("DERIVE_MEMORY", "").strip()
+    if not text:
+        return round(MEMORY_LIMIT * GIB)
+    if not re.fullmatch(r"\d{1,5}(\.\d{1,3})?", text, re.ASCII) or float(text) < SMALLEST_MEMORY:
+        message = f"DERIVE_MEMORY must be a number of GiB, at least {SMALLEST_MEMORY:g}, but it is `{text[:40]}`"
+        raise Misused(Complaint("memory-limit", message))
+    return round(float(text) * GIB)
+
+
+def done(job: Job) -> Any:
+    """The value of one job, run in a worker."""
+    with Crew(1) as crew:
+        crew.put(job)
+        outcome = next(crew.outcomes())
+    if outcome.error:
+        raise outcome.error
+    return outcome.value
+
+
+def _outcome(worker: _Worker) -> Outcome | None:
+    job, seconds = worker.job, worker.seconds
+    if worker.pipe.poll():
+        try:
+            value, error = worker.pipe.recv()
+        except EOFError:
+            worker.child.join()
+            value, error = None, _died(worker)
+        except Exception as unread:  # a value that only its own process can read
+            value, error = None, Bug(f"{type(unread).__name__}: {unread}", traceback.format_exc())
+        if isinstance(error, str):
+            error = _overtaxed(worker, error)
+    elif seconds > job.limit:
+        help_ = "look for an endless loop in its script, or raise `--time-limit`"
+        value, error = (
+            None,
+            _stopped(worker, "time-limit", f"{job.name} took over {job.limit:g} s", help_, _asked(worker)),
+        )
+    else:
+        return None
+    _kill(worker)
+    return Outcome(job, value, error, seconds)
+
+
+def _stopped(worker: _Worker, code: str, message: str, help_: str, trace: str) -> BuildFailed:
+    """The complaint about a worker that gave no answer, at the line of the script that it was in."""
+    job = worker.job
+    place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
+    return BuildFailed(Complaint(code, message, place, help=help_))
+
+
+def _died(worker: _Worker) -> BuildFailed:
+    code = worker.child.exitcode or 0
+    why = f"signal {-code}" if code < 0 else f"exit code {code}"
+    message = f"{worker.job.name} ended without a word: {why}"
+    help_ = "was memory short?" if code < 0 else "does its script end the program itself?"
+    return _stopped(worker, "worker-died", message, help_, _read(worker))
+
+
+def _overtaxed(worker: _Worker, what: str) -> BuildFailed:
+    """A worker that came to the limit of its memory or of its stack."""
+    name, trace = worker.job.name, _read(worker)
+    if what == TOO_DEEP:
+        help_ = "look for an endless recursion in its script, or for an expression with very many brackets"
+        return _stopped(worker, TOO_DEEP, f"{name} goes deeper than Python can follow", help_, trace)
+    message = f"{name} took over {memory_limit() / GIB:g} GiB of memory"
+    help_ = "look for what grows without bound, or set DERIVE_MEMORY to more GiB"
+    return _stopped(worker, MEMORY, message, help_, trace)
+
+
+def _asked(worker: _Worker) -> str:
+    """The lines that a worker is in, innermost first, as it says when it is asked; nothing if it does not answer."""
+    with contextlib.suppress(OSError):
+        os.kill(worker.child.pid or 0, ASK)
+    for _ in range(20):
+        wait([worker.child.sentinel], timeout=0.01)
+        if said := _read(worker):
+            time.sleep(0.01)
+            return said + _read(worker)
+    return ""
+
+
+def _read(worker: _Worker) -> str:
+    try:
+        return os.read(worker.trace, 1 << 16).decode(errors="replace")
+    except OSError:
+        return ""
+
+
+def _line_in(trace: str, job: Job) -> Place | None:
+    """The innermost line of a script beside the problem's file."""
+    for name, line in re.findall(r'^  File "(.+)", line (\d+) in ', trace, re.MULTILINE):
+        file = Path(name)
+        if job.file and file.parent == job.file.parent:
+            try:
+                text = file.read_text(encoding="utf-8").splitlines()[int(line) - 1]
+            except (OSError, ValueError, IndexError):
+                text = ""
+            indent = len(text) - len(text.lstrip())
+            shown_as = f"{job.shown_as.rpartition('/')[0]}/{file.name}"
+            return Place(shown_as, int(line), indent + 1, text[:150], max(1, len(text[:150].strip())))
+    return None
+
+
+def _kill(worker: _Worker) -> None:
+    with contextlib.suppress(OSError):
+        os.killpg(worker.child.pid or 0, signal.SIGKILL)
+    worker.child.join()
+    worker.pipe.close()
+    with contextlib.suppress(OSError):
+        os.close(worker.trace)
+
+
+def _child(work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int], trace: int, limit: int) -> None:
+    with contextlib.suppress(OSError):
+        os.setpgid(0, 0)
+    for signum in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(signum, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_SETMASK, ())
+    os.close(lifeline[1])
+    threading.Thread(target=_end_with_parent, args=(lifeline[0],), daemon=True).start()
+    faulthandler.enable(trace, all_threads=False)
+    faulthandler.register(ASK, trace, all_threads=False)
+    _limit_memory(limit)
+    # A worker is short-lived: collecting garbage in it often costs more than the garbage.
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
+    # What a script prints is for the person at the terminal, not part of the answer.
+    os.dup2(2, 1)
+    sys.stdout = sys.stderr
+    value: Any = None
+    error: DeriveError | Bug | str | None = None
+    try:
+        value = work()
+    except DeriveError as stopped:
+        error = stopped
+    except (MemoryError, RecursionError) as short:
+        error = MEMORY if isinstance(short, MemoryError) else TOO_DEEP
+        _tell_lines(short, trace)
+    except OSError as refused:
+        error = of_system(refused) or Bug(f"{type(refused).__name__}: {refused}", _short_trace(refused))
+    except BaseException as bug:
+        error = Bug(f"{type(bug).__name__}: {bug}", _short_trace(bug))
+    with contextlib.suppress(OSError, ValueError):
+        sys.stdout.flush()
+    try:
+        pipe.send((value, error))
+    except MemoryError:
+        pipe.send((None, MEMORY))
+    except Exception as bug:  # what cannot cross to the parent
+        pipe.send((None, Bug(f"{type(bug).__name__}: {bug}", _short_trace(bug))))
+    pipe.close()
+
+
+def _limit_memory(limit: int) -> None:
+    """Where the system counts it, of the data of this process and of each program that it starts."""
+    with contextlib.suppress(OSError, ValueError):
+        soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+        known = [each for each in (limit, soft, hard) if each != resource.RLIM_INFINITY]
+        resource.setrlimit(resource.RLIMIT_DATA, (min(known), hard))
+
+
+def _tell_lines(error: BaseException, trace: int) -> None:
+    """Write the lines that an error came through as `faulthandler` does, innermost first."""
+    trail, lines = error.__traceback__, []
+    while trail:
+        lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')
+        trail = trail.tb_next
+    with contextlib.suppress(OSError):
+        os.write(trace, "".join(reversed(lines[-100:])).encode()[: select.PIPE_BUF * 8])
+
+
+def _short_trace(error: BaseException) -> str:
+    """Its traceback, which for a deep recursion is cut."""
+    return "".join(traceback.format_exception(type(error), error, error.__traceback__, limit=-60))
+
+
+def _end_with_parent(lifeline: int) -> None:
+    os.read(lifeline, 1)  # returns when the last writer, the parent, is gone
+    os.killpg(0, signal.SIGKILL)

@@ -1,0 +1,362 @@
+"""What each command of `derive` does, and how whatever stops it is told."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import json
+import os
+import signal
+import sys
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, NoReturn
+
+from derive import FOLDER
+from derive.building.files import cannot_write, of_system, writing
+from derive.cli.terminal import complain, table, tell
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+
+if TYPE_CHECKING:
+    from derive.building.sets import Report
+    from derive.building.workers import Outcome
+    from derive.render.rendered import Files, Rendered
+
+_REPORT = "   = help: this is a fault of derive: report it with the traceback and the files of the problem"
+_WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
+_UNWRITTEN = {errno.EBADF, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
+_GRADES = ("proved", "sampled", "definition", "approximation")
+
+
+def exit_code(arguments: argparse.Namespace) -> int:
+    """Carry out a command; whatever stops it is told in a few lines, and is not a traceback."""
+    try:
+        _open_streams()
+        signal.signal(signal.SIGTERM, _terminated)
+        code = _COMMANDS[arguments.command](arguments)
+        sys.stdout.flush()
+        return code
+    except DeriveError as error:
+        return _told(error)
+    except KeyboardInterrupt:
+        tell("")
+        print("interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        # Whoever read our output has had enough; the interpreter must not complain about it once more.
+        _silence(1)
+        return 141
+    except MemoryError:
+        return _told(BuildFailed(Complaint("system", "the system refuses: memory is short")))
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is None and error.errno in _UNWRITTEN:
+            _silence(1)
+            return _told(cannot_write(Path("standard output"), error))
+        known = of_system(error) if isinstance(error, OSError) else None
+        if known:
+            return _told(known)
+        tell("")
+        trace = getattr(error, "trace", None)  # a worker's own
+        _internal(str(error) if trace else f"{type(error).__name__}: {error}", trace or traceback.format_exc())
+        return 1
+
+
+def _told(error: DeriveError) -> int:
+    tell("")
+    complain(error.complaints)
+    return error.exit_code
+
+
+def _silence(descriptor: int) -> None:
+    """What is still to be written there goes nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
+
+
+def _open_streams() -> None:
+    """A standard stream that is closed stays so, but no other file may take its place and be written to."""
+    for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, mode)  # to write to the second fails, as it should
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+
+
+def _terminated(number: int, _: FrameType | None) -> NoReturn:
+    raise SystemExit(128 + number)  # unwinds, so that no worker is left behind
+
+
+def _internal(summary: str, trace: str) -> None:
+    if os.environ.get("DERIVE_DEBUG"):
+        print(trace, file=sys.stderr)
+    first = (summary.splitlines() or [""])[0]
+    print(f"internal error: {first} (DERIVE_DEBUG=1 shows the traceback)\n{_REPORT}", file=sys.stderr)
+
+
+def _found_root(named: str | None) -> Path | None:
+    """The folder that has `problems`: as named, or here or above, or where derive is developed."""
+    asked = named or os.environ.get("DERIVE_ROOT")
+    try:
+        here = Path.cwd()
+        candidates = [Path(asked)] if asked else [here, *here.parents, FOLDER.resolve().parent]
+        return next((folder.resolve() for folder in candidates if _has_problems(folder)), None)
+    except FileNotFoundError:
+        message = "the folder that you are in is no more"
+        raise Misused(Complaint("no-root", message, help="change to another folder")) from None
+
+
+def _has_problems(folder: Path) -> bool:
+    try:
+        return (folder / "problems").is_dir()
+    except (OSError, ValueError):  # a name that no folder can have
+        return False
+
+
+def _root(arguments: argparse.Namespace) -> Path:
+    root = _found_root(arguments.root)
+    if root is None:
+        where = f"in `{arguments.root}`" if arguments.root else "here or above"
+        raise Misused(
+            Complaint("no-root", f"there is no folder `problems` {where}", help="name its folder with `--root`")
+        )
+    return root
+
+
+def _problem_id(text: str) -> str:
+    """The id, also where a path was completed by the shell: problems/hw9/block.yaml."""
+    return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
+
+
+def _list(arguments: argparse.Namespace) -> int:
+    from derive.building.solution import headline
+    from derive.building.workers import done, job_of
+    from derive.course.problem import problem_ids
+
+    root = _root(arguments)
+    _warn_of_names(root)
+    rows = [("problem", "points", "title")]
+    for problem_id in problem_ids(root):
+        try:
+            points, title = done(job_of(root, problem_id, partial(headline, root, problem_id), limit=10))
+            rows.append((problem_id, points, title))
+        except DeriveError as error:
+            rows.append((problem_id, "", f"(does not read: {error.complaints[0].message})"))
+    print(table(rows))
+    return 0
+
+
+def _warn_of_names(root: Path) -> None:
+    from derive.building.sets import misnamed_sets
+
+    complain(misnamed_sets(root))
+
+
+def _solve(arguments: argparse.Namespace) -> int:
+    from derive.building.set_document import problem_document
+    from derive.building.solution import rendered
+    from derive.building.workers import Job, done, job_of
+    from derive.course.problem import problem_set
+
+    root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
+    _check_output(arguments.output, root)
+    with _waiting(f"deriving {problem_id}"):
+        draws = arguments.format == "pdf"
+        work = partial(rendered, root, problem_id, arguments.detail, draws=draws)
+        solved: Rendered = done(job_of(root, problem_id, work, limit))
+    complain(solved.warnings)
+    text = solved.text if arguments.format == "text" else solved.json
+    if arguments.format in ("latex", "pdf"):
+        set_id = problem_id.partition("/")[0]
+        heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
+        text = problem_document(root, solved, heading)
+    if arguments.format == "pdf":
+        return _solve_pdf(arguments, root, problem_id, text, solved.files)
+    _deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
+    return 0
+
+
+def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
+    from tempfile import TemporaryDirectory
+
+    from derive.building.files import shown_path
+    from derive.building.sets import set_folder
+    from derive.building.tex import chosen_engine, typeset
+    from derive.building.workers import Job, done
+
+    engine, limit = chosen_engine(arguments.engine), arguments.time_limit
+    set_id, _, name = problem_id.partition("/")
+    suffix = f"-{arguments.detail}" if arguments.detail else ""
+    outputs = set_folder(root, set_id)
+    with _waiting(f"typesetting {problem_id}"), TemporaryDirectory() as folder:
+        target = Path(folder) / f"{name}.pdf"
+        work = partial(typeset, tex, target, engine, timeout=limit, log=outputs / "log", beside=files)
+        done(Job(f"the pages of `{problem_id}`", work, limit + 10))
+        pdf = target.read_bytes()
+    output = arguments.output or str(outputs / f"{name}{suffix}.pdf")
+    _deliver(pdf, output)
+    if output != "-":
+        print(f"wrote {shown_path(Path(output))}", file=sys.stderr)
+    return 0
+
+
+def _check_output(output: str | None, root: Path) -> None:
+    """Refuse before any work what `-o` should not write to: what somebody wrote by hand, and what a link stands for."""
+    if output in (None, "-"):
+        return
+    path = Path(output or "")
+    if not output or "\0" in output:
+        message = "`-o` needs the name of a file"
+    else:
+        with writing(path):
+            message = _kept_from(path, root)
+    if message:
+        raise Misused(Complaint("output", message, help="name a file such as `block.txt`; `-` is standard output"))
+
+
+def _kept_from(path: Path, root: Path) -> str:
+    """Why nothing may be written to that path; empty if it may."""
+    if os.path.islink(path):
+        return f"`{path}` is a link, and what it leads to is not replaced"
+    written = os.path.isfile(path) and (path.suffix in _WRITTEN_BY_HAND or _belongs_to(path, root))
+    return f"`{path}` is a file that somebody wrote, and is not replaced" if written else ""
+
+
+def _belongs_to(path: Path, root: Path) -> bool:
+    """Whether a file is part of the course, or of derive."""
+    folders = (root / "problems", root / "templates", FOLDER)
+    return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
+
+
+def _deliver(content: bytes, output: str | None) -> None:
+    from derive.building.files import write
+
+    path = Path(output or "-")
+    if output in (None, "-"):
+        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and say nothing.
+        with open(1, "wb", closefd=False) as out:
+            out.write(content)
+    elif os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+        with writing(path):  # a device or a pipe cannot be replaced
+            path.write_bytes(content)
+    else:
+        write(path, content)
+
+
+@contextmanager
+def _waiting(text: str) -> Iterator[None]:
+    tell(text)
+    try:
+        yield
+    finally:
+        tell("")
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    from derive.building.sets import set_names
+    from derive.building.solution import rendered
+    from derive.building.workers import Crew, job_of
+    from derive.course.problem import problem_ids
+
+    root = _root(arguments)
+    _warn_of_names(root)
+    ids = _selected([_problem_id(name) for name in arguments.ids], problem_ids(root), set_names(root))
+    jobs = {
+        job_of(root, problem, partial(rendered, root, problem, None), arguments.time_limit): problem for problem in ids
+    }
+    outcomes: dict[str, Outcome] = {}
+    with Crew(arguments.jobs or os.cpu_count() or 1, lambda running: tell(f"checking {', '.join(running)}")) as crew:
+        for job in jobs:
+            crew.put(job)
+        for outcome in crew.outcomes():
+            outcomes[jobs[outcome.job]] = outcome
+    tell("")
+    ordered = [(problem, outcomes[problem]) for problem in ids]
+    heading = ("problem", "steps", *_GRADES, "references", "seconds", "verdict")
+    print(table([heading, *(_row(problem, outcome) for problem, outcome in ordered)]), flush=True)
+    return max([0, *(_verdict_code(outcome) for _, outcome in ordered)])
+
+
+def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
+    """Every problem, or those named, where a set stands for its problems."""
+    named = {name: [name] for name in asked} | {name: [p for p in known if p.startswith(f"{name}/")] for name in sets}
+    return list(dict.fromkeys(problem for name in asked for problem in named[name])) if asked else known
+
+
+def _row(problem_id: str, outcome: Outcome) -> tuple[str, ...]:
+    seconds = f"{outcome.seconds:.1f}"
+    if outcome.error:
+        codes = dict.fromkeys(c.code for c in getattr(outcome.error, "complaints", ())) or ["internal error"]
+        return (problem_id, "", *("" for _ in _GRADES), "", seconds, f"failed: {', '.join(codes)}")
+    rendered: Rendered = outcome.value
+    facts = json.loads(rendered.json)
+    grades = [str(rendered.grades.get(grade, 0)) for grade in _GRADES]
+    verdict = "ok" if rendered.agreed else "differs from its reference"
+    return (problem_id, str(len(facts["steps"])), *grades, str(len(facts["reference"])), seconds, verdict)
+
+
+def _verdict_code(outcome: Outcome) -> int:
+    """The exit code that this problem asks for; says on standard error what was wrong."""
+    if isinstance(outcome.error, DeriveError):
+        complain(outcome.error.complaints)
+        return outcome.error.exit_code
+    if outcome.error:
+        _internal(str(outcome.error), outcome.error.trace)
+        return 1
+    complain(outcome.value.warnings)
+    return 0 if outcome.value.agreed else 1
+
+
+def _build(arguments: argparse.Namespace) -> int:
+    from derive.building.sets import Options, built_set, set_names
+
+    root = _root(arguments)
+    if not arguments.sets:
+        _warn_of_names(root)
+    options = Options(arguments.engine, arguments.detail, arguments.force, arguments.jobs, arguments.time_limit)
+    sets = arguments.sets or set_names(root)
+    if not sets:
+        raise Misused(
+            Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
+        )
+    return max(_reported(built_set(root, _problem_id(name), options, tell)) for name in dict.fromkeys(sets))
+
+
+def _reported(report: Report) -> int:
+    from derive.building.files import shown_path
+
+    tell("")
+    complain([*report.warnings, *report.complaints])
+    for bug in report.bugs:
+        _internal(str(bug), bug.trace)
+    pdfs = [shown_path(path) for path in report.changed if path.suffix == ".pdf"]
+    said = f"wrote {', '.join(pdfs)}" if pdfs else "no page changed" if report.derived else "up to date"
+    if report.failed:
+        said = f"failed; {said if pdfs else 'earlier pages are as they were'}"
+    print(
+        f"{report.set_id}: derived {report.derived} of {report.problems} problems, {said} ({report.seconds:.1f} s)",
+        flush=True,
+    )
+    return 1 if report.failed else 0
+
+
+def _doctor(arguments: argparse.Namespace) -> int:
+    from derive.building.doctor import findings
+
+    found = findings(_found_root(arguments.root), arguments.engine)
+    for finding in found:
+        print(finding.shown())
+    return 0 if all(finding.good for finding in found) else 1
+
+
+_COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "list": _list,
+    "solve": _solve,
+    "check": _check,
+    "build": _build,
+    "doctor": _doctor,
+}

@@ -1,0 +1,97 @@
+"""The command line of `derive`: its options. `--help` imports little more than argparse."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+DETAILS = ("brief", "standard", "full")
+FORMATS = ("text", "latex", "pdf", "json")
+_TIME_LIMIT = 120.0
+
+_ENVIRONMENT = """\
+environment:
+  DERIVE_ENGINE  the TeX engine, as --engine
+  DERIVE_ROOT    the folder that has problems/, as --root
+  DERIVE_MEMORY  how many GiB one problem may take (default 4)
+  DERIVE_DEBUG   1 shows the traceback of an internal error
+  NO_COLOR       anything turns colours off
+
+exit codes: 0 fine, 1 a check or a build failed, 2 wrong usage
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    arguments = _parser().parse_args(argv)
+    try:
+        from derive.cli.commands import exit_code
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+    return exit_code(arguments)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="derive",
+        description="Worked solutions of mechanics problems: derived, checked line by line, typeset.",
+        epilog=_ENVIRONMENT,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version and exit")
+    parser.add_argument("--root", metavar="FOLDER", help="the folder that has problems/ (default: here or above)")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+
+    def command(name: str, help: str) -> argparse.ArgumentParser:
+        sub = commands.add_parser(name, help=help, description=help[0].upper() + help[1:] + ".")
+        sub.set_defaults(command=name)
+        return sub
+
+    command("list", "list the problems")
+    solve = command("solve", "derive one problem and show its solution")
+    solve.add_argument("id", metavar="ID", help="such as hw9/block")
+    solve.add_argument("--format", choices=FORMATS, default="text")
+    solve.add_argument("-o", dest="output", metavar="FILE", help="where to write; - is standard output")
+    check = command("check", "derive problems, verify every line, compare with the reference")
+    check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem")
+    build = command("build", "typeset sets of problems; only what changed is done again")
+    build.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
+    build.add_argument("--force", action="store_true", help="do everything again")
+    doctor = command("doctor", "show what a build needs and what is missing")
+    for sub in (solve, build):
+        sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
+    for sub in (solve, build, doctor):
+        sub.add_argument("--engine", metavar="NAME", help="tinytex (default), latexmk, pdflatex, lualatex or tectonic")
+    for sub in (solve, check, build):
+        sub.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
+    for sub in (check, build):
+        sub.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
+    return parser
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print(f"derive {version('derive')}")
+        except PackageNotFoundError:
+            print("derive (not installed)")
+        parser.exit()
+
+
+def _positive(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < float("inf"):
+        raise ValueError(text)
+    return seconds
+
+
+def _count(text: str) -> int:
+    if int(text) < 1:
+        raise ValueError(text)
+    return int(text)
+
+
+_positive.__name__, _count.__name__ = "time limit", "count"  # argparse names the type in its message

@@ -1,0 +1,45 @@
+"""What the command line shows: complaints in colour, one live line while something runs, aligned tables."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+from collections.abc import Iterable, Sequence
+
+from derive.errors import Complaint
+
+_HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
+MOST = 50  # complaints that are shown
+_PAINT = {"error": "1;31", "warning": "1;33"}
+
+
+def complain(complaints: Iterable[Complaint]) -> None:
+    """Each fault once, in its order, on standard error; of very many the first, and how many more there are."""
+    coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    found = list(dict.fromkeys(complaints))
+    for text in dict.fromkeys(complaint.shown() for complaint in found[:MOST]):
+        painted = _HEAD.sub(lambda m: f"\x1b[{_PAINT[m[1]]}m{m[0]}\x1b[0m", text, count=1)
+        print(painted if coloured else text, file=sys.stderr)
+    if found[MOST:]:
+        print(f"and {len(found) - MOST} more", file=sys.stderr)
+
+
+def tell(text: str) -> None:
+    """Show what is under way, over what was shown before; an empty text clears the line. Silent in a pipe."""
+    if sys.stderr.isatty():
+        width = shutil.get_terminal_size().columns - 1
+        print(f"\r\x1b[K{text[:width]}", end="", file=sys.stderr, flush=True)
+
+
+def table(rows: Sequence[Sequence[str]]) -> str:
+    """Columns aligned: words to the left, numbers to the right; the first row is the heading."""
+    columns = list(zip(*rows, strict=True))
+    numeric = [all(re.fullmatch(r"[\d.]*", cell) for cell in column[1:]) for column in columns]
+    widths = [max(map(len, column)) for column in columns]
+    lines = []
+    for row in rows:
+        cells = zip(row, widths, numeric, strict=True)
+        lines.append("  ".join(c.rjust(w) if n else c.ljust(w) for c, w, n in cells).rstrip())
+    return "\n".join(lines)

@@ -1,0 +1,216 @@
+"""Expressions in YAML: text to SymPy by a grammar of our own, with dimensions and exact places.
+
+    sum      product (("+" | "-") product)*
+    product  unary (("*" | "/") unary)*
+    unary    ("-" | "+") unary | atom ("**" unary)?
+    atom     number | name | function "(" sum ")" | "(" sum ")"
+
+Every character is accounted for by the grammar; no text ever reaches Python or SymPy as code. What is built is bounded
+before it is built: `size` bounds digits and degrees, `terms` what it would be when multiplied out.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+from sympy import Expr, cos, exp, pi, sin, sqrt, tan
+
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.course.arithmetic import Arithmetic, Declared, Term, rational
+from derive.course.yaml_tree import Scalar
+from derive.errors import Complaint, Faults, did_you_mean
+
+__all__ = ["FUNCTIONS", "MAX_DEPTH", "MAX_LENGTH", "RESERVED", "Declared", "rational", "read_expression"]
+
+MAX_LENGTH = 300
+MAX_DEPTH = 40
+
+FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {"sqrt": sqrt, "sin": sin, "cos": cos, "tan": tan, "exp": exp}
+RESERVED = ("pi", *FUNCTIONS)
+
+_TOKEN = re.compile(
+    r"(?P<space>\s+)|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_][A-Za-z0-9_]*)"
+    r"|(?P<operator>\*\*|[-+*/(),])|(?P<other>.)",
+    re.ASCII | re.DOTALL,
+)
+_INSTEAD = {
+    "^": "**",
+    "·": "*",
+    "×": "*",
+    "⋅": "*",
+    "−": "-",
+    "–": "-",
+    "÷": "/",
+    "²": "**2",
+    "³": "**3",
+    "√": "sqrt(...)",
+    "[": "(",
+    "]": ")",
+    "{": "(",
+    "}": ")",
+}
+_WHY_NOT = {
+    ".": "an expression has no attributes",
+    **dict.fromkeys("'\"", "an expression has no text"),
+    **dict.fromkeys("=<>!", "an expression has no comparisons"),
+}
+
+
+@dataclass(frozen=True)
+class _Token:
+    kind: str
+    text: str
+    start: int
+
+    @property
+    def end(self) -> int:
+        return self.start + len(self.text)
+
+
+def read_expression(scalar: Scalar, symbols: Mapping[str, Declared]) -> tuple[Expr, Dimension]:
+    """The value and dimension of an expression in the declared symbols, or `Rejected` with what is wrong with it."""
+    return _Parser(scalar, symbols).whole()
+
+
+class _Parser(Arithmetic):
+    def __init__(self, scalar: Scalar, symbols: Mapping[str, Declared]):
+        super().__init__(scalar)
+        self.symbols = symbols
+        self.at = 0
+        if not self.text.strip():
+            self.refuse("expression", "an expression is missing", 0)
+        if len(self.text) > MAX_LENGTH:
+            message = f"this expression has {len(self.text)} characters, and {MAX_LENGTH} are allowed"
+            self.refuse("too-large", message, 0)
+        found = [_Token(str(m.lastgroup), m[0], m.start()) for m in _TOKEN.finditer(self.text)]
+        self.tokens = [token for token in found if token.kind != "space"]
+        self.tokens.append(_Token("end", "", len(self.text.rstrip())))
+        self.check_vocabulary()
+
+    # -- words ----------------------------------------------------------------------------------------------------
+
+    def check_vocabulary(self) -> None:
+        """Every undeclared name at once; a character or call that has no meaning here ends the list."""
+        faults = Faults()
+        for token, following in zip(self.tokens, self.tokens[1:], strict=False):
+            if token.kind == "other":
+                faults.add(self.odd_character(token))
+                break
+            if token.kind != "name" or token.text in RESERVED:
+                continue
+            declared = token.text in self.symbols
+            if following.text == "(" and not (declared and following.start > token.end):
+                faults.add(self.odd_call(token, declared))
+                break
+            if not declared:
+                faults.add(self.undeclared(token))
+        faults.stop()
+
+    def odd_character(self, token: _Token) -> Complaint:
+        char = token.text
+        instead, why = _INSTEAD.get(char), _WHY_NOT.get(char, f"`{char}` is not part of an expression")
+        if greek := re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER ([A-Z]+)", unicodedata.name(char, "")):
+            instead = greek[2].lower() if greek[1] == "SMALL" else greek[2].capitalize()
+        help_line = f"write `{instead}`" + (" for a power" if char == "^" else "") if instead else None
+        if char == "\\":
+            help_line = "write `omega`, not `\\omega`"
+        return self.complaint("expression", why, token.start, token.end, help_line)
+
+    def odd_call(self, token: _Token, declared: bool) -> Complaint:
+        if declared:
+            message, help_line = f"`{token.text}` is not a function", f"write `{token.text}*(...)`"
+            return self.complaint("expression", message, token.start, token.end, help_line)
+        help_line = did_you_mean(token.text, FUNCTIONS) or "the functions are " + ", ".join(f"`{f}`" for f in FUNCTIONS)
+        return self.complaint("expression", f"unknown function `{token.text}`", token.start, token.end, help_line)
+
+    def undeclared(self, token: _Token) -> Complaint:
+        help_line = did_you_mean(token.text, (*self.symbols, *RESERVED)) or "declare it under `symbols:`"
+        return self.complaint("undeclared-symbol", f"`{token.text}` is not declared", token.start, token.end, help_line)
+
+    # -- grammar --------------------------------------------------------------------------------------------------
+
+    @property
+    def token(self) -> _Token:
+        return self.tokens[self.at]
+
+    def taken(self, *texts: str) -> str | None:
+        """The operator that stands here, if it is one of these, and step past it."""
+        if self.token.text not in texts:
+            return None
+        self.at += 1
+        return self.tokens[self.at - 1].text
+
+    def whole(self) -> tuple[Expr, Dimension]:
+        term = self.sum(0)
+        if self.token.kind != "end":
+            self.refuse("expression", f"`{self.token.text}` is not expected here", self.token.start, self.token.end)
+        return term.expr, term.dimension
+
+    def sum(self, depth: int) -> Term:
+        left = self.product(depth)
+        while sign := self.taken("+", "-"):
+            right = self.product(depth)
+            left = self.added(left, right, sign)
+        return left
+
+    def product(self, depth: int) -> Term:
+        left = self.unary(depth)
+        while sign := self.taken("*", "/"):
+            right = self.unary(depth)
+            left = self.multiplied(left, self.reciprocal(right) if sign == "/" else right)
+        if self.token.kind in ("number", "name") or self.token.text == "(":
+            before, here = self.tokens[self.at - 1], self.token
+            after = here.text.removesuffix("(") + "(...)" * (here.text == "(" or here.text in FUNCTIONS)
+            help_line = f"write `{before.text}*{after}`" if before.kind != "operator" else "write `*` for a product"
+            self.refuse("expression", f"an operator is missing before `{here.text}`", here.start, here.end, help_line)
+        return left
+
+    def unary(self, depth: int) -> Term:
+        here = self.token
+        if depth > MAX_DEPTH:
+            self.refuse("too-large", f"this expression is nested more than {MAX_DEPTH} deep", here.start)
+        if sign := self.taken("-", "+"):
+            term = self.unary(depth + 1)
+            return self.negated(term, here.start) if sign == "-" else replace(term, start=here.start)
+        base = self.atom(depth + 1)
+        return self.raised(base, self.unary(depth + 1)) if self.taken("**") else base
+
+    def atom(self, depth: int) -> Term:
+        token = self.token
+        self.at += 1
+        if token.kind == "number":
+            return self.number(token.text, token.start, token.end)
+        if token.text in FUNCTIONS:
+            return self.call(token, depth)
+        if token.kind == "name":
+            if token.text == "pi":
+                return Term(pi, NUMBER, token.start, token.end)
+            declared = self.symbols[token.text]
+            return Term(declared.symbol, declared.dimension, token.start, token.end, kind=declared.kind)
+        if token.text == "(":
+            inner = replace(self.sum(depth), start=token.start)
+            return replace(inner, end=self.closed(token))
+        self.at -= 1
+        found = f"before `{token.text}`" if token.text else "at the end"
+        self.refuse("expression", f"something is missing {found}", token.start, token.end)
+
+    def closed(self, opening: _Token) -> int:
+        end = self.token.end
+        if not self.taken(")"):
+            self.refuse("expression", "this `(` is never closed", opening.start)
+        return end
+
+    def call(self, name: _Token, depth: int) -> Term:
+        opening = self.token
+        if not self.taken("("):
+            self.refuse(
+                "expression", f"`{name.text}` needs brackets", name.start, name.end, f"write `{name.text}(...)`"
+            )
+        inner = self.sum(depth)
+        if self.token.text == ",":
+            self.refuse("expression", f"`{name.text}` takes one value", self.token.start)
+        end = self.closed(opening)
+        return self.applied(name.text, FUNCTIONS[name.text], inner, name.start, end)

@@ -1,0 +1,231 @@
+r"""Letters and functions in a formula: what a name stands for, and how far the argument of a function reaches.
+
+Without brackets an argument is the shortest run of factors that has a letter and is an angle or a number:
+`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. Where the next factor could as well belong to it, it is refused.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import replace
+
+from sympy import Dummy, E, Integer, pi
+
+from derive.algebra.dimensions import NUMBER
+from derive.course.arithmetic import Term
+from derive.course.latex.grids import Grid, Grids, Value
+from derive.course.latex.letters import Letter, Letters, letter_at, subscript_of, term_of
+from derive.course.latex.runs import Run
+from derive.course.latex.tokens import Argument, Token
+from derive.course.latex.vocabulary import FONTS, FRACTIONS, FUNCTIONS, WORDS
+from derive.course.yaml_tree import Scalar
+from derive.errors import Complaint, did_you_mean
+
+
+class Functions(Grids):
+    """What `Formula` builds on; the grammar itself gives `factor`, `inside`, `script` and `atom`."""
+
+    def __init__(self, scalar: Scalar, letters: Letters, homogeneous: bool):
+        super().__init__(scalar, homogeneous)
+        self.letters = letters
+        self.d_is_a_letter = "d" in letters
+        self.undeclared: list[Complaint] = []
+        self.euler = Term(E, NUMBER, 0, 0)
+
+    # -- letters --------------------------------------------------------------------------------------------------
+
+    def letter_or_axis(self, run: Run) -> Value | None:
+        letter = self.read_letter(run)
+        if letter is None:
+            return None
+        declared = self.letters.named(letter)
+        if letter.axis is not None and (declared is None or letter.hat):
+            one, zero = (Term(Integer(n), NUMBER, letter.start, letter.end) for n in (1, 0))
+            return Grid(tuple((one if i == letter.axis else zero,) for i in range(3)), letter.start, letter.end)
+        if declared is None and letter.name == "e" and run.written == "^":
+            self.euler = replace(self.euler, start=letter.start, end=letter.end)
+            return self.euler
+        if letter.hat:
+            what = self.text[letter.start : letter.end]
+            self.refuse("latex", f"`{what}` is a unit vector that is not read", letter.start, letter.end)
+        self.check_not_a_function(letter, run)
+        return self.value_of(letter)
+
+    def letter(self, run: Run) -> Term | None:
+        letter = self.read_letter(run)
+        return None if letter is None else self.value_of(letter)
+
+    def value_of(self, letter: Letter) -> Term:
+        declared = self.letters.named(letter)
+        if declared is None:
+            self.undeclared.append(self.not_declared(letter))
+            self.homogeneous = False  # of its dimension nothing is known, so nothing more is said of dimensions
+            return Term(Dummy(letter.name, real=True), NUMBER, letter.start, letter.end)
+        term = term_of(letter, declared)
+        if letter.vector:
+            self.vectors.append(letter.start)
+        self.dimensions[term.expr] = term.dimension
+        return term
+
+    def read_letter(self, run: Run) -> Letter | None:
+        token = run.token
+        letter = letter_at(token)
+        if token is None or letter is None:
+            if token and token.kind == "command" and token.text in WORDS | FONTS:
+                self.refuse("latex", "words are no part of a formula", token.start, token.end)
+            return None
+        run.at += 1
+        if run.written != "_" or letter.subscript:
+            return letter
+        below = self.script(run)
+        subscript = subscript_of(below.tokens)
+        if subscript is None:
+            message = f"what stands below `{self.text[letter.start : letter.end]}` is not a name"
+            self.refuse("latex", message, below.start, below.end)
+        return replace(letter, subscript=subscript, end=below.end)
+
+    def not_declared(self, letter: Letter) -> Complaint:
+        written = self.text[letter.start : letter.end]
+        if len(letter.base) > 1 and written.startswith(tuple(f"\\{font}" for font in FONTS)):
+            message, help_line = f"`{letter.base}` is not declared", "the unit of a value stands under `in:`"
+            return self.complaint("undeclared-symbol", message, letter.start, letter.end, help_line)
+        name = letter.name.replace(",", "_")
+        help_line = did_you_mean(name, self.letters.declared) or "declare it under `symbols:`"
+        if letter.name in ("d", "e"):
+            help_line = f"declare it under `symbols:`, or give `{letter.name}` what it belongs to"
+        return self.complaint("undeclared-symbol", f"`{name}` is not declared", letter.start, letter.end, help_line)
+
+    def check_not_a_function(self, letter: Letter, run: Run) -> None:
+        r"""`U(\theta)` is a function to every reader, and `a(b)` nobody writes for a product."""
+        three = run.tokens[run.at : run.at + 3]
+        if len(three) == 3 and three[0].text == "(" and three[2].text == ")" and letter_at(three[1]):
+            whole = self.text[letter.start : three[2].end]
+            help_line = "leave the brackets away, whether it is a product or a function"
+            self.refuse("ambiguous", f"`{whole}` could be a function", letter.start, three[2].end, help_line)
+
+    def named_as_a_whole(self, run: Run, first: int) -> Term | None:
+        r"""`\left(I_z\right)_{disc}` is the letter `I_z_disc`; None where the subscript is a limit."""
+        inner = Run(run.tokens[first : run.at - 1], run.before.start)
+        letter = self.read_letter(inner)
+        at = run.at
+        below = self.script(run)
+        subscript = subscript_of(below.tokens)
+        if letter is None or inner.token or subscript is None or run.written == "^":
+            run.at = at
+            return None
+        joined = f"{letter.subscript}_{subscript}" if letter.subscript else subscript
+        return self.value_of(replace(letter, subscript=joined, end=below.end))
+
+    # -- functions ------------------------------------------------------------------------------------------------
+
+    def function(self, run: Run, token: Token, depth: int) -> Value:
+        name = token.text
+        if name not in FUNCTIONS:
+            self.refuse("latex", f"`\\{name}` is not expected here", token.start, token.end)
+        power = self.power_of_function(run, token, depth)
+        inner = self.in_brackets(run, depth) if self.opens(run) else self.without_brackets(run, token, depth)
+        value = self.applied(name, FUNCTIONS[name], inner, token.start, inner.end)
+        return self.power_of(value, power) if power else value
+
+    def power_of_function(self, run: Run, token: Token, depth: int) -> Term | None:
+        if run.written != "^":
+            return None
+        script = self.script(run)
+        power = self.scalar_in(self.inside(script, depth), "an exponent")
+        if power.expr.is_negative:
+            help_line = f"write `\\arc{token.text}`, or `1/\\{token.text}`"
+            self.refuse("ambiguous", "this could be the inverse function", script.start, script.end, help_line)
+        return power
+
+    def opens(self, run: Run) -> bool:
+        return run.token is not None and run.token.kind == "open" and run.token.text in ("(", "[")
+
+    def in_brackets(self, run: Run, depth: int) -> Term:
+        inner = self.scalar_in(self.atom(run, depth), "the argument of a function")
+        self.check_power(run, inner)
+        return inner
+
+    def check_power(self, run: Run, inner: Term) -> None:
+        if run.written == "^":
+            token = run.token
+            assert token is not None
+            message = "this power could be of the function or of its argument"
+            self.refuse("ambiguous", message, inner.start, token.end, "write `\\sin^2 x` or `\\sin(x^2)`")
+
+    def without_brackets(self, run: Run, function: Token, depth: int) -> Term:
+        argument: Term | None = None
+        while self.is_plain(run.token):
+            argument, complete = self.longer(argument, run, depth)
+            if complete:
+                break
+        if argument is None:
+            place = run.token or function
+            message = f"the argument of `\\{function.text}` is missing"
+            self.refuse("latex", message, place.start, place.end)
+        unfit = self.homogeneous and argument.dimension != NUMBER
+        if unfit or (self.opens(run) and self.is_only_a_number(argument)):
+            message = f"the argument of `\\{function.text}` is not clear"
+            self.refuse("ambiguous", message, argument.start, argument.end, "put it in brackets")
+        self.check_end(run, argument, depth)
+        return argument
+
+    def longer(self, argument: Term | None, run: Run, depth: int) -> tuple[Term, bool]:
+        """The argument with one factor more, and whether it is now complete."""
+        factor = self.scalar_in(self.atom(run, depth), "the argument of a function")
+        degrees = run.written == "^" and [t.text for t in self.script_ahead(run).tokens] == ["circ"]
+        if degrees:
+            value = self.raised_to(factor, self.script(run), depth, run)
+            factor = self.scalar_in(value, "an angle in degrees")
+        else:
+            self.check_power(run, factor)
+        argument = factor if argument is None else self.multiplied(argument, factor)
+        return argument, degrees or (argument.dimension == NUMBER and not self.is_only_a_number(argument))
+
+    def script_ahead(self, run: Run) -> Argument:
+        at = run.at
+        script = self.script(run)
+        run.at = at
+        return script
+
+    def is_plain(self, token: Token | None) -> bool:
+        """What an argument without brackets may be made of: numbers, letters and fractions."""
+        if token is None:
+            return False
+        return token.kind == "number" or token.text in FRACTIONS | {"pi"} or letter_at(token) is not None
+
+    def is_only_a_number(self, term: Term) -> bool:
+        return bool(term.expr.is_number) and not term.expr.has(pi)
+
+    def check_end(self, run: Run, argument: Term, depth: int) -> None:
+        """Whether the next factor could belong to the argument as well as not."""
+        token = run.token
+        if token is None:
+            return
+        unclear = run.written == "/"
+        if self.is_plain(token) and not (token.kind == "letter" and token.text == "d" and not self.d_is_a_letter):
+            at, told = run.at, len(self.undeclared)
+            following = self.atom(run, depth)
+            run.at = at
+            del self.undeclared[told:]
+            unclear = isinstance(following, Term) and following.dimension == NUMBER
+        if unclear:
+            message = f"`{self.shown(argument)}` may not be the whole argument"
+            self.refuse("ambiguous", message, argument.start, token.end, "put the argument in brackets")
+
+    # -- given by the grammar ---------------------------------------------------------------------------------------
+
+    @abstractmethod
+    def atom(self, run: Run, depth: int) -> Value:
+        """The next factor."""
+
+    @abstractmethod
+    def script(self, run: Run) -> Argument:
+        """What stands behind `^` or `_`."""
+
+    @abstractmethod
+    def inside(self, argument: Argument | None, depth: int) -> Value:
+        """What stands within an argument."""
+
+    @abstractmethod
+    def raised_to(self, base: Value, script: Argument, depth: int, run: Run) -> Value:
+        """A value with its exponent."""

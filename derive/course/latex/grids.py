@@ -1,0 +1,190 @@
+"""Sums and products of what a formula may hold: scalars, columns and matrices, each entry with its own dimension."""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import TypeAlias
+
+from sympy import Abs, Expr, Integer
+
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.course.arithmetic import Arithmetic, Term
+from derive.course.yaml_tree import Scalar
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A column or a matrix under construction, row by row."""
+
+    rows: tuple[tuple[Term, ...], ...]
+    start: int
+    end: int
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        return len(self.rows), len(self.rows[0])
+
+    @property
+    def column(self) -> tuple[Term, ...]:
+        return tuple(row[0] for row in self.rows)
+
+    @property
+    def is_vector(self) -> bool:
+        return self.shape == (3, 1)
+
+
+Value: TypeAlias = Term | Grid
+
+
+def each(value: Value, change: Callable[[Term], Term]) -> Value:
+    """The same done to a scalar, or to every entry."""
+    if isinstance(value, Term):
+        return change(value)
+    return replace(value, rows=tuple(tuple(change(term) for term in row) for row in value.rows))
+
+
+def between(value: Value, start: int, end: int) -> Value:
+    """The value as it stands with what surrounds it; entries keep their places."""
+    return replace(value, start=start, end=end)
+
+
+class Grids(Arithmetic, ABC):
+    """The operations of `Arithmetic`, also on columns and matrices.
+
+    Zero fits every dimension, for a document writes `0` in any matrix. Where numbers have been put in for letters, or
+    the document is known to be wrong, dimensions mean nothing and are not compared: `homogeneous` is then false.
+    """
+
+    max_terms = 20_000
+
+    def __init__(self, scalar: Scalar, homogeneous: bool):
+        super().__init__(scalar)
+        self.homogeneous = homogeneous
+        self.d_is_a_letter = False
+        self.vectors: list[int] = []  # where letters stand that are printed as vectors
+        self.dimensions: dict[Expr, Dimension] = {}  # of the letters read so far
+
+    def fits(self, left: Term, right: Term) -> bool:
+        return super().fits(left, right) or not self.homogeneous or left.expr == 0 or right.expr == 0
+
+    def added(self, left: Term, right: Term, sign: str) -> Term:
+        total = super().added(left, right, sign)
+        return replace(total, dimension=right.dimension) if left.expr == 0 else total
+
+    def applied(self, name: str, function: Callable[[Expr], Expr], inner: Term, start: int, end: int) -> Term:
+        if not self.homogeneous and name != "sqrt":
+            inner = replace(inner, dimension=NUMBER)
+        return super().applied(name, function, inner, start, end)
+
+    def sum_of(self, left: Value, right: Value, sign: str) -> Value:
+        if isinstance(left, Term) and isinstance(right, Term):
+            return self.added(left, right, sign)
+        if isinstance(left, Term) or isinstance(right, Term) or left.shape != right.shape:
+            verb = "added" if sign == "+" else "subtracted"
+            message = f"{_shape(left)} and {_shape(right)} cannot be {verb}"
+            self.refuse("shape", message, right.start, right.end)
+        rows = tuple(
+            tuple(self.added(a, b, sign) for a, b in zip(above, below, strict=True))
+            for above, below in zip(left.rows, right.rows, strict=True)
+        )
+        return Grid(rows, left.start, right.end)
+
+    def minus(self, value: Value, start: int) -> Value:
+        return between(each(value, lambda term: self.negated(term, term.start)), start, value.end)
+
+    def product_of(self, left: Value, right: Value, sign: str) -> Value:
+        """Side by side, or with a dot or a cross between them."""
+        if isinstance(left, Term) and isinstance(right, Term):
+            if sign and self.has_vector(left) and self.has_vector(right):
+                components = "write their components, `\\{a_1, a_2, a_3\\}`"
+                message = "the product of two vectors is read only from their components"
+                self.refuse("shape", message, left.start, right.end, components)
+            return self.multiplied(left, right)
+        if isinstance(left, Term):
+            return between(each(right, lambda term: self.scaled(left, term)), left.start, right.end)
+        if isinstance(right, Term):
+            return between(each(left, lambda term: self.scaled(right, term)), left.start, right.end)
+        if sign == "\\cdot" and left.is_vector and right.is_vector:
+            return self.dot(left, right)
+        if sign == "\\times" and left.is_vector and right.is_vector:
+            return self.cross(left, right)
+        if sign != "\\times" and left.shape[1] == right.shape[0]:
+            return self.matrix_product(left, right)
+        help_line = "write `\\cdot` or `\\times` between vectors" if left.is_vector and right.is_vector else None
+        message = f"{_shape(left)} and {_shape(right)} cannot be multiplied so"
+        self.refuse("shape", message, right.start, right.end, help_line)
+
+    def has_vector(self, term: Term) -> bool:
+        return any(term.start <= at < term.end for at in self.vectors)
+
+    def scaled(self, factor: Term, term: Term) -> Term:
+        return replace(self.multiplied(factor, term), start=term.start, end=term.end)
+
+    def dot(self, left: Grid, right: Grid) -> Term:
+        products = [self.scaled(a, b) for a, b in zip(left.column, right.column, strict=True)]
+        total = reduce(lambda a, b: self.added(a, b, "+"), products)
+        return replace(total, start=left.start, end=right.end)
+
+    def cross(self, left: Grid, right: Grid) -> Grid:
+        a, b = left.column, right.column
+        entries = [
+            self.added(self.scaled(a[i], b[j]), self.scaled(a[j], b[i]), "-") for i, j in ((1, 2), (2, 0), (0, 1))
+        ]
+        return Grid(tuple((entry,) for entry in entries), left.start, right.end)
+
+    def matrix_product(self, left: Grid, right: Grid) -> Value:
+        rows = [
+            [
+                reduce(
+                    lambda a, b: self.added(a, b, "+"),
+                    (self.scaled(a, row[k]) for a, row in zip(above, right.rows, strict=True)),
+                )
+                for k in range(right.shape[1])
+            ]
+            for above in left.rows
+        ]
+        if left.shape[0] == right.shape[1] == 1:
+            return replace(rows[0][0], start=left.start, end=right.end)
+        return Grid(tuple(tuple(row) for row in rows), left.start, right.end)
+
+    def quotient_of(self, above: Value, below: Value) -> Value:
+        if isinstance(below, Grid):
+            self.refuse("shape", f"nothing is divided by {_shape(below)}", below.start, below.end)
+        reciprocal = self.reciprocal(below)
+        if isinstance(above, Term):
+            return self.multiplied(above, reciprocal)
+        return between(each(above, lambda term: self.scaled(reciprocal, term)), above.start, below.end)
+
+    def power_of(self, base: Value, exponent: Term) -> Value:
+        if isinstance(base, Term):
+            return self.raised(base, exponent)
+        if base.is_vector and exponent.expr == 2:
+            return replace(self.dot(base, base), end=exponent.end)
+        message = f"only the square of a vector is read, not this power of {_shape(base)}"
+        self.refuse("shape", message, exponent.start, exponent.end)
+
+    def size_of(self, inner: Value, start: int, end: int) -> Term:
+        """What stands between bars: the absolute value of a scalar, the length of a vector."""
+        self.vectors = [at for at in self.vectors if not start <= at < end]
+        if isinstance(inner, Term):
+            return replace(inner, expr=Abs(inner.expr), start=start, end=end, kind=None)
+        if inner.shape[1] != 1:
+            self.refuse("shape", "a determinant is not read", start, end)
+        squares = self.matrix_product(Grid((inner.column,), start, end), inner)
+        assert isinstance(squares, Term)
+        return replace(self.raised(squares, Term(Integer(1) / 2, NUMBER, start, end)), start=start, end=end)
+
+    def scalar_in(self, value: Value, what: str) -> Term:
+        if isinstance(value, Grid):
+            self.refuse("shape", f"{what} must be a scalar, but this is {_shape(value)}", value.start, value.end)
+        return value
+
+
+def _shape(value: Value) -> str:
+    if isinstance(value, Term):
+        return "a scalar"
+    rows, columns = value.shape
+    return f"a column of {rows}" if columns == 1 else f"a matrix of {rows} by {columns}"

@@ -1,0 +1,142 @@
+"""Letters as a document writes them, and the declared names they stand for.
+
+A name is a letter, Greek or Latin, and what stands below it: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot makes the
+letter's rate of change, as `derive.algebra.expressions.rate` names it: `theta_dot`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from derive.algebra.dimensions import dimension_of_kind
+from derive.algebra.expressions import rate
+from derive.course.arithmetic import Declared, Term
+from derive.course.latex.tokens import Argument, Token
+from derive.course.latex.vocabulary import ARROWS, BOLD, DECORATIONS, DOTS, GREEK, WORDS
+
+_SUBSCRIPT = {"letter", "number", "word"}
+UNIT_VECTORS = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A letter of the document before it is looked up; `hat` and `bold` are how it is decorated."""
+
+    base: str
+    start: int
+    end: int
+    subscript: str = ""
+    dots: int = 0
+    hat: bool = False
+    vector: bool = False  # in bold or under an arrow
+
+    @property
+    def name(self) -> str:
+        return f"{self.base}_{self.subscript}" if self.subscript else self.base
+
+    @property
+    def axis(self) -> int | None:
+        """Which unit vector it could be: i, j, k as a vector, x, y, z only under a hat."""
+        marked = self.hat or (self.vector and self.base in "ijk")
+        return UNIT_VECTORS.get(self.base) if marked and not self.subscript and not self.dots else None
+
+
+class Letters:
+    """The names that may be used, told apart by their letter and subscript without the marks between."""
+
+    def __init__(self, declared: Mapping[str, Declared]):
+        self.declared = declared
+        self._names: dict[tuple[str, str], list[str]] = {}
+        for name in declared:
+            base, _, subscript = name.partition("_")
+            self._names.setdefault((base, _bare(subscript)), []).append(name)
+
+    def named(self, letter: Letter) -> Declared | None:
+        found = self._names.get((letter.base, _bare(letter.subscript)), [])
+        return self.declared[found[0]] if len(found) == 1 else None
+
+    def __contains__(self, base: str) -> bool:
+        return (base, "") in self._names
+
+
+def _bare(subscript: str) -> str:
+    return re.sub(r"[_,]", "", subscript)
+
+
+def term_of(letter: Letter, declared: Declared) -> Term:
+    """The letter's value: its symbol, or the symbol of its rate."""
+    symbol, dimension, kind = declared.symbol, declared.dimension, declared.kind
+    if letter.dots:
+        symbol, dimension = rate(symbol, letter.dots), dimension / dimension_of_kind("time") ** letter.dots
+        return Term(symbol, dimension, letter.start, letter.end)
+    return Term(symbol, dimension, letter.start, letter.end, kind=kind)
+
+
+def letter_at(token: Token | None) -> Letter | None:
+    """The letter that a token is, with its decoration and dots, if it is one."""
+    if token is None:
+        return None
+    if token.kind == "letter":
+        return Letter(token.text, token.start, token.end)
+    if token.kind == "command" and token.text in GREEK:
+        return Letter(token.text, token.start, token.end)
+    if token.kind == "command" and token.text in ("imath", "jmath"):
+        return Letter(token.text[0], token.start, token.end)
+    if token.kind == "command" and token.text in DECORATIONS | set(DOTS):
+        return _decorated(token)
+    return None
+
+
+def _decorated(token: Token) -> Letter | None:
+    argument = token.arguments[0]
+    assert argument is not None
+    if not argument.tokens:
+        return None
+    if len(argument.tokens) == 1:
+        inner = letter_at(argument.tokens[0])
+    else:
+        inner = _long_name(argument) or _with_subscript(argument)
+    if inner is None:
+        return None
+    return Letter(
+        inner.base,
+        token.start,
+        token.end,
+        inner.subscript,
+        inner.dots + DOTS.get(token.text, 0),
+        inner.hat or token.text == "hat",
+        inner.vector or token.text in ARROWS | BOLD,
+    )
+
+
+def _long_name(argument: Argument) -> Letter | None:
+    r"""A name of several letters, set upright or in italics: `\mathit{mass}`."""
+    if len(argument.tokens) > 1 and all(token.kind == "letter" for token in argument.tokens):
+        return Letter("".join(token.text for token in argument.tokens), argument.start, argument.end)
+    return None
+
+
+def _with_subscript(argument: Argument) -> Letter | None:
+    r"""`\dot{\omega_1}`: the subscript inside the braces."""
+    base, *rest = argument.tokens
+    letter = letter_at(base)
+    if letter is None or not rest or rest[0].text != "_" or rest[0].kind != "script":
+        return None
+    subscript = subscript_of(tuple(rest[1:]))
+    return Letter(letter.base, letter.start, argument.end, subscript, letter.dots) if subscript else None
+
+
+def subscript_of(tokens: tuple[Token, ...]) -> str | None:
+    """The text below a letter: letters, digits, words and commas, joined; nothing else is part of a name."""
+    parts: list[str] = []
+    for token in tokens:
+        if token.kind in _SUBSCRIPT or token.text == "," or token.kind == "command" and token.text in GREEK:
+            parts.append(token.text)
+        elif token.kind == "command" and token.text in WORDS | DECORATIONS and token.arguments[0]:
+            parts.append(subscript_of(token.arguments[0].tokens) or "?")
+        else:
+            return None
+    text = "".join(parts).replace(" ", "_")
+    return text if re.fullmatch(r"[A-Za-z0-9_,]+", text) else None

@@ -1,0 +1,75 @@
+"""A run of tokens with the place that has been reached."""
+
+from __future__ import annotations
+
+from derive.course.latex.tokens import Argument, Token
+
+
+class Run:
+    """Tokens side by side; `bars` says, of every bracket now open, whether it is a bar that the next bar closes."""
+
+    def __init__(self, tokens: tuple[Token, ...], end: int):
+        self.tokens = tokens
+        self.end = end
+        self.at = 0
+        self.bars: list[bool] = []
+
+    @classmethod
+    def over(cls, argument: Argument) -> Run:
+        return cls(argument.tokens, argument.end)
+
+    @property
+    def token(self) -> Token | None:
+        return self.tokens[self.at] if self.at < len(self.tokens) else None
+
+    @property
+    def following(self) -> Token | None:
+        return self.tokens[self.at + 1] if self.at + 1 < len(self.tokens) else None
+
+    @property
+    def before(self) -> Token:
+        return self.tokens[self.at - 1]
+
+    @property
+    def inside_bars(self) -> bool:
+        return bool(self.bars) and self.bars[-1]
+
+    @property
+    def written(self) -> str:
+        r"""The token as the tables have it: a mark as it is, a command with its `\`."""
+        token = self.token
+        if token is None:
+            return ""
+        return f"\\{token.text}" if token.kind == "command" else token.text
+
+    def replace(self, tokens: tuple[Token, ...]) -> None:
+        """Other tokens in the place of the one that has been reached."""
+        self.tokens = self.tokens[: self.at] + tokens + self.tokens[self.at + 1 :]
+
+    def argument_after(self, mark: Token, text: str) -> Argument | None:
+        """The tokens of the group that follows a `^` or `_`, or the one token where there are no braces."""
+        token = self.token
+        if token is None:
+            return None
+        brace = len(text) - len(text[mark.end :].lstrip())
+        if text[brace : brace + 1] != "{":
+            self.at += 1
+            return Argument((token,), token.start, token.end)
+        close = _closing_brace(text, brace)
+        first = self.at
+        while self.token and self.token.start < close:
+            self.at += 1
+        return Argument(self.tokens[first : self.at], brace, close + 1)
+
+
+def _closing_brace(text: str, opening: int) -> int:
+    depth, at = 0, opening
+    while at < len(text):
+        if text[at] == "\\":
+            at += 2
+            continue
+        depth += {"{": 1, "}": -1}.get(text[at], 0)
+        if depth == 0:
+            return at
+        at += 1
+    return len(text)

@@ -1,0 +1,86 @@
+"""Prose as an instructor writes it: plain text in which `<<name>>` stands for something that was derived.
+
+`<<eq torque>>` is the number of that step's equation, `<<problem top>>` that of another problem of the set.
+Text is data. It has no mathematics, TeX or template commands of its own; whoever prints it escapes it.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from derive.course.yaml_tree import Node, Scalar, abridged, shape_of
+from derive.errors import Faults, Place
+
+EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
+
+_MENTION = re.compile(
+    r"<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
+    r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
+    r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
+    re.ASCII,
+)
+_HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
+
+
+@dataclass(frozen=True)
+class Mention:
+    """A `<<name>>`, and where it stands; `of` is what it refers to if not to the name: `eq`, `problem`, `figure`."""
+
+    name: str
+    place: Place
+    of: str = ""
+
+
+@dataclass(frozen=True)
+class Prose:
+    """Text with mentions; `pieces` is all of it in order, so that nobody needs to parse it again."""
+
+    scalar: Scalar
+
+    @property
+    def text(self) -> str:
+        return self.scalar.text.strip()
+
+    @property
+    def place(self) -> Place:
+        return self.scalar.place
+
+    @cached_property
+    def pieces(self) -> tuple[str | Mention, ...]:
+        pieces: list[str | Mention] = []
+        end = 0
+        for match in _MENTION.finditer(self.scalar.text):
+            pieces.append(self.scalar.text[end : match.start()])
+            place = self.scalar.place_within(match.start(), len(match[0]))
+            of = PROBLEM if match["problem"] else match["of"] or ""
+            pieces.append(Mention(match["name"] or match["problem"] or "", place, of))
+            end = match.end()
+        pieces.append(self.scalar.text[end:])
+        return tuple(piece for piece in pieces if piece)
+
+    @property
+    def mentions(self) -> tuple[Mention, ...]:
+        return tuple(piece for piece in self.pieces if isinstance(piece, Mention))
+
+    def place_of(self, name: str) -> Place:
+        """Where the text first mentions a name; the text itself if it does not."""
+        return next((mention.place for mention in self.mentions if mention.name == name), self.place)
+
+
+def read_prose(node: Node, what: str, faults: Faults) -> Prose | None:
+    """The prose of a node, or nothing after a complaint."""
+    if not isinstance(node, Scalar):
+        faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
+        return None
+    for match in _MENTION.finditer(node.text):
+        if odd := match["odd"]:
+            place = node.place_within(match.start(), len(odd))
+            faults.error("mention", f"`{abridged(odd)}` is not a mention", place, help=_HOW)
+    comment = re.match(r"[ \t]+#", node.source.text[node.end :])
+    if comment and node.style == "":
+        place = node.source.place(node.end + comment.end() - 1)
+        help_line = "put the whole text in quotes"
+        faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
+    return Prose(node)

@@ -1,0 +1,162 @@
+"""What a document states, compared with what is derived: `problems/<set>/reference.yaml`.
+
+The file is a list of groups. A group names a problem and pins it by `symbols:`, `given:` and `values:` of its own, so
+that an edit of the problem neither breaks the comparison nor has wrong numbers compared. Each of its entries states a
+value of one step:
+
+    agrees               equal, with the grade of the evidence
+    agrees to n figures  decimals, `to` so many of them
+    erratum              the document is wrong: `states` is refuted and `right` agrees
+    differs              refuted, at a point; or an erratum that is none
+    unknown step         no step has that key
+
+Each side of a chain is compared, and counts as one comparison.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping as Table
+from dataclasses import dataclass, replace
+from typing import Any
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation
+from derive.course.problem import Problem, run_solve
+from derive.course.reference.agreement import given_values, verdict_on
+from derive.course.reference.errata import Erratum, erratum_of
+from derive.course.reference.statements import Entry, Statement, stated_groups
+from derive.errors import Complaint, DeriveError, Place, did_you_mean
+from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.step import Quantity
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a page and its JSON say of a comparison."""
+
+    facts: dict[str, Any]
+    here: bool
+    erratum: Erratum | None = None
+
+    @property
+    def outcome(self) -> str:
+        return str(self.facts["outcome"])
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What became of one entry; `complaint` says what is wrong if it counts as a failure."""
+
+    problem: str
+    entry: Entry
+    outcome: str
+    grade: Grade | None
+    detail: str
+    complaint: Complaint | None = None
+    erratum: Erratum | None = None
+    here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
+
+    def told(self) -> Told:
+        return Told(self.facts(), self.here, self.erratum)
+
+    def facts(self) -> dict[str, Any]:
+        """The entry in the JSON of a solution."""
+        return {
+            "problem": self.problem,
+            "part": self.entry.part,
+            "answer": self.entry.answer,
+            "states": self.entry.states.text,
+            "outcome": self.outcome,
+            "grade": self.grade.value if self.grade else None,
+            "detail": self.detail,
+        }
+
+
+Steps = Table[str, Quantity]
+
+
+def comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
+    """Every entry about this problem, compared; `known` are its steps for what its own file gives."""
+    derived: list[tuple[dict[str, Any], Steps]] = [(given_values(problem), known)]
+    found = []
+    for pinned, entries in stated_groups(problem):
+        given = given_values(pinned)
+        steps = next((steps for other, steps in derived if other == given), None)
+        if steps is None:
+            steps = _derived_again(pinned)
+            derived.append((given, steps))
+        here = given == given_values(problem)
+        compared = (_comparison(one, steps, pinned) for entry in entries for one in _one_by_one(entry, steps))
+        found += [replace(comparison, here=here) for comparison in compared]
+    return tuple(found)
+
+
+def _derived_again(pinned: Problem) -> Steps:
+    try:
+        return with_ancestors(returned_quantities(run_solve(pinned), pinned.script.returns), pinned.script.returns)
+    except DeriveError as error:
+        place = pinned.place_of("given")
+        note = f"this is for what is given at {place.path}:{place.line}"
+        raise type(error)(replace(c, notes=(*c.notes, note)) for c in error.complaints) from error
+
+
+# --- comparing -------------------------------------------------------------------------------------------------------
+
+
+def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
+    """The sides of a chain as entries of their own; what states a relation stays whole."""
+    step = steps.get(entry.answer)
+    if step is None or isinstance(step.value, Relation):
+        return [entry]
+    sides = zip(entry.states.sides, entry.states.marks, strict=True)
+    return [replace(entry, states=Statement((side,), (mark,), side.text, side.place)) for side, mark in sides]
+
+
+def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
+    step = steps.get(entry.answer)
+    if step is None:
+        message = f"no step is called `{entry.answer}`"
+        fault = _fault("unknown-step", message, entry.place, help=did_you_mean(entry.answer, steps))
+        return Comparison(pinned.id, entry, "unknown step", None, message, fault)
+    verdict = verdict_on(entry.states, step, entry, pinned)
+    if entry.right is None:
+        return _agreement(entry, step, verdict, pinned)
+    if verdict:
+        message = f"the document is right about `{entry.answer}`, so this is no erratum"
+        fault = _fault("no-erratum", message, entry.states.place, verdict.detail)
+        return Comparison(pinned.id, entry, "differs", verdict.grade, message, fault)
+    right = verdict_on(entry.right, step, entry, pinned)
+    if right:
+        erratum = erratum_of(entry, {name: known.symbol for name, known in pinned.symbols.items()})
+        told = f"{entry.why}: {_said(verdict)}"
+        return Comparison(pinned.id, entry, "erratum", right.grade, told, erratum=erratum)
+    return _difference(entry, step, right, pinned, "`right`", entry.right.place)
+
+
+def _agreement(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem) -> Comparison:
+    if not verdict:
+        return _difference(entry, step, verdict, pinned, "what the document states", entry.states.place)
+    figures = min(entry.figures, default=0)
+    outcome = f"agrees to {figures} figure{'s' * (figures > 1)}" if figures else "agrees"
+    return Comparison(pinned.id, entry, outcome, verdict.grade, verdict.detail)
+
+
+def _difference(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem, what: str, place: Place) -> Comparison:
+    notes = (f"derived: {_short(step.value)}", f"stated against derived: {_said(verdict)}")
+    fault = _fault("differs", f"`{entry.answer}` differs from {what}", place, *notes)
+    return Comparison(pinned.id, entry, "differs", verdict.grade, _said(verdict), fault)
+
+
+def _fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
+    """A warning, for the derivation is right by its own evidence; `derive check` fails on it all the same."""
+    return Complaint(code, message, place, notes, help, severity="warning")
+
+
+def _said(verdict: Verdict) -> str:
+    at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
+    return verdict.detail + (f" at {at}" if at else "")
+
+
+def _short(value: Any) -> str:
+    text = str(value.tolist() if hasattr(value, "tolist") else value)
+    return text if len(text) <= 200 else text[:200] + " ..."

@@ -1,0 +1,89 @@
+"""An erratum of the source document as a page prints it: what the document has, why that is wrong, what is right."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Rational, Symbol
+
+from derive.algebra.encoding import decoded, encoded
+from derive.algebra.expressions import PLUS_MINUS, Amount, Factors, Group, Relation
+from derive.algebra.rounding import Rounded
+from derive.course.reference.statements import Entry, Stated, Statement
+
+
+@dataclass(frozen=True)
+class Erratum:
+    """`printed` and `right` are two values of the step `answer`; decimals keep the figures they are printed with."""
+
+    answer: str
+    part: str | None
+    why: str
+    printed: Any
+    right: Any
+
+    def encoded(self) -> dict[str, Any]:
+        """As data, for the steps that are kept between builds."""
+        words = {"answer": self.answer, "part": self.part, "why": self.why}
+        return {**words, "printed": encoded(self.printed), "right": encoded(self.right)}
+
+    @classmethod
+    def decoded(cls, kept: dict[str, Any]) -> Erratum:
+        words = (kept["answer"], kept["part"], kept["why"])
+        return cls(*words, decoded(kept["printed"]), decoded(kept["right"]))
+
+
+def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
+    """The erratum that an entry of the reference states, in the letters of the problem, by their names."""
+    assert entry.right is not None
+    printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
+    return Erratum(entry.answer, entry.part, entry.why, printed, right)
+
+
+def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
+    """A value, a relation, or both branches of a value in one."""
+    if len(statement.sides) == 2:  # only a number is in the unit of the entry
+        bare = replace(entry, unit=None)
+        numbers = [not side.letters for side in statement.sides]
+        sides = [
+            _value(side, entry if number else bare, letters)
+            for side, number in zip(statement.sides, numbers, strict=True)
+        ]
+        return Relation(sides[0], statement.marks[1], sides[1])
+    return _value(statement.sides[0], entry, letters)
+
+
+def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
+    branches = [
+        [_in_unit(_with_figures(_renamed(expr, letters), i, entry), entry) for i, (expr, _) in enumerate(entries)]
+        for entries in stated.branches
+    ]
+    if stated.shape:
+        return ImmutableDenseMatrix(*stated.shape, branches[0])
+    if len(branches) == 1:
+        return branches[0][0]
+    plus, minus = branches[0][0], branches[1][0]
+    return (plus + minus) / 2 + PLUS_MINUS * (plus - minus) / 2
+
+
+def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
+    """In the problem's own letters; integrals and their variables as they are printed."""
+    opened = expr.replace(lambda e: isinstance(e, Group) and isinstance(e.args[0], Integral), lambda e: e.args[0])
+    return opened.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in opened.atoms(Symbol)})
+
+
+def _with_figures(expr: Expr, i: int, entry: Entry) -> Expr:
+    """The decimals of an entry that is stated to so many figures: 21.64, not 541/25."""
+    if not entry.figures:
+        return expr
+    figures = Integer(entry.figures[i % len(entry.figures)])
+    number, letters = expr.as_independent(*expr.free_symbols, as_Add=False)
+    if number.is_Rational and number.q != 1 and letters != 1:
+        return Factors(Rounded(number, figures), letters)
+    return expr.xreplace({n: Rounded(n, figures) for n in expr.atoms(Rational) if n.q != 1})
+
+
+def _in_unit(expr: Expr, entry: Entry) -> Expr:
+    return expr if entry.unit is None else Amount(expr, entry.unit.text, entry.unit.factor)

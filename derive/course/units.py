@@ -1,0 +1,157 @@
+"""Units, exactly: what one of them is in the SI, as a rational number and a power of pi.
+
+`rpm` is pi/30 rad/s and not 0.10472, so a number put in at the end spoils nothing. See docs/decisions/0003-units.md.
+An angle is a number, but a unit knows how many it has: a length is not measured in `cm/rev`, nor a cosine in degrees.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from sympy import Expr, Integer, Rational, pi
+
+from derive.algebra.dimensions import NUMBER, Dimension, angles_of_kind, dimension_of_kind, kind_with_article, named
+from derive.errors import Place, did_you_mean, rejected
+
+_MASS, _LENGTH, _TIME = (dimension_of_kind(kind) for kind in ("mass", "length", "time"))
+_FORCE, _ENERGY = dimension_of_kind("force"), dimension_of_kind("energy")
+MAX_TEXT = 40
+MAX_EXPONENT = 9
+
+# name -> (exact SI value, dimension, power of an angle). A radian is 1 and `Hz` is 1/s: a turn is said as `rev`.
+_UNITS: dict[str, tuple[Expr, Dimension, int]] = {
+    "m": (Integer(1), _LENGTH, 0),
+    "mm": (Rational(1, 1000), _LENGTH, 0),
+    "cm": (Rational(1, 100), _LENGTH, 0),
+    "km": (Integer(1000), _LENGTH, 0),
+    "in": (Rational("0.0254"), _LENGTH, 0),
+    "ft": (Rational("0.3048"), _LENGTH, 0),
+    "kg": (Integer(1), _MASS, 0),
+    "g": (Rational(1, 1000), _MASS, 0),
+    "t": (Integer(1000), _MASS, 0),
+    "lb": (Rational("0.45359237"), _MASS, 0),
+    "s": (Integer(1), _TIME, 0),
+    "ms": (Rational(1, 1000), _TIME, 0),
+    "min": (Integer(60), _TIME, 0),
+    "h": (Integer(3600), _TIME, 0),
+    "rad": (Integer(1), NUMBER, 1),
+    "deg": (pi / 180, NUMBER, 1),
+    "degree": (pi / 180, NUMBER, 1),
+    "degrees": (pi / 180, NUMBER, 1),
+    "rev": (2 * pi, NUMBER, 1),
+    "rpm": (pi / 30, NUMBER / _TIME, 1),
+    "Hz": (Integer(1), NUMBER / _TIME, 0),
+    "N": (Integer(1), _FORCE, 0),
+    "kN": (Integer(1000), _FORCE, 0),
+    "J": (Integer(1), _ENERGY, 0),
+    "kJ": (Integer(1000), _ENERGY, 0),
+    "W": (Integer(1), _ENERGY / _TIME, 0),
+    "kW": (Integer(1000), _ENERGY / _TIME, 0),
+    "Pa": (Integer(1), _FORCE / _LENGTH**2, 0),
+    "kPa": (Integer(1000), _FORCE / _LENGTH**2, 0),
+}
+UNIT_NAMES = tuple(_UNITS)
+_OF_ANOTHER_KIND = {"torque": ("J", "kJ")}  # a torque is in N m; in joules it would be an energy
+
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_RAISED = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
+_TOKEN = re.compile(
+    r"\s+|(?P<name>[A-Za-z]+|°|1(?=\s*/))(?:(?:\^|\*\*)(?P<power>-?\d{1,3}))?|(?P<times>\*|·|⋅)|(?P<per>/)|(?P<other>.)"
+)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit as written, its exact value in the SI, its dimension and power of an angle, and its factors."""
+
+    text: str
+    factor: Expr
+    dimension: Dimension
+    factors: tuple[tuple[str, int], ...] = ()
+    angles: int = 0
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(name for name, _ in self.factors)
+
+
+def read_unit(text: str, place: Place | None = None) -> Unit:
+    """`kg m^2/s` as a unit; a `/` divides by the one factor after it, as in `m/s/s` or `N m/rad`."""
+    text = text.strip()
+    if not text or len(text) > MAX_TEXT:
+        rejected("unknown-unit", "a unit is missing" if not text else "this unit is too long", place)
+    factors = tuple(_factors(text, place))
+    factor: Expr = Integer(1)
+    dimension, angles = NUMBER, 0
+    for name, power in factors:
+        value, its_dimension, its_angles = _UNITS[name]
+        factor, dimension = factor * value**power, dimension * its_dimension ** Fraction(power)
+        angles += its_angles * power
+    return Unit(text, factor, dimension, factors, angles)
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Why a unit does not measure something: a code, what follows its name in a message, and a help."""
+
+    code: str
+    why: str
+    help: str | None = None
+
+
+def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
+    """Why what has a kind, or only a dimension, is not measured in a unit; nothing if it is."""
+    is_a = kind_with_article(kind) if kind else named(dimension)
+    if unit.dimension != dimension:
+        return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
+    if any(name in unit.names for name in _OF_ANOTHER_KIND.get(kind or "", ())):
+        return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`", "write `N m`")
+    if "Hz" in unit.names and 1 in angles_of_kind(kind):
+        turns, radians = (unit.text.replace("Hz", other) for other in ("rev/s", "rad/s"))
+        return Misfit(
+            "ambiguous-unit",
+            f"is {is_a}, and `{unit.text}` could be turns or radians",
+            f"write `{turns}` for turns, `{radians}` for radians",
+        )
+    if kind is None and (unit.angles or "Hz" in unit.names):
+        why = f"has no kind, so nothing says that it is measured in `{unit.text}`"
+        return Misfit("wrong-unit", why, "give it a `kind=` in the script")
+    if unit.angles not in angles_of_kind(kind):
+        return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
+    return None
+
+
+def _factors(text: str, place: Place | None) -> Iterator[tuple[str, int]]:
+    sign, wanted = 1, True
+    for token in _TOKEN.finditer(_RAISED.sub(lambda raised: "^" + raised[0].translate(_SUPERSCRIPTS), text)):
+        if token["name"]:
+            name, power = token["name"].replace("°", "deg"), int(token["power"] or 1)
+            if name != "1":
+                _check(name, power, text, place)
+                yield name, sign * power
+            sign, wanted = 1, False
+        elif not wanted and (token["times"] or token["per"]):
+            sign, wanted = (-1 if token["per"] else 1), True
+        elif token.lastgroup:
+            wanted = True
+            break
+    if wanted:
+        rejected("unknown-unit", f"`{text}` is not a unit", place, "write it as `kg m^2/s`")
+
+
+def _check(name: str, power: int, text: str, place: Place | None) -> None:
+    if name not in _UNITS:
+        within = f" in `{text}`" if name != text else ""
+        units = ", ".join(f"`{unit}`" for unit in ("m", "cm", "kg", "g", "s", "N", "rad/s", "rpm", "deg"))
+        rejected("unknown-unit", f"unknown unit `{name}`{within}", place, did_you_mean(name, _UNITS) or f"try {units}")
+    if not 0 < abs(power) <= MAX_EXPONENT:
+        rejected("unknown-unit", f"the power {power} of `{name}` is not used", place)
+
+
+def begins_with_unit(text: str) -> bool:
+    """Whether the first name of a text is that of a unit: enough to tell `2 cm` from `2 a`."""
+    first = re.match(r"\s*([A-Za-z]+|°|1(?=\s*/))", text)
+    return first is not None and (first[1] in _UNITS or not first[1].isalpha())

@@ -1,0 +1,362 @@
+"""YAML as it was written: every node knows its place, and every fault of a file is told at once.
+
+YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
+because its messages name the character at fault; ours are made from them in `_syntax_complaint`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import islice
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import yaml
+
+from derive.errors import Complaint, Faults, Place, Rejected
+
+MAX_BYTES = 256 * 1024
+MAX_DEPTH = 20
+LONG_LINE = 160
+_LEFT_OUT = "... "
+
+# Printable text, less the line separators that editors do not count and the marks that reorder text on the screen.
+_ODD = re.compile(
+    "[^\t\n\r\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]"
+)
+_LINE_END = re.compile(r"\r\n|\r|\n")
+_SPACE = re.compile(r"\s*")
+_JOINED_LINES = re.compile(r"(?:\s|\\[\r\n])*")
+_TAB_INDENT = re.compile(r"^[ ]*\t[ \t]*(?=\S)", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Source:
+    """The text of one file; turns an index into a place."""
+
+    path: str
+    text: str = field(repr=False)
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *(m.end() for m in _LINE_END.finditer(self.text))]
+
+    @cached_property
+    def _ends(self) -> list[int]:
+        return [*(m.start() for m in _LINE_END.finditer(self.text)), len(self.text)]
+
+    def line(self, number: int) -> str:
+        """A line by its number, from 1, without its end."""
+        return self.text[self._starts[number - 1] : self._ends[number - 1]]
+
+    def place(self, index: int, width: int = 1) -> Place:
+        """The place of `width` characters from `index`, cut at the end of its line; a long line is cut around it."""
+        number = bisect_right(self._starts, index)
+        start = self._starts[number - 1]
+        length = len(self.line(number))
+        column = min(index - start, length)  # \r\n ends a line before its \n
+        width = max(1, min(width, length - column))
+        if length <= LONG_LINE:
+            return Place(self.path, number, column + 1, self._shown(start, length), width)
+        width = min(width, 40)
+        first = max(0, column + width - LONG_LINE)
+        before = _LEFT_OUT if first else ""
+        after = " ..." if first + LONG_LINE < length else ""
+        text = before + self._shown(start + first, min(LONG_LINE, length - first)) + after
+        return Place(self.path, number, column + 1, text, width, first - len(before))
+
+    def _shown(self, start: int, length: int) -> str:
+        return _ODD.sub("\ufffd", self.text[start : start + length])
+
+    def at(self, line: int, column: int = 1, width: int = 1) -> Place:
+        """The place of a line and column as Python and YAML tools count them, from 1."""
+        line = min(max(1, line), len(self._starts))
+        return self.place(min(self._starts[line - 1] + max(0, column - 1), len(self.text)), width)
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """Text, and how it was written; `style` is YAML's: `''` plain, `'`, `"`, `>` or `|`."""
+
+    text: str
+    style: str
+    start: int
+    end: int
+    source: Source = field(repr=False)
+
+    @property
+    def quoted(self) -> bool:
+        return self.style in ("'", '"')
+
+    @property
+    def empty(self) -> bool:
+        """Nothing was written after the `:` or `-`."""
+        return not self.text.strip()
+
+    @property
+    def place(self) -> Place:
+        return self.source.place(self.start, self.end - self.start)
+
+    def place_within(self, offset: int, width: int = 1) -> Place:
+        """The place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
+        if not self.text:
+            return self.source.place(self.start)
+        if offset >= len(self.text):
+            return self.source.place(self._spans[-1][1])
+        last = min(offset + max(1, width), len(self.text)) - 1
+        start = self._spans[offset][0]
+        return self.source.place(start, self._spans[last][1] - start)
+
+    @cached_property
+    def _spans(self) -> list[tuple[int, int]]:
+        """For each character of the text, from where to where it stands in the source."""
+        raw, at = self.source.text, self.start
+        if self.style in (">", "|"):
+            at = min(i for i in (raw.find(end, at) for end in "\r\n") if i >= 0) + 1
+        elif self.style:
+            at += 1
+        spans = []
+        for char in self.text:
+            if not char.isspace():
+                at = _next_visible(raw, at, self.style)
+            start, at = at, at + _raw_width(raw, at, self.style, char)
+            spans.append((min(start, self.end), min(at, self.end)))
+        return spans
+
+
+def _next_visible(raw: str, at: int, style: str) -> int:
+    """Past line ends and indentation, and past the `\\` that joins lines in double quotes."""
+    gap = _JOINED_LINES if style == '"' else _SPACE
+    found = gap.match(raw, at)
+    return found.end() if found else at
+
+
+def _raw_width(raw: str, at: int, style: str, char: str) -> int:
+    """How many characters of the file made this one character of text."""
+    here = raw[at : at + 2]
+    if style == '"' and here.startswith("\\"):
+        return 2 + {"x": 2, "u": 4, "U": 8}.get(here[1:], 0)
+    if style == "'" and here == "''":
+        return 2
+    return 0 if char.isspace() and not here[:1].isspace() else 1
+
+
+@dataclass(frozen=True)
+class Sequence:
+    items: tuple[Node, ...]
+    place: Place
+
+
+@dataclass(frozen=True)
+class Mapping:
+    pairs: tuple[tuple[Scalar, Node], ...]
+    place: Place
+
+    @cached_property
+    def _by_name(self) -> dict[str, tuple[Scalar, Node]]:
+        return {key.text: (key, value) for key, value in self.pairs}
+
+    def get(self, key: str) -> Node | None:
+        return self._by_name[key][1] if key in self._by_name else None
+
+    def key(self, name: str) -> Scalar | None:
+        """The key as it was written, for its place."""
+        return self._by_name[name][0] if name in self._by_name else None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(k.text for k, _ in self.pairs)
+
+
+Node: TypeAlias = Scalar | Sequence | Mapping
+
+
+def shape_of(node: Node) -> str:
+    """What a node is, in words for a message."""
+    if isinstance(node, Scalar):
+        return "empty" if node.empty and not node.quoted else f"`{abridged(node.text)}`"
+    return "a list" if isinstance(node, Sequence) else "a mapping"
+
+
+def abridged(text: str, limit: int = 40) -> str:
+    flat = " ".join(text.split())
+    return flat if len(flat) <= limit else flat[: limit - 3] + "..."
+
+
+def read_source(path: Path, shown_as: str, *, limit: int = MAX_BYTES) -> Source:
+    """The text of a file that somebody wrote, if it is text at all."""
+    whole = Place(shown_as, 1)
+    try:
+        # A pipe or a device is not waited for.
+        with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise Rejected(Complaint("unreadable", f"`{shown_as}` is not a file", help="put a file in its place"))
+            raw = file.read(limit + 1)
+    except FileNotFoundError:
+        raise Rejected(Complaint("missing-file", f"there is no file `{shown_as}`")) from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise Rejected(Complaint("unreadable", f"`{shown_as}` cannot be read: {reason}")) from None
+    if len(raw) > limit:
+        raise Rejected(Complaint("too-large", f"the file is larger than {limit // 1024} KB", whole))
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = raw[: error.start].decode("utf-8-sig", "replace")
+        place = Source(shown_as, before).place(len(before))
+        raise Rejected(
+            Complaint("encoding", "the file is not UTF-8", replace(place, text=""), help="save it as UTF-8")
+        ) from None
+    return Source(shown_as, text)
+
+
+def read_yaml(path: Path, shown_as: str) -> Node:
+    """The tree of a YAML file; `shown_as` is its path in messages."""
+    return yaml_tree(read_source(path, shown_as))
+
+
+def yaml_tree(source: Source) -> Node:
+    """The tree of a YAML text, or one `Rejected` with every fault of its form."""
+    faults = Faults()
+    for odd in islice(_ODD.finditer(source.text), 5):
+        faults.error("control-character", f"the character U+{ord(odd[0]):04X} is not text", source.place(odd.start()))
+    tabs = list(_TAB_INDENT.finditer(source.text))
+    if tabs:
+        # One complaint for the file: an editor that writes tabs writes them on every line.
+        place = source.place(tabs[0].start() + tabs[0][0].index("\t"))
+        notes = (f"{len(tabs)} lines are indented so",) if tabs[1:] else ()
+        faults.error("tab", "a tab indents this line", place, notes=notes, help="indent with spaces")
+    faults.stop()
+    return _Reader(source, faults).tree()
+
+
+class _Reader:
+    """Builds nodes from the parser's events; recursion is bounded by `MAX_DEPTH`."""
+
+    def __init__(self, source: Source, faults: Faults):
+        self.source = source
+        self.faults = faults
+        self.odd_lines: set[int] = set()
+        self.events: Iterator[Any] = iter(yaml.parse(source.text, Loader=yaml.SafeLoader))
+
+    def tree(self) -> Node:
+        root: Node | None = None
+        try:
+            for event in self.events:
+                if isinstance(event, yaml.DocumentStartEvent) and root is not None:
+                    self.refuse("documents", "a second document begins here", event, 3, "keep one document in a file")
+                    break
+                if isinstance(event, yaml.NodeEvent):
+                    root = self.node(event, 1)
+        except yaml.MarkedYAMLError as error:
+            complaint = _syntax_complaint(error, self.source)
+            # An alias or a tag that was refused leaves the rest of its line unreadable: that is one fault, not two.
+            if complaint.place is None or complaint.place.line not in self.odd_lines:
+                self.faults.add(complaint)
+        if root is None or (isinstance(root, Scalar) and root.empty and not root.quoted):
+            if not self.faults:
+                self.faults.error("empty", "the file is empty", self.source.place(0))
+            self.faults.stop()
+        self.faults.stop()
+        assert root is not None
+        return root
+
+    def refuse(self, code: str, message: str, event: Any, width: int, help: str | None = None) -> None:
+        place = self.source.place(event.start_mark.index, width)
+        self.odd_lines.add(place.line)
+        self.faults.error(code, message, place, help=help)
+
+    def node(self, event: Any, depth: int) -> Node:
+        start, end = event.start_mark.index, event.end_mark.index
+        if depth > MAX_DEPTH:
+            self.refuse("too-deep", f"this is nested more than {MAX_DEPTH} deep", event, 1)
+            self.faults.stop()
+        self.refuse_cleverness(event)
+        if isinstance(event, yaml.SequenceStartEvent):
+            items = []
+            while not isinstance(event := next(self.events), yaml.SequenceEndEvent):
+                items.append(self.node(event, depth + 1))
+            return Sequence(tuple(items), self.source.place(start))
+        if isinstance(event, yaml.MappingStartEvent):
+            return self.mapping(start, depth)
+        if isinstance(event, yaml.AliasEvent):
+            return Scalar(f"*{event.anchor}", "", start, end, self.source)
+        if odd := _ODD.search(event.value):
+            # In double quotes a character can be written by its number.
+            self.refuse("control-character", f"the character U+{ord(odd[0]):04X} is not text", event, end - start)
+        return Scalar(event.value, event.style or "", start, end, self.source)
+
+    def mapping(self, start: int, depth: int) -> Mapping:
+        pairs: dict[str, tuple[Scalar, Node]] = {}
+        while not isinstance(event := next(self.events), yaml.MappingEndEvent):
+            key = self.node(event, depth + 1)
+            value = self.node(next(self.events), depth + 1)
+            if not isinstance(key, Scalar):
+                self.refuse("key", "a key must be a word", event, 1)
+            elif key.text == "<<" and not key.quoted:
+                self.refuse("merge-key", "merge keys are not used here", event, 2, "write the keys out")
+            elif key.text in pairs:
+                first = pairs[key.text][0].place
+                note = f"it was first given on line {first.line}"
+                self.faults.error("duplicate-key", f"`{abridged(key.text)}` is given twice", key.place, notes=(note,))
+            else:
+                pairs[key.text] = key, value
+        return Mapping(tuple(pairs.values()), self.source.place(start))
+
+    def refuse_cleverness(self, event: Any) -> None:
+        """Aliases, anchors and tags: YAML that is a program, or that was meant as something else."""
+        if isinstance(event, yaml.AliasEvent):
+            help_line = "quote an expression that begins with `*`"
+            self.refuse("alias", f"`*{event.anchor}` is a YAML alias", event, len(str(event.anchor)) + 1, help_line)
+            return
+        if event.anchor is not None:
+            help_line = "quote text that begins with `&`"
+            self.refuse("anchor", f"`&{event.anchor}` is a YAML anchor", event, len(event.anchor) + 1, help_line)
+        if event.tag is not None:
+            self.refuse("tag", "tags are not used here", event, 1, "quote text that begins with `!`")
+
+
+def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
+    """What the parser found, in the words of somebody who has never read a YAML grammar."""
+    context, problem = str(error.context or ""), str(error.problem or "this is not YAML")
+    mark = error.problem_mark or error.context_mark
+    index = min(mark.index, len(source.text)) if mark else 0
+    opening = error.context_mark.index if error.context_mark else index
+
+    def syntax(message: str, help: str | None = None, at: int = index, *notes: str) -> Complaint:
+        return Complaint("yaml", message, source.place(at), notes, help)
+
+    found = source.text[index : index + 1]
+    if "cannot start any token" in problem:
+        return syntax(f"a value cannot begin with `{found}`", "put the value in quotes")
+    if "mapping values are not allowed" in problem:
+        return syntax("this `:` is not expected", "check the indentation, or put text that contains `: ` in quotes")
+    if "quoted scalar" in context and "end of stream" in problem:
+        return syntax("this quotation mark is never closed", None, opening)
+    if "unknown escape" in problem:
+        return syntax(f"`\\{found}` has no meaning in double quotes", "use single quotes", max(0, index - 1))
+    if "flow" in context and ("expected ','" in problem or "stream end" in problem):
+        opening = max(source.text.rfind(bracket, 0, opening + 1) for bracket in "[{")
+        bracket, closing = ("[", "]") if source.text[opening] == "[" else ("{", "}")
+        note = f"line {source.place(index).line} should have `,` or `{closing}`"
+        return syntax(f"this `{bracket}` is not closed", None, opening, note)
+    if "alias" in context:
+        return syntax("a YAML alias begins here", "quote an expression that begins with `*`", opening)
+    if "anchor" in context:
+        return syntax("a YAML anchor begins here", "quote text that begins with `&`", opening)
+    here = source.place(index)
+    if "expected <block end>" in problem and here.text[: here.column - 1].strip():
+        return syntax("this does not belong to the value before it", "put the whole value in quotes")
+    if "expected <block end>" in problem:
+        return syntax("this does not line up with the lines above", "begin keys of one level in one column")
+    if "could not find expected ':'" in problem:
+        return syntax("a key needs `: ` after it", None, opening)
+    if "node content" in problem:
+        return syntax(f"a value is missing before `{found}`" if found.strip() else "a value is missing")
+    return syntax(re.sub(r"<(.*?)>", r"\1", problem).lower())

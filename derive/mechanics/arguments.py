@@ -1,0 +1,110 @@
+"""What a verb is given, checked against its signature, so that a slip of a script is told in its own terms.
+
+A verb says in its annotations what it needs: a step (`Quantity`), a coordinate, an expression, a body. A plain matrix
+for a step, a step for an expression, a number with a point: each is one complaint that names verb and argument.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import types
+from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence as SequenceType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from sympy import Basic, Expr, Integer
+
+from derive.errors import Complaint, Rejected
+from derive.steps.step import Quantity
+
+_CALLED = {
+    "Quantity": "a step",
+    "Coordinate": "a coordinate",
+    "Expr": "an expression",
+    "Symbol": "a letter",
+    "str": "text",
+}
+
+
+def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
+    """The verb, which first looks at what it is given."""
+    signature = inspect.signature(verb)
+
+    @functools.wraps(verb)
+    def looked_at(*given: Any, **named: Any) -> Any:
+        wanted = _hints(verb)
+        try:
+            arguments = signature.bind(*given, **named).arguments
+        except TypeError as fault:
+            raise Rejected(Complaint("wrong-argument", f"`{verb.__name__}`: {fault}")) from None
+        for name, value in arguments.items():
+            parameter = signature.parameters[name]
+            values = value if parameter.kind is parameter.VAR_POSITIONAL else (value,)
+            if parameter.kind is parameter.VAR_KEYWORD or parameter.default is value:
+                continue
+            for each in values:
+                _check(verb.__name__, name, each, wanted.get(name, Any))
+        return verb(*given, **named)
+
+    return looked_at
+
+
+@functools.cache
+def _hints(verb: Callable[..., Any]) -> Mapping[str, Any]:
+    return get_type_hints(verb)
+
+
+def _check(verb: str, name: str, value: Any, wanted: Any) -> None:
+    if _fits(value, wanted):
+        return
+    message = f"`{verb}` needs {_told(wanted)} as its `{name}`, but it is {_shown(value)}"
+    raise Rejected(Complaint("wrong-argument", message, help=_help(value, wanted)))
+
+
+def _fits(value: Any, wanted: Any) -> bool:
+    origin, args = get_origin(wanted), get_args(wanted)
+    if wanted is Any or wanted is object:
+        return True
+    if origin in (Union, types.UnionType):
+        return any(_fits(value, each) for each in args)
+    if origin is tuple:
+        inner = args[:1] * len(value) if isinstance(value, tuple | list) and args[1:] == (...,) else args
+        return isinstance(value, tuple | list) and len(value) == len(inner) and all(map(_fits, value, inner))
+    if origin is SequenceType:
+        return isinstance(value, Sequence) and not isinstance(value, str) and all(_fits(v, args[0]) for v in value)
+    if origin is not None:
+        return True
+    if wanted is Expr:
+        return isinstance(value, Expr) or isinstance(value, int) and not isinstance(value, bool)
+    return isinstance(value, wanted) if isinstance(wanted, type) else True
+
+
+def _told(wanted: Any) -> str:
+    origin, args = get_origin(wanted), get_args(wanted)
+    if origin in (Union, types.UnionType):
+        return " or ".join(dict.fromkeys(_told(each) for each in args if each is not type(None)))
+    if origin is tuple or origin is SequenceType:
+        of = _told(args[0]).partition(" ")[2]
+        count = "some" if origin is SequenceType or args[1:] == (...,) else str(len(args))
+        return f"{count} {of}s"
+    name = getattr(wanted, "__name__", str(wanted))
+    return _CALLED.get(name, f"a `{name}`")
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, Quantity):
+        return f"the step `{value.key}`"
+    if isinstance(value, tuple | list):
+        return f"{len(value)} of {' and '.join(dict.fromkeys(_shown(v) for v in value[:3])) or 'nothing'}"
+    if isinstance(value, Basic) and len(str(value)) <= 60:
+        return f"{type(value).__name__} {value}"
+    return "nothing" if value is None else f"{type(value).__name__}"
+
+
+def _help(value: Any, wanted: Any) -> str | None:
+    if isinstance(value, float):
+        return "write numbers as fractions, `Rational(1, 2)`, or give them in the problem's file"
+    if wanted is Quantity and isinstance(value, Expr | Integer):
+        return '`let("name", lambda: ..., kind="...")` makes a step of an expression'
+    return None

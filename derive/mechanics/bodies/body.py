@@ -1,0 +1,340 @@
+"""Bodies: a region filled with mass, its density, its centre of mass, its named points and directions.
+
+Every body has axes of its own; lengths in the unit of its sizes. A cuboid has its axes along the edges and the origin
+at the corner from which they start; a body that is round has its axis of symmetry along z.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
+from itertools import product
+from operator import mul
+from typing import Any, ClassVar, Self
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Rational, Symbol
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.direction import Direction
+from derive.algebra.expressions import Factors, Ratio, column, component_names, explicit, vector
+from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.integration import worked_integral
+from derive.mechanics.bodies.landmarks import is_where_named
+from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
+from derive.steps.establish import establish
+from derive.steps.step import Form, Level, Quantity, compared_with
+from derive.steps.subject import Subject
+
+Particles = list[tuple[Expr, ImmutableMatrix]]
+
+# what is filled with mass -> letter and kind of the density
+_DENSITIES = {
+    "volume": ("rho", "density"),
+    "area": ("sigma", "surface density"),
+    "length": ("lambda", "line density"),
+}
+
+
+class Body:
+    """What all uniform bodies share.
+
+    A kind of body says which points it has, over which region one integrates, how large it is, and which few
+    particles have its mass, its centre of mass and its second moments.
+    """
+
+    mass: Expr
+    name: ClassVar[str] = "a body"
+    filling: ClassVar[str] = "volume"
+    reference: ClassVar[str] = "centre"  # the point where its own axes begin
+    flat_across: ClassVar[str | None] = None  # the axis across which it is flat, if it is
+    called: str = ""  # what the page calls it where there are others, "upper rod"
+    is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
+
+    def named(self, called: str) -> Self:
+        """The same body under a name of its own, for a page that has another: its steps, letters and words have it too.
+
+        called   "upper rod": keys begin with `upper_rod_`, letters have the index `upper`
+        """
+        if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
+            help_line = 'give one or two words in small letters, "upper rod"'
+            raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))
+        twin = replace(self)  # type: ignore[type-var]
+        object.__setattr__(twin, "called", called)
+        return twin
+
+    def points(self) -> Mapping[str, Point]:
+        """The points that it has by name, apart from its centre of mass."""
+        raise AttributeError(f"{type(self).__name__} must say which points it has")
+
+    def region(self, point: Point, coordinates: str | None = None) -> Region:
+        """What it fills, seen from a point; coordinates are its first system unless they are named."""
+        raise AttributeError(f"{type(self).__name__} must say what it fills")
+
+    def particles(self) -> Particles:
+        """Particles with the mass, centre of mass and second moments of the body. No integral is used, so what is
+        computed from them checks what is computed by integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
+        raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
+
+    @property
+    def extent(self) -> Expr | Quantity:
+        """Its volume (area, length) as it is known; a body for which it must be derived gives the step."""
+        raise AttributeError(f"{type(self).__name__} must say how large it is")
+
+    def radii(self, point: Point, region: Region) -> list[Quantity]:
+        """The step that says what a radius in the limits of a region stands for, where there is one."""
+        return []
+
+    @property
+    def middle(self) -> Point:
+        """Its centre of mass, as its particles have it."""
+        total = column(0, 0, 0)
+        for mass, place in self.particles():
+            total = total + mass * place
+        return Point("centre", ImmutableDenseMatrix((total / self.mass).applyfunc(lambda x: x.cancel())))
+
+    def point(self, name: str) -> Point:
+        points = {**self.points(), "centre": self.middle}
+        if name not in points:
+            known = ", ".join(f'"{known}"' for known in points)
+            raise Rejected(Complaint("no-such-point", f'{self.name} has no point "{name}"', help=f"it has {known}"))
+        if name not in self._points_seen:
+            if not is_where_named(self, points[name]):
+                raise Unverified(Complaint("unverified", f"{self.name} has no {name} at {points[name].position}"))
+            self._points_seen.add(name)
+        return points[name]
+
+    @cached_property
+    def _points_seen(self) -> set[str]:
+        """The points that were found to be where their names say."""
+        return set()
+
+    def within(self, point: Point, coordinates: str | None = None) -> Region:
+        """What it fills, in coordinates that it has."""
+        if coordinates is not None and coordinates not in self.systems:
+            raise no_such_coordinates(self.name, coordinates, self.systems)
+        return self.region(point, coordinates)
+
+    @cached_property
+    def density(self) -> Quantity:
+        return density(self)
+
+    @cached_property
+    def centre(self) -> Quantity:
+        return centre_of_mass(self)
+
+    @property
+    def density_letter(self) -> str:
+        return _DENSITIES[self.filling][0]
+
+    @property
+    def size(self) -> Expr:
+        """Its volume (area, length) as a value."""
+        extent = self.extent
+        return extent.value if isinstance(extent, Quantity) else explicit(extent)
+
+    def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
+        """The integral of a function of the position from a point, times dm, carried out."""
+        region = self.region(point).with_section_put_in()
+        values, density = explicit(integrand(region.position)), self.mass / self.size
+        if hasattr(values, "applyfunc"):
+            return values.applyfunc(lambda f: density * explicit(region.integral(f)))
+        return density * explicit(region.integral(values))
+
+    def direction(self, axis: Direction, symbol: str = "d", key: str = "axis_vector") -> Quantity:
+        """A vector along the axis: a named one, or given components."""
+        named = self.axes_by_name()
+        if axis.name is not None and axis.name not in named:
+            known = list(named)
+            message = f"{self.name} has no axis `{axis.name}`"
+            raise Rejected(Complaint("no-such-axis", message, help=f"use {', '.join(known[:-1])} or {known[-1]}"))
+        along = named[axis.name] if axis.name is not None else column(*(axis.components or ()))
+        return axis_vector(self, along, axis.name or "components", symbol, key)
+
+    def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
+        return {name: column(*(int(name == other) for other in "xyz")) for name in "xyz"}
+
+
+@dataclass(frozen=True)
+class Cuboid(Body):
+    """A uniform block. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+
+    sides   three lengths, along x, y and z
+    mass    mass
+    """
+
+    sides: tuple[Expr, Expr, Expr]
+    mass: Expr
+    name: ClassVar[str] = "a cuboid"
+    reference: ClassVar[str] = "corner"
+
+    @property
+    def extent(self) -> Expr:
+        """A cube's volume is written a^3, a block's a * 2a * 3a."""
+        if len(set(self.sides)) == 1:
+            return Pow(self.sides[0], len(self.sides))
+        return Factors(*self.sides)
+
+    @property
+    def size(self) -> Expr:
+        return reduce(mul, self.sides, Integer(1))
+
+    @property
+    def corner(self) -> Point:
+        return Point("corner", column(0, 0, 0))
+
+    def points(self) -> Mapping[str, Point]:
+        return {"corner": self.corner}
+
+    @property
+    def middle(self) -> Point:
+        return Point("centre", column(*(side / 2 for side in self.sides)))
+
+    def region(self, point: Point, coordinates: str | None = None) -> Region:
+        return box(self.sides, point)
+
+    def particles(self) -> Particles:
+        """Six equal particles, at the centres of the faces.
+
+        Two of them, at +-side/2, give 2 (M/6)(side/2)^2 = M side^2/12.
+        """
+        found = []
+        for axis, end in product(range(3), (0, 1)):
+            place = [side * (Rational(1, 2) if k != axis else end) for k, side in enumerate(self.sides)]
+            found.append((self.mass / 6, column(*place)))
+        return found
+
+    def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
+        return {"diagonal": column(*self.sides), **super().axes_by_name()}
+
+
+def axis_vector(body: Body, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector") -> Quantity:
+    """A vector d along the axis of rotation, in the axes of the body: a definition.
+
+    Outcomes: diagonal (from corner to opposite corner), edge, components.
+    Source: none needed.
+    """
+    return establish(
+        "bodies.axis_vector",
+        vector(symbol),
+        lambda: along,
+        {},
+        outcome="edge" if name in {"x", "y", "z"} else name,
+        definition=True,
+        words={"axis": name},
+        key=key,
+        about=Subject(body=body),
+    )
+
+
+def density(body: Body, symbol: str | None = None, key: str = "density", part: str | None = None) -> Quantity:
+    """Density of a uniform body, rho = M/V; of a thin one, sigma = M/A or lambda = M/l.
+
+    body    mass M; volume V, area A or length l
+    part    what the page calls the body where it is one of several
+    Second route: the integral of the density over the body gives M back.
+    Outcomes: along_edges (of a cuboid); volume, area, length (what the mass is spread over); derived, where that was a
+    step of its own.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    extent = body.extent
+    letter, kind = _DENSITIES[body.filling]
+    region = body.region(body.point(body.reference)).with_section_put_in()
+    return establish(
+        "bodies.density",
+        Symbol(symbol or letter, positive=True),
+        lambda mass, extent: Ratio(mass, extent),
+        {"mass": body.mass, "extent": extent},
+        routes={"mass_given_back": lambda rho: (region.integral(rho), body.mass)},
+        outcome=_density_outcome(body, extent),
+        kind=kind,
+        key=key,
+        words={"part": part} if part else {},
+        about=Subject(body=body),
+    )
+
+
+def _density_outcome(body: Body, extent: Expr | Quantity) -> str:
+    """A block's density is the first that is said of it, so that its axes are described there."""
+    if isinstance(body, Cuboid):
+        return "along_edges"
+    if isinstance(extent, Quantity):
+        return "derived"
+    return {"volume": "volume", "area": "area"}.get(body.filling, "length")
+
+
+def centre_of_mass(
+    body: Body,
+    origin: str | None = None,
+    coordinates: str | None = None,
+    symbol: str = "r_C",
+    key: str = "centre_of_mass",
+) -> Quantity:
+    """Centre of mass, r_C = (1/M) integral of r dm, from a named point of the body.
+
+    body         mass, region
+    origin       the point, by default where the body's own axes begin
+    coordinates  "cartesian" or "cylindrical", where the body has both
+    Of a round body the one component that is not zero by symmetry is worked out as a step of its own.
+    Second route: the mean position of the body's equimomental particles.
+    Outcomes: round; generic (the middle of a body that is its own image there); asymmetric.
+    Errors: no such point, no such coordinates.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
+    """
+    start = body.point(origin or body.reference)
+    region = body.within(start, coordinates)
+    rho = body.density
+    whole = region.with_section_put_in().mass_integral(vector("r"), rho.symbol)
+    on_axis = [_centre_on_axis(body, start, region, symbol, key)] if body.is_round and body.filling == "volume" else []
+
+    def mean_of_particles() -> Any:
+        total = column(0, 0, 0)
+        for mass, place in body.particles():
+            total = total + mass * start.seen(place)
+        return total / body.mass
+
+    return establish(
+        "bodies.centre_of_mass",
+        vector(symbol),
+        lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
+        {"mass": body.mass},
+        routes={"particles": compared_with(mean_of_particles)},
+        outcome="round" if on_axis else "generic" if _is_its_own_image(body) else "asymmetric",
+        parents=[rho, *on_axis],
+        between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis],
+        kind="length",
+        put_in=Level.FULL,
+        context={"point": body.middle, "from": start},
+        words={"start": start.name},
+        key=key,
+        about=Subject(body=body, point=start),
+    )
+
+
+def _is_its_own_image(body: Body) -> bool:
+    """Whether each particle has its like on the other side of the centre."""
+    centre = body.middle.position
+    seen = {(m, ImmutableDenseMatrix((r - centre).expand())) for m, r in body.particles()}
+    return all((m, -r) in seen for m, r in seen)
+
+
+def _centre_on_axis(body: Body, start: Point, region: Region, letter: str, key: str) -> Quantity:
+    """z_C = (rho/M) integral of z dV, the one component that symmetry leaves."""
+    rho = body.density
+    integral = region.integral(region.position[2])
+    return establish(
+        "bodies.centre_on_axis",
+        component_names(letter)[2],
+        lambda density, mass: Factors(Ratio(density, mass), integral),
+        {"density": rho, "mass": body.mass},
+        between=worked_integral(region, region.position[2], rho.symbol / body.mass, body.size),
+        routes={"particles": lambda z: (z, sum(m * start.seen(r)[2] for m, r in body.particles()) / body.mass)},
+        kind="length",
+        put_in=None,
+        parents=body.radii(start, region),
+        words={"start": start.name},
+        key=f"{key}_on_axis",
+        about=Subject(body=body, point=start),
+    )

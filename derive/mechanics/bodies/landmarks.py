@@ -1,0 +1,73 @@
+"""Whether the points of a body are where their names say, by the limits of the region that it fills.
+
+A corner is at an end of every coordinate, a rim on the outermost circle, the base is the middle of an end face, the
+apex an end where the section shrinks to a point, and the centre what integration gives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from sympy import Expr
+
+from derive.algebra.expressions import column
+from derive.mechanics.bodies.regions import Point, Region
+from derive.steps.step import is_zero
+
+Body = Any  # a `derive.mechanics.bodies.body.Body`, which asks here
+
+
+def is_where_named(body: Body, point: Point) -> bool:
+    """Whether a point is where its name says; its axes are right-handed in any case."""
+    upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
+    test = _TESTS.get(point.name)
+    if not upright or test is None:
+        return upright
+    return test(body, body.region(Point("origin", column(0, 0, 0))).with_section_put_in(), point.position)
+
+
+def _is_corner(body: Body, region: Region, at: Any) -> bool:
+    """Of each coordinate one of the two limits; what has no limits is zero."""
+    limits = {x: ends for x, *ends in region.limits}
+    return all(
+        any(is_zero(place - end) for end in limits.get(x, [x])) for place, x in zip(at, region.position, strict=True)
+    )
+
+
+def _is_centre(body: Body, region: Region, at: Any) -> bool:
+    return is_zero(body.over_mass(lambda r: r, Point("origin", column(0, 0, 0))) - body.mass * at)
+
+
+def _on_axis_at_end(region: Region, at: Any) -> bool:
+    _, lower, upper = region.limits[0]
+    return is_zero(at[0]) and is_zero(at[1]) and any(is_zero(at[2] - end) for end in (lower, upper))
+
+
+def _radius(region: Region, z: Expr) -> Expr:
+    height, edge = region.limits[0][0], region.limits[-1][2]
+    return edge.subs(height, z)
+
+
+def _is_apex(body: Body, region: Region, at: Any) -> bool:
+    return _on_axis_at_end(region, at) and is_zero(_radius(region, at[2]))
+
+
+def _is_base(body: Body, region: Region, at: Any) -> bool:
+    return _on_axis_at_end(region, at) and not is_zero(_radius(region, at[2]))
+
+
+def _is_on_rim(body: Body, region: Region, at: Any) -> bool:
+    """As far from the axis as any of its places: the element of length of a circle is its radius too."""
+    outermost = region.limits[-1][2] if len(region.limits) > 1 else region.element
+    return is_zero(at[0] ** 2 + at[1] ** 2 - outermost**2) and is_zero(at[2] - region.position[2])
+
+
+_TESTS: dict[str, Callable[[Body, Region, Any], bool]] = {
+    "corner": _is_corner,
+    "end": _is_corner,
+    "centre": _is_centre,
+    "apex": _is_apex,
+    "base": _is_base,
+    "rim": _is_on_rim,
+}

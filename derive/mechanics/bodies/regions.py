@@ -1,0 +1,164 @@
+"""Regions of space that bodies fill, and the coordinates in which one integrates over them.
+
+A region knows its limits, where a point is in its coordinates, and the factor that makes products of differentials
+into volume (area, length): r for cylindrical coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Symbol, Tuple, cos, eye, pi, sin, sqrt
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import MassIntegral, bound, column, scalar, vector
+from derive.errors import Complaint, Rejected
+
+Limits = tuple[tuple[Symbol, Expr, Expr], ...]
+
+COORDINATES = ("cartesian", "cylindrical")
+
+
+@dataclass(frozen=True)
+class Point:
+    """A named point of a body, in the body's own axes, and the directions in which positions from it are counted.
+
+    axes    columns: the unit vectors along which x, y and z are counted from here, in the body's own axes
+    """
+
+    name: str
+    position: ImmutableMatrix
+    axes: ImmutableMatrix = field(default=ImmutableDenseMatrix(eye(3)))
+
+    def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
+        """Where a place of the body is, from here and along these axes."""
+        return ImmutableDenseMatrix((self.axes.T * (place - self.position)).expand())
+
+    def interval(self, lower: Expr, upper: Expr) -> tuple[Expr, Expr]:
+        """Limits along the body's z as limits of z from here."""
+        ends = [self.seen(column(self.position[0], self.position[1], end))[2] for end in (lower, upper)]
+        return (ends[0], ends[1]) if self.axes[2, 2] == 1 else (ends[1], ends[0])
+
+    def along_body(self, z: Expr) -> Expr:
+        """The body's z of a point whose z from here is given."""
+        return self.position[2] + self.axes[2, 2] * z
+
+
+@dataclass(frozen=True)
+class Region:
+    """Limits, outermost first; the position of a point and the element of volume in the same coordinates.
+
+    section     the name in the limits for the radius of a cross-section, and what it stands for, if there is one
+    """
+
+    limits: Limits
+    position: ImmutableMatrix
+    element: Expr = field(default_factory=lambda: Integer(1))
+    section: tuple[Symbol, Expr] | None = None
+
+    @property
+    def names(self) -> tuple[Symbol, ...]:
+        return tuple(x for x, _, _ in self.limits)
+
+    def integral(self, integrand: Expr) -> Integral:
+        """The integral of a function of the coordinates, not yet carried out."""
+        return Integral(integrand * self.element, *reversed(self.limits))
+
+    def mass_integral(self, integrand: Any, density: Expr) -> MassIntegral:
+        """The integral of f(r) dm, f written with the name r."""
+        inward = [Tuple(*limit) for limit in reversed(self.limits)]
+        whole: MassIntegral = MassIntegral(integrand, vector("r"), density, self.position, self.element, *inward)
+        return whole
+
+    def with_section_put_in(self) -> Region:
+        """The same region, its limits written with what the radius of the cross-section stands for."""
+        if self.section is None:
+            return self
+        values = dict([self.section])
+        limits = tuple((x, bound(lower, values), bound(upper, values)) for x, lower, upper in self.limits)
+        return Region(limits, self.position, self.element)
+
+
+def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
+    """Names of coordinates that no given letter looks like: r, or else s."""
+    letters = {letter.name for letter in taken}
+    others = {"x": "xi", "y": "eta", "z": "zeta", "r": "s", "theta": "phi", "u": "w"}
+    found = [others[name] if name in letters else name for name in names]
+    return [scalar(name) for name in found]
+
+
+def box(sides: Iterable[Expr], point: Point) -> Region:
+    """Every coordinate between its own two limits; a side of None is a coordinate that is zero throughout."""
+    taken = {letter for side in sides if side is not None for letter in side.free_symbols}
+    limits, position = [], []
+    for name, side, start in zip(coordinates("xyz", taken), sides, point.position, strict=True):
+        position.append(name if side is not None else -start)
+        if side is not None:
+            limits.append((name, -start, side - start))
+    return Region(tuple(limits), column(*position))
+
+
+def solid_of_revolution(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point, kind: str) -> Region:
+    """All points within radius_at(z) of the body's z axis, z between two ends; seen from a point."""
+    taken = set(ends[0].free_symbols | ends[1].free_symbols | radius_at(ends[0]).free_symbols)
+    taken |= radius_at(ends[1]).free_symbols
+    z = coordinates("z", taken)[0]
+    lower, upper = point.interval(*ends)
+    if kind == "cylindrical":
+        r, theta = coordinates(("r", "theta"), taken)
+        edge = radius_at(point.along_body(z))
+        limits: Limits = ((z, lower, upper), (theta, Integer(0), 2 * pi), (r, Integer(0), edge))
+        return Region(limits, column(*_from_axis(r * cos(theta), r * sin(theta), point), z), r)
+    x, y = coordinates("xy", taken)
+    _check_sign(radius_at, ends)
+    edge = radius_at(point.along_body(z))
+    varies = edge.has(z)
+    r = Symbol(coordinates("r", taken)[0].name, nonnegative=True) if varies else edge
+    a, b = (component - place for component, place in zip((x, y), _from_axis(x, y, point), strict=True))
+    chord = sqrt(r**2 - (y + b) ** 2)
+    limits = ((z, lower, upper), (y, -r - b, r - b), (x, -chord - a, chord - a))
+    return Region(limits, column(x, y, z), section=(r, edge) if varies else None)
+
+
+def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> None:
+    """The ends of a chord are in order only where its radius is not negative."""
+    unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
+    if unsure is not None:
+        message = f"the radius `{unsure}` is not known to be positive, as Cartesian limits need"
+        help_line = "give it a letter of its own, or use cylindrical coordinates"
+        raise Rejected(Complaint("unknown-sign", message, help=help_line))
+
+
+def disc(radius: Expr, point: Point, height: Expr) -> Region:
+    """A flat disc about the z axis, at a height of the body's z."""
+    r, theta = coordinates(("r", "theta"), radius.free_symbols)
+    place = _from_axis(r * cos(theta), r * sin(theta), point)
+    limits: Limits = ((theta, Integer(0), 2 * pi), (r, Integer(0), radius))
+    return Region(limits, column(*place, height - point.position[2]), r)
+
+
+def circle(radius: Expr, point: Point) -> Region:
+    """A circle about the z axis."""
+    (theta,) = coordinates(("theta",), radius.free_symbols)
+    place = _from_axis(radius * cos(theta), radius * sin(theta), point)
+    return Region(((theta, Integer(0), 2 * pi),), column(*place, -point.position[2]), radius)
+
+
+def segment(ends: tuple[Expr, Expr], point: Point) -> Region:
+    """A piece of the z axis."""
+    (z,) = coordinates("z", ends[0].free_symbols | ends[1].free_symbols)
+    lower, upper = point.interval(*ends)
+    return Region(((z, lower, upper),), column(*_from_axis(Integer(0), Integer(0), point), z))
+
+
+def _from_axis(x: Expr, y: Expr, point: Point) -> tuple[Expr, Expr]:
+    """x and y counted from a point instead of from the axis; what is round about the axis may be turned about x."""
+    start = point.axes.T * point.position
+    return x - start[0], y - start[1]
+
+
+def no_such_coordinates(body: str, wanted: str, known: Iterable[str]) -> Rejected:
+    message = f'{body} has no limits in "{wanted}" coordinates'
+    return Rejected(Complaint("no-such-coordinates", message, help="it has " + ", ".join(f'"{k}"' for k in known)))

@@ -1,0 +1,219 @@
+"""What the equations of motion make of a quantity: its rate of change, and whether it is conserved.
+
+As on paper: each equation is multiplied by a factor, the products are added, and what is left is recognised as the rate
+of change of the quantity. The factors are not guessed. The rate of Q holds the highest rates linearly, so those factors
+are wanted for which the equations, added up, hold them alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, gcd_list
+
+from derive.algebra.collect import by_products
+from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, bound, explicit, rate
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.trajectory import followed
+from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_rate
+from derive.steps.establish import establish
+from derive.steps.step import Form, Level, Quantity, compared_with
+
+HIGHEST = 2  # the order of the rates that equations of motion determine
+
+
+def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
+    """Rate of change of a quantity along every motion that obeys the equations, dQ/dt.
+
+    quantity    a scalar Q in coordinates and their rates; its unit per second is that of the result
+    equations   equations of motion, as many as they have highest rates, and linear in these
+    Each equation times its factor is a step, and so is the sum of these, where there are several.
+    Second route: Q as a function of time, its highest rates put in as the equations give them; the same less the sum of
+    the equations, for all motions alike; where Q belongs to a body, also what its particles contribute, the sum put
+    back, and what a body does whose tensor is not diagonal; and one motion followed in numbers.
+    Outcomes: conserved (the rate is zero), changes.
+    Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
+    """
+    moving = _moving([quantity, *equations])
+    motion = highest_rates(equations, moving)
+    own_rate = explicit(TimeRate(quantity.value, *moving))
+    common, factors = _multipliers(own_rate, equations, list(motion))
+    matter, in_any_axes = quantity.context.get("rate"), quantity.context.get("any_axes")
+    torque = next((equation.context["torque"] for equation in equations if "torque" in equation.context), None)
+    products = _products(quantity, equations, factors, motion)
+    known = [_sum(quantity, products, motion)] if len(products) > 1 else products
+
+    in_time = by_functions_of_time(quantity.value, moving)
+    taken_off = common * Add(*(_equation(equation).residual for equation in known))  # zero along the motion
+
+    return establish(
+        "conservation.rate_under",
+        TimeRate(quantity.symbol, *moving),
+        lambda q: TimeRate(q, *moving),
+        {"quantity": quantity},
+        between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)],
+        routes={
+            "functions_of_time": compared_with(lambda: bound(in_time, motion)),
+            "sum": compared_with(lambda: in_time - taken_off),
+            **({"matter": lambda value: (value + taken_off, matter())} if matter else {}),
+            **({"any_axes": lambda value: (value, in_any_axes(torque))} if in_any_axes and torque is not None else {}),
+            "followed": lambda value: followed(quantity.value, value, motion),
+        },
+        outcome=lambda value: "conserved" if value == 0 else "changes",
+        motion=motion,
+        parents=known,
+        key=key or f"{quantity.key}_rate",
+        kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
+    )
+
+
+def _moving(quantities: Sequence[Quantity]) -> list[Symbol]:
+    return list(dict.fromkeys(q for quantity in quantities for q in quantity.coordinates))
+
+
+def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """What the equations of motion make of their highest rates: solved for them, as linear equations."""
+    residuals = [_equation(equation).residual.expand() for equation in equations]
+    unknown = [highest for q in moving if (highest := _highest(q, residuals)) is not None]
+    matrix = Matrix([[diff(residual, a) for a in unknown] for residual in residuals])
+    rest = Matrix([bound(residual, dict.fromkeys(unknown, Integer(0))) for residual in residuals])
+    if not unknown or matrix.rows != matrix.cols or matrix.has(*unknown) or tidied(matrix.det()) == 0:
+        count = "1 equation of motion does" if len(equations) == 1 else f"{len(equations)} equations of motion do"
+        message = f"{count} not give {', '.join(a.name for a in unknown) or 'any rate'}"
+        raise Rejected(Complaint("wrong-argument", message, help="give one equation for each coordinate that moves"))
+    return dict(zip(unknown, (tidied(value) for value in matrix.LUsolve(-rest)), strict=True))
+
+
+def _equation(quantity: Quantity) -> Relation:
+    value = quantity.value
+    if not (isinstance(value, Relation) and value.mark == "="):
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` is not an equation"))
+    return explicit(value)  # type: ignore[no-any-return]
+
+
+def _highest(q: Symbol, residuals: Sequence[Expr]) -> Symbol | None:
+    present = {s for residual in residuals for s in residual.free_symbols}
+    return next((rate(q, n) for n in range(HIGHEST, 0, -1) if rate(q, n) in present), None)
+
+
+def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequence[Symbol]) -> tuple[Expr, list[Expr]]:
+    """A number and the factors for which the equations, added up, hold each highest rate as the rate of Q does.
+
+    The number is what is common to all of them: on paper nobody multiplies by it.
+    """
+    matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
+    wanted = Matrix([diff(own_rate, a) for a in unknown])
+    if wanted.has(*unknown) or own_rate.has(*(rate(a) for a in unknown)):
+        raise Rejected(Complaint("wrong-argument", "the quantity has higher rates than the equations of motion give"))
+    factors = [tidied(factor) for factor in matrix.T.LUsolve(wanted)]
+    common = gcd_list([factor.as_coeff_Mul()[0] for factor in factors if factor != 0] or [Integer(1)])
+    return common, [factor / common for factor in factors]
+
+
+def _products(
+    quantity: Quantity, equations: Sequence[Quantity], factors: Sequence[Expr], motion: Mapping[Symbol, Expr]
+) -> list[Quantity]:
+    """Each equation that is needed, times its factor."""
+    products: list[Quantity] = []
+    for equation, factor in zip(equations, factors, strict=True):
+        if factor != 0:
+            products.append(_product(quantity, equation, factor, motion, leads=not products))
+    return products
+
+
+def _product(
+    quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], leads: bool
+) -> Quantity:
+    """An equation of motion times a factor, multiplied out."""
+    written = equation.value
+    return establish(
+        "conservation.product",
+        None,
+        lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
+        {"factor": factor, "quantity": quantity},
+        arranged=lambda value: _by_sides(value, _moving([quantity, equation])),
+        routes={
+            "motion": lambda value: _sides(value, motion),
+            "divided": lambda value: _divided(value, factor, written, motion),
+        },
+        outcome="first" if leads else "next",
+        judged_by={"leads": leads, "written": written},
+        law_shown=Level.FULL,
+        put_in=None,
+        parents=[equation],
+        key=f"{quantity.key}_{equation.key}",
+    )
+
+
+def _divided(found: Relation, factor: Expr, written: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Any, Any]:
+    """Where the factor is not zero, each side divided by it is that of the equation: by its rates, and what is left."""
+
+    def parts(relation: Relation, divisor: Expr) -> list[Expr]:
+        at_rest = dict.fromkeys(motion, Integer(0))
+        sides = [explicit(side) for side in relation.sides]
+        return [x / divisor for side in sides for x in (*(diff(side, a) for a in motion), bound(side, at_rest))]
+
+    mark = {"=": Integer(1)}.get(found.mark, Integer(0))
+    return ImmutableDenseMatrix([*parts(found, factor), mark]), ImmutableDenseMatrix([*parts(written, Integer(1)), 1])
+
+
+def _one_by_one(found: Relation, products: Sequence[Quantity]) -> tuple[Any, Any]:
+    """Each side less those of the products, one after another: nothing is left."""
+    left = [explicit(side) for side in found.sides]
+    for product in products:
+        left = [side - explicit(other) for side, other in zip(left, product.value.sides, strict=True)]
+    mark = {"=": Integer(0)}.get(found.mark, Integer(1))
+    return ImmutableDenseMatrix([*left, mark]), ImmutableDenseMatrix([0, 0, 0])
+
+
+def _times(factor: Expr, side: Expr) -> Expr:
+    return Integer(0) if side == 0 else Factors(factor, side)
+
+
+def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbol, Expr]) -> Quantity:
+    """The sum of the products, collected."""
+    sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
+    return establish(
+        "conservation.sum",
+        None,
+        lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
+        {},
+        arranged=lambda value: _by_sides(value, _moving([quantity, *products])),
+        routes={
+            "motion": lambda value: _sides(value, motion),
+            "one_by_one": lambda value: _one_by_one(value, products),
+        },
+        outcome=_left_over(sides[0], list(motion)),
+        judged_by={"highest": list(motion), "products": sides[0]},
+        law_shown=Level.FULL,
+        put_in=None,
+        parents=list(products),
+        key=f"{quantity.key}_sum",
+    )
+
+
+def _added(sides: Sequence[Expr]) -> list[Expr]:
+    """The terms of several sums in a row; nothing is written for a zero, unless there is nothing else."""
+    return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
+
+
+def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
+    """What becomes of the terms without a highest rate: there were none, they cancel, or some remain."""
+    without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
+    if all(rest == 0 for rest in without):
+        return "plain"
+    return "cancel" if Add(*without).expand() == 0 else "remain"
+
+
+def _sides(value: Relation, motion: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
+    left, right = (bound(explicit(side), motion) for side in value.sides)
+    return left, right
+
+
+def _by_sides(value: Relation, moving: Sequence[Symbol]) -> Relation:
+    """Both sides multiplied out and gathered, the terms with rates first."""
+    left, right = (by_products(explicit(side), moving) for side in value.sides)
+    return Relation(left, value.mark, right)

@@ -1,0 +1,183 @@
+"""The shape of a potential energy: its slope and curvature, and what kind of equilibrium stands where it is level."""
+
+from __future__ import annotations
+
+from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial, nan, series
+
+from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.oscillations import sign_of
+from derive.mechanics.systems.coordinates import only_coordinate
+from derive.steps.establish import establish
+from derive.steps.record import require_constant
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
+
+HIGHEST = 8  # where a potential is level to this order, nothing is decided
+
+
+def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quantity:
+    """Derivative of a potential energy by its coordinate, U' = dU/dq or U'' = d^2U/dq^2.
+
+    potential   a function of one coordinate, J
+    order       1, 2, ...
+    Second route: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
+    Outcomes: slope, curvature, higher.
+    Errors: the potential depends on several coordinates, or on none.
+    Source: Taylor, *Classical Mechanics*, section 4.6.
+    """
+    q = only_coordinate(potential)
+    named = {1: "slope", 2: "curvature"}.get(order, f"derivative_{order}")
+    return establish(
+        "potentials.slope",
+        Slope(potential.symbol, q, Integer(order)),
+        lambda energy: Slope(energy, q, Integer(order)),
+        {"potential": potential},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"expanded": compared_with(lambda: _coefficient(potential.value, q, q, order) * factorial(order))},
+        outcome=named if order < 3 else "higher",
+        key=key or f"{potential.key}_{named}",
+        arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
+        context={"potential": potential, "coordinate": q},
+    )
+
+
+def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
+    return Add(*(tidied(diff(term, q, order)) for term in Add.make_args(value)))
+
+
+def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
+    """The coefficient of u^n in the expansion about q = place."""
+    u = Symbol("u", real=True)
+    return series(value.subs(q, place + u), u, 0, order + 1).removeO().expand().coeff(u, order)
+
+
+def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvature") -> Quantity:
+    """Curvature of the potential energy where it is level, U''(q_0).
+
+    curvature   as `slope(potential, 2)` yields it
+    at          q_0, where U' vanishes; 0 unless given
+    Second route: twice the coefficient of the square in the expansion of U about that point.
+    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
+    Errors: U' does not vanish there.
+    Source: Taylor, *Classical Mechanics*, section 4.6.
+    """
+    q, potential = curvature.context["coordinate"], curvature.context["potential"]
+    place = at if at is not None else Integer(0)
+    _check_lasts("curvature_at", potential, q)
+    _check_level(potential.value, q, place, potential)
+    return establish(
+        "potentials.curvature_at",
+        At(curvature.symbol, q, place),
+        lambda second: At(second, q, place),
+        {"curvature": curvature},
+        told={"place": (Relation(q, "=", place), Relation(q, "=", _level_place(potential.value, q, place)))},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"expanded": compared_with(lambda: 2 * _coefficient(potential.value, q, place, 2))},
+        outcome=sign_of,
+        key=key,
+        arranged=spread_or_by_terms,
+        parents=[potential],
+    )
+
+
+def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:
+    """A potential that changes with the time has no equilibrium that its shape could tell."""
+    require_constant(
+        verb, "potential energy but for its coordinate", potential.value.xreplace({q: Dummy("q", real=True)})
+    )
+
+
+def _level_place(value: Expr, q: Symbol, place: Expr) -> Expr:
+    """The place, if the energy of a small displacement from it has no first order; undefined if it has."""
+    u = Dummy("u", real=True)
+    return place if is_zero(diff(value.subs(q, place + u), u).subs(u, 0)) else nan
+
+
+def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
+    if tidied(diff(value, q).subs(q, place)) != 0:
+        message = f"`{potential.key}` is not level at {q.name} = {place}"
+        raise Rejected(Complaint("no-equilibrium", message))
+
+
+def leading_order(
+    potential: Quantity, where: Relation | None = None, at: Expr | None = None, key: str = "leading_order"
+) -> Quantity:
+    """Potential energy near an equilibrium to the lowest order that decides, U = U(q_0) + c_n (q - q_0)^n.
+
+    potential   a function of one coordinate, J
+    where       a letter and the value for which the curvature of this potential vanishes, as `boundary_case` yields it
+    at          q_0; 0 unless given
+    Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
+    Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
+    at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
+    Errors: U' does not vanish there; the border is that of another potential.
+    Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
+    """
+    q, place = only_coordinate(potential), at if at is not None else Integer(0)
+    _check_lasts("leading_order", potential, q)
+
+    def in_case(energy: Expr) -> Expr:
+        return At(energy, where.left, where.right) if where else energy
+
+    value = explicit(in_case(potential.value))
+    _check_level(value, q, place, potential)
+    _check_border(value, q, place, potential, where)
+    order, leading = _first_that_decides(value, q, place)
+    constant = tidied(value.subs(q, place))
+    truncated = Terms(constant, leading * Pow(q - place, order))
+
+    def by_derivatives(found: Expr) -> tuple[Expr, Expr]:
+        """Each derivative with a mark of its own, so that no two can make up for one another."""
+        orders = range(1, (order or HIGHEST) + 1)
+        marks = {n: Symbol(f"u_{n}", real=True) for n in orders}
+        expected = leading * factorial(order) * marks[order] if order else Integer(0)
+        return Add(*(diff(found, q, n).subs(q, place) * marks[n] for n in orders)), expected
+
+    def lowest(found: Expr) -> tuple[Expr, Expr]:
+        orders = (n for n in range(1, HIGHEST + 1) if tidied(diff(found, q, n).subs(q, place)) != 0)
+        return Integer(order), Integer(next(orders, 0))
+
+    return establish(
+        "potentials.leading_order",
+        in_case(potential.symbol),
+        lambda energy, *_: in_case(energy),
+        {"potential": potential},
+        told={"case": (where, Relation(where.left, "=", where.right))} if where else {},
+        put_in=None,
+        law_shown=Level.FULL,
+        after=[Form(Truncated(truncated, q, place, Integer(order)), "series")] if order else [],
+        routes={"derivatives": by_derivatives, "lowest": lowest},
+        outcome=_shape(order, leading, at_bound=where is not None),
+        key=key,
+        kind=potential.step.kind,
+        arranged=spread_or_by_terms,
+        judged_by={"coordinate": q, "place": place, **({"case": where} if where else {})},
+        case_of=potential,
+    )
+
+
+def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, where: Relation | None) -> None:
+    """At the border of this very potential its curvature vanishes."""
+    if where is not None and not is_zero(diff(value, q, 2).subs(q, place)):
+        message = f"the curvature of `{potential.key}` does not vanish at {where}, so that is not its border"
+        help_line = "leave `where` out, or give `boundary_case` of its condition"
+        raise Rejected(Complaint("wrong-border", message, help=help_line))
+
+
+def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]:
+    """The lowest order whose coefficient is not zero, and that coefficient; (0, 0) if there is none."""
+    for n in range(2, HIGHEST + 1):
+        coefficient = tidied(_coefficient(value, q, place, n))
+        if coefficient != 0:
+            return n, coefficient
+    return 0, Integer(0)
+
+
+def _shape(order: int, leading: Expr, at_bound: bool) -> str:
+    even = "minimum" if leading.is_positive else "maximum" if leading.is_negative else "conditional"
+    shape = "flat" if order == 0 else "inflection" if order % 2 else even
+    return f"{shape}_at_bound" if at_bound else shape

@@ -1,0 +1,229 @@
+"""Steps of plain algebra: a value somewhere, the length of a vector, anything else by `let`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
+
+from derive.algebra.collect import by_terms
+from derive.algebra.dimensions import KINDS
+from derive.algebra.expressions import (
+    Dot,
+    Factors,
+    Group,
+    Norm,
+    Relation,
+    Root,
+    Terms,
+    bound,
+    component_names,
+    explicit,
+    scalar,
+)
+from derive.algebra.tidy import size_and_rest
+from derive.errors import Complaint, Rejected
+from derive.mechanics.rotation.vectors import length_by_turning
+from derive.steps.establish import establish
+from derive.steps.step import Form, Level, Quantity, compared_with
+from derive.steps.subject import EVERYTHING, Subject
+
+
+def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
+    """The value that a general result takes for a particular vector.
+
+    general      established with the components of a vector left open
+    particular   the vector to put in: same symbol, same axes
+    Second route: the law itself, evaluated with the particular vector from the start.
+    Errors: the general result does not contain that vector's components; it is one of another kind, or of a rotation
+    about another point.
+    Source: none needed: substitution.
+    """
+    _check_same_kind(general, particular)
+    names = component_names(particular.symbol.name)
+    if not general.value.free_symbols & set(names):
+        message = f"`{general.key}` does not depend on the components of `{particular.key}`"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    others = {q.symbol: q.value for q in general.parents if q.symbol != particular.symbol}
+    law = general.step.chain[0].expr
+
+    def anew() -> Any:
+        return explicit(bound(law, {**others, particular.symbol: particular.value}))
+
+    def value(general_value: Any, vector: Any) -> Any:
+        if isinstance(vector, MatrixSymbol):
+            return general_value
+        return _put_in(general_value, {name: Group(v) for name, v in zip(names, vector, strict=True)})
+
+    return establish(
+        "equations.at",
+        general.symbol,
+        lambda _, vector: value(general.value, vector),
+        {"general": general, "vector": particular},
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_at_{particular.key}",
+        kind=general.step.kind,
+        differ={"rotation"},
+        about=Subject(rotation=particular.subject.rotation),
+        case_of=general,
+    )
+
+
+def _check_same_kind(general: Quantity, particular: Quantity) -> None:
+    """What is put in is of the kind that was left open, and turns about the same point."""
+    opened = next((q for q in general.ancestors() if q is not general and q.symbol == particular.symbol), None)
+    if opened is None:
+        return
+    if opened.step.kind != particular.step.kind:
+        message = f"`at`: `{particular.key}` is not of the kind that `{opened.key}` leaves open"
+        raise Rejected(Complaint("wrong-argument", message))
+    points = [q.context.get("through") for q in (opened, particular)]
+    if None not in points and points[0] != points[1]:
+        message = f"`at`: `{opened.key}` turns about the {points[0]}, but `{particular.key}` about the {points[1]}"
+        raise Rejected(Complaint("wrong-point", message))
+
+
+def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
+    """The value with each name replaced, the terms of its sum kept apart."""
+    sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
+    outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
+    kept = [Terms(*_nonzero(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
+    return Factors(*([outside] if outside != 1 else []), *kept) if kept else outside
+
+
+def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
+    """A term whose factor is zero is left out, as one does on paper."""
+    kept = [term for term in terms if explicit(term) != 0]
+    return kept or [Integer(0)]
+
+
+def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
+    """The value of a general result once the letters in it have values.
+
+    general   a scalar in letters, any unit
+    values    what some of its letters stand for
+    Second route: the law itself, evaluated with these values from the start.
+    Errors: the general result contains none of these letters.
+    Source: none needed: substitution.
+    """
+    known = {q.symbol: q.value for q in values}
+    if isinstance(general.value, Relation):
+        message = f"`with_values` needs a value, but `{general.key}` is an equation or an inequality"
+        raise Rejected(Complaint("wrong-argument", message))
+    for value in values:
+        meant = next((q for q in general.ancestors() if q.symbol == value.symbol), None)
+        if meant is not None and meant.step != value.step:
+            message = f"`{general.key}` rests on `{meant.key}`, not on `{value.key}`: both are {value.symbol}"
+            raise Rejected(Complaint("different-subjects", message))
+    if not general.value.free_symbols & set(known):
+        names = " and ".join(f"`{q.key}`" for q in values)
+        raise Rejected(Complaint("nothing-to-put-in", f"`{general.key}` does not depend on {names}"))
+
+    def anew() -> Any:
+        behind = {q.symbol: bound(explicit(q.value), known) for q in general.parents if q.symbol not in known}
+        return explicit(bound(bound(general.step.chain[0].expr, behind), known))
+
+    return establish(
+        "equations.with_values",
+        general.symbol,
+        lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
+        {"general": general, **{q.key: q for q in values}},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"law": compared_with(anew)},
+        key=key or f"{general.key}_here",
+        kind=general.step.kind,
+        arranged=by_terms,
+        context=general.context,
+        case_of=general,
+    )
+
+
+def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
+    """Length of a vector, |v| = sqrt(v.v).
+
+    of      vector (3), any unit
+    Second route: turn the vector until it lies along one axis and read off its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    size, rest = size_and_rest(of.value)
+    squares = [entry**2 for entry in rest if entry != 0]
+    worked = [] if len(squares) < 2 else [Form(Factors(size, Root(Terms(*squares))), "squares", Level.STANDARD)]
+    return establish(
+        "equations.magnitude",
+        Norm(of.symbol),
+        lambda v: Root(Dot(v, v)),
+        {"vector": of},
+        between=worked,
+        put_in=Level.FULL,
+        routes={"turned": compared_with(lambda: length_by_turning(of.value))},
+        outcome=lambda length: "zero" if length == 0 else "generic",
+        key=key,
+        kind=of.step.kind,
+    )
+
+
+def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
+    """Square of a vector's length, |v|^2 = v.v.
+
+    of      vector (3), any unit
+    Second route: turn the vector until it lies along one axis and square its component.
+    Outcomes: zero, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    v = of.value
+    return establish(
+        "equations.squared_magnitude",
+        Pow(Norm(of.symbol), 2),
+        lambda v: Dot(v, v),
+        {"vector": of},
+        put_in=Level.FULL,
+        routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
+        outcome=lambda square: "zero" if square == 0 else "generic",
+        key=key,
+        context={
+            **({"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {}),
+            **({"any_axes": lambda N: 2 * of.context["any_axes"](N)} if "any_axes" in of.context else {}),
+        },
+    )
+
+
+def let(
+    key: str, law: Callable[..., Expr], *quantities: Quantity, symbol: str | None = None, kind: str | None = None
+) -> Quantity:
+    """A name for an expression in quantities: a definition, shown with its substitution.
+
+    key          what the step is called
+    law          a function of the quantities
+    kind         what kind of quantity it is, "force", "time"; else it has the dimension of the expression and no kind
+    It is about what the quantities are about, as far as they agree, and changes with the coordinates and the time that
+    it contains. Nothing checks that it is what its letter says: where it is an answer, the page calls it a definition.
+    Errors: no such kind; the expression is no scalar.
+    Source: none needed: a definition.
+    """
+    if kind is not None and kind not in KINDS:
+        raise Rejected(
+            Complaint("unknown-kind", f"`let`: there is no kind `{kind}`", help=f"the kinds are {', '.join(KINDS)}")
+        )
+
+    def scalar_law(*those: Any) -> Expr:
+        value = law(*those)
+        if isinstance(value, int | float | complex):
+            value = Integer(value) if isinstance(value, int) else None
+        if not isinstance(value, Expr):
+            message = f"`let` names one number or expression, but `{key}` would be {type(value).__name__}"
+            raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
+        return value
+
+    return establish(
+        "equations.let",
+        scalar(symbol or key),
+        scalar_law,
+        {q.key: q for q in quantities},
+        key=key,
+        definition=True,
+        kind=kind,
+        differ=EVERYTHING,
+    )

@@ -1,0 +1,223 @@
+"""What must be true for each word that chooses a sentence about a body, a tensor or its principal axes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, diff
+from sympy import diag as diagonal
+
+from derive.algebra.tidy import tidied
+from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.step import Quantity, is_zero
+
+
+def _dimensions_of_filling(n: int) -> Predicate:
+    def is_so(facts: Facts) -> bool:
+        body = facts.subject.body
+        return len(body.region(body.point(body.reference)).with_section_put_in().limits) == n
+
+    return is_so
+
+
+def _has_edges(facts: Facts) -> bool:
+    """Whether every coordinate has limits of its own, from zero: a box whose origin is at a corner."""
+    body = facts.subject.body
+    region = body.region(body.point(body.reference))
+    names = set(region.names)
+    own = [lower == 0 and not (upper.free_symbols & names) for _, lower, upper in region.limits]
+    return len(own) == 3 and all(own) and region.element == 1
+
+
+def _is_symmetric_about_its_centre(facts: Facts) -> bool:
+    """No third moment about the centre of mass is left, by integration."""
+    body = facts.subject.body
+    return is_zero(body.over_mass(lambda r: r.applyfunc(lambda x: x**3), body.middle))
+
+
+def _on_the_axis(facts: Facts) -> bool:
+    return is_zero(facts.result[0]) and is_zero(facts.result[1]) and not is_zero(facts.result[2])
+
+
+def _along_the_edge(facts: Facts) -> bool:
+    named = "xyz".find(facts.words.get("axis", "?"))
+    return named >= 0 and all(bool(x == int(k == named)) for k, x in enumerate(facts.result))
+
+
+def _joins_corners(facts: Facts) -> bool:
+    """From the corner at the origin through the centre, as far again: by the region's limits."""
+    body = facts.subject.body
+    limits = body.region(body.point(body.reference)).limits
+    return len(limits) == 3 and all(is_zero(x - (b - a)) for x, (_, a, b) in zip(facts.result, limits, strict=True))
+
+
+def _entry(*pairs: str, round_body: bool = False) -> Predicate:
+    """Which entry of a tensor it is, by its letter; of a round body, that it is round by its particles."""
+
+    def is_so(facts: Facts) -> bool:
+        return facts.symbol.name[-2:] in pairs and (not round_body or _is_round(facts))
+
+    return is_so
+
+
+def _is_round(facts: Facts) -> bool:
+    """Whether the particles of the body have the same moment about x and y, and no product, seen from its centre."""
+    body = facts.subject.body
+    centre = body.middle
+    places = [(m, centre.seen(r)) for m, r in body.particles()]
+    across = sum((m * (r[0] ** 2 - r[1] ** 2) for m, r in places), Integer(0))
+    products = [sum((m * r[i] * r[j] for m, r in places), Integer(0)) for i, j in ((0, 1), (0, 2), (1, 2))]
+    return is_zero(across) and all(is_zero(product) for product in products)
+
+
+def _different(values: Iterable[Expr]) -> int:
+    found: list[Expr] = []
+    for value in values:
+        if not any(is_zero(value - other) for other in found):
+            found.append(value)
+    return len(found)
+
+
+def _products_vanish(tensor: Any) -> bool:
+    return all(is_zero(tensor[i, j]) for i in range(3) for j in range(3) if i != j)
+
+
+def _moments_of(tensor: Any) -> list[Expr]:
+    return [tensor[k, k] for k in range(3)]
+
+
+def _tensor(different: int | None, round_body: bool = False) -> Predicate:
+    """A diagonal tensor with so many different moments; None for one that is not diagonal."""
+
+    def is_so(facts: Facts) -> bool:
+        tensor = facts.result
+        if different is None:
+            return not _products_vanish(tensor)
+        if round_body and not (is_zero(tensor[0, 0] - tensor[1, 1]) and _is_round(facts)):
+            return False
+        return _products_vanish(tensor) and _different(_moments_of(tensor)) == different
+
+    return is_so
+
+
+_TENSORS = {"generic": _tensor(None), "diagonal": _tensor(3), "two_equal": _tensor(2), "isotropic": _tensor(1)}
+
+
+_ROUND_TENSORS = {"round": _tensor(2, round_body=True), "round_isotropic": _tensor(1, round_body=True)}
+
+
+def _moments(different: int, diagonal: bool) -> Predicate:
+    return lambda facts: _different(facts.result) == different and _products_vanish(facts.inputs["inertia"]) == diagonal
+
+
+def _axis_of(different: int, alone: bool | None = None) -> Predicate:
+    """Of how many different moments the axis is; whether its own is the single one of three of which two are equal."""
+
+    def is_so(facts: Facts) -> bool:
+        moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
+        twins = sum(is_zero(moments[k] - other) for other in moments)
+        return _different(moments) == different and (alone is None or (twins == 1) == alone)
+
+    return is_so
+
+
+def _axis_of_symmetry(facts: Facts) -> bool:
+    along = all(bool(x == int(k == 2)) for k, x in enumerate(facts.result))
+    return _axis_of(2, alone=True)(facts) and along and _is_round(facts)
+
+
+def _moments_compared(wanted: str) -> Predicate:
+    """Equal moments; or one that is always the greater; else the relation says where they are equal."""
+
+    def is_so(facts: Facts) -> bool:
+        moments = facts.inputs["moments"]
+        apart = [tidied(a - b) for a in moments for b in moments if not is_zero(a - b)]
+        if wanted == "always":
+            return not apart
+        signed = bool(apart) and all(bool(d.is_positive or d.is_negative) for d in apart)
+        if wanted == "never":
+            return signed
+        letter, value = facts.result.sides
+        return bool(apart) and not signed and all(is_zero(d.subs(letter, value)) for d in apart)
+
+    return is_so
+
+
+def _is_flat(facts: Facts) -> bool:
+    """Whether all particles of the part are in one plane across its axis."""
+    heights = [r[2] for _, r in facts.subject.body.particles()]
+    return all(is_zero(z - heights[0]) for z in heights)
+
+
+_HALF_TURN_ABOUT_X = ImmutableDenseMatrix(diagonal(1, -1, -1))
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "bodies.density": {
+        "along_edges": _has_edges,
+        "volume": lambda facts: _dimensions_of_filling(3)(facts) and not _has_edges(facts),
+        "area": _dimensions_of_filling(2),
+        "length": _dimensions_of_filling(1),
+        "derived": lambda facts: isinstance(facts.quantities.get("extent"), Quantity),
+    },
+    "bodies.volume": {"cylindrical": lambda facts: facts.inputs["element"] == facts.inputs["radius"]},
+    "bodies.section_radius": {
+        "straight": lambda facts: is_zero(diff(facts.result, facts.inputs["along"], 2)),
+        "curved": lambda facts: not is_zero(diff(facts.result, facts.inputs["along"], 2)),
+    },
+    "bodies.centre_of_mass": {
+        "generic": _is_symmetric_about_its_centre,
+        "asymmetric": lambda facts: not _is_symmetric_about_its_centre(facts),
+        "round": _on_the_axis,
+    },
+    "bodies.axis_vector": {"diagonal": _joins_corners, "edge": _along_the_edge, "components": lasts},
+    "inertia.entry": {
+        "first_moment": _entry("xx"),
+        "moment": _entry("yy", "zz"),
+        "first_product": _entry("xy"),
+        "product": _entry("xz", "yz"),
+        "across": _entry("xx", round_body=True),
+        "along": _entry("zz", round_body=True),
+    },
+    "inertia.entry_moved": {
+        "first_moment": _entry("xx"),
+        "moment": _entry("yy", "zz"),
+        "first_product": _entry("xy"),
+        "product": _entry("xz", "yz"),
+        "across": _entry("xx", round_body=True),
+        "along": _entry("zz", round_body=True),
+        "outward_first": _entry("xx"),
+        "outward": _entry("yy", "zz", "xy", "xz", "yz"),
+    },
+    "inertia.inertia_tensor": {**_TENSORS, **_ROUND_TENSORS},
+    "inertia.moved_to": {**_TENSORS, **_ROUND_TENSORS},
+    "inertia.moved_from_centre": {**_TENSORS, **_ROUND_TENSORS},
+    "inertia.agreement": {
+        "generic": lambda facts: bool(facts.inputs["turn"].is_Identity),
+        "turned": lambda facts: facts.inputs["turn"] == _HALF_TURN_ABOUT_X,
+    },
+    "principal.principal_moments": {
+        "isotropic": _moments(1, diagonal=True),
+        "two_equal": _moments(2, diagonal=True),
+        "distinct": _moments(3, diagonal=True),
+        "two_equal_roots": _moments(2, diagonal=False),
+        "roots": _moments(3, diagonal=False),
+    },
+    "principal.axis": {
+        "single": _axis_of(2, alone=True),
+        "symmetry": _axis_of_symmetry,
+        "free": _axis_of(2, alone=False),
+        "free_too": _axis_of(2, alone=False),
+        "any": _axis_of(1),
+        "any_too": _axis_of(1),
+        "distinct": _axis_of(3),
+        "distinct_too": _axis_of(3),
+    },
+    "principal.isotropic_where": {word: _moments_compared(word) for word in ("special", "always", "never")},
+    "composed.part_moment": {"moment": lasts, "none": vanishes, "flat": _is_flat},
+    "free_rotation.principal_tensor": {"generic": _tensor(3), "two_equal": _tensor(2), "isotropic": _tensor(1)},
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)

@@ -1,0 +1,153 @@
+"""What must be true for each word that chooses a sentence about roots, conditions and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from sympy import Expr, Integer, Rational, Symbol, prime
+
+from derive.algebra.expressions import explicit
+from derive.mechanics.outcomes.signs import always_sign, sign_is
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.step import is_zero
+
+
+def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
+    """Positive numbers for the letters, from one scale to another."""
+    ordered = sorted(letters, key=str)
+    for shift in range(12):
+        yield {s: Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i, s in enumerate(ordered)}
+
+
+def _two_roots(facts: Facts) -> Iterable[tuple[Expr, Expr, Expr]]:
+    """This root, the other and the factor b, in numbers: those that are given, or some for which the roots are real."""
+    quadratic = facts.inputs["quadratic"]
+    a, b, c = quadratic.a, quadratic.b, quadratic.c
+    other = -b / a - facts.result
+    given = [with_numbers(each) for each in (facts.result, other, b)]
+    if not any(value.free_symbols for value in given):
+        yield tuple(value.evalf(30) for value in given)
+        return
+    letters = set().union(*(each.free_symbols for each in (a, b, c)))
+    for point in _some_points(letters):
+        if (b**2 - 4 * a * c).subs(point).evalf(30) > 0:
+            yield tuple(each.subs(point).evalf(30) for each in (facts.result, other, b))
+
+
+def _roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
+    def is_so(facts: Facts) -> bool:
+        seen = list(_two_roots(facts))
+        return bool(seen) and all(bool(test(*numbers)) for numbers in seen)
+
+    return is_so
+
+
+_SLOW = _roots_fit(lambda this, other, b: abs(this) < abs(other) and this * other > 0)
+
+
+_FAST = _roots_fit(lambda this, other, b: abs(this) > abs(other) and this * other > 0)
+
+
+def _whether(real: bool, predicate: Predicate) -> Predicate:
+    """The roots are known to be real, or that is not known."""
+    return lambda facts: (sign_known(facts.inputs["quadratic"].discriminant) == 1) == real and predicate(facts)
+
+
+def _roots(discriminant: int | None, product: int | None = 1) -> Predicate:
+    """By the sign of the discriminant, and of the product of the roots where it is positive."""
+
+    def is_so(facts: Facts) -> bool:
+        q = facts.inputs["quadratic"]
+        if is_zero(q.a) or sign_known((q.b / q.a) ** 2 - 4 * q.c / q.a) != discriminant:
+            return False
+        opposite = sign_known(q.c / q.a) == -1
+        return discriminant != 1 or opposite == (product == -1)
+
+    return is_so
+
+
+def _linear(facts: Facts) -> bool:
+    return is_zero(facts.inputs["quadratic"].a)
+
+
+def _solved(squared: bool) -> Predicate:
+    """A letter stands alone on the left, or its square; it is not on the right."""
+
+    def is_so(facts: Facts) -> bool:
+        left, right = facts.result.sides
+        alone = left.base if squared and left.is_Pow else left
+        return isinstance(alone, Symbol) and left.is_Pow == squared and not right.has(alone)
+
+    return is_so
+
+
+def _of_known_sign(sign: int) -> Predicate:
+    return always_sign(sign, lambda facts: facts.inputs["quantity"])
+
+
+def _border(with_border: bool) -> Predicate:
+    return lambda facts: (facts.result.mark == ">=") == with_border
+
+
+def _numbers_fulfil(wanted: bool) -> Predicate:
+    """The condition with the numbers put in, decided in 30 digits."""
+    truths = {
+        "=": lambda d: d == 0,
+        "<": lambda d: d < 0,
+        ">": lambda d: d > 0,
+        "<=": lambda d: d <= 0,
+        ">=": lambda d: d >= 0,
+    }
+
+    def is_so(facts: Facts) -> bool:
+        residual = explicit(facts.result.left) - explicit(facts.result.right)
+        value = Integer(0) if is_zero(residual) else residual.evalf(30)
+        return bool(truths[facts.inputs["condition"].mark](value)) == wanted
+
+    return is_so
+
+
+def _of_numbers(wanted: str) -> Predicate:
+    return lambda facts: (wanted == "measured") == bool(facts.inputs["letters"])
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "conditions.positive_where": {
+        "conditional": _solved(squared=False),
+        "squared": _solved(squared=True),
+        "always": _of_known_sign(1),
+        "never": _of_known_sign(-1),
+        "vanishing": _of_known_sign(0),
+    },
+    "precession.steady_rate": {
+        "slow": _whether(True, _SLOW),
+        "fast": _whether(True, _FAST),
+        "slow_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) < abs(other))),
+        "fast_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) > abs(other))),
+        "forward": _roots_fit(lambda this, other, b: this * other < 0 and this * b < 0 and abs(this) < abs(other)),
+        "backward": _roots_fit(lambda this, other, b: this * other < 0 and this * b > 0 and abs(this) > abs(other)),
+        "coinciding": lambda facts: sign_known(facts.inputs["quadratic"].discriminant) == 0,
+    },
+    "sleeping.sleeping_spin": {"with_border": _border(True), "without_border": _border(False)},
+    "quadratics.roots_of": {
+        "two": _roots(1),
+        "opposite": _roots(1, product=-1),
+        "none": _roots(-1),
+        "double": _roots(0),
+        "conditional": _roots(None),
+        "linear": _linear,
+    },
+    "quadratics.discriminant": {
+        "positive": sign_is(1),
+        "negative": sign_is(-1),
+        "vanishing": sign_is(0),
+        "conditional": sign_is(None),
+    },
+    "numbers.value": {"exact": _of_numbers("exact"), "measured": _of_numbers("measured")},
+    "numbers.comparison": {"fulfilled": _numbers_fulfil(True), "not_fulfilled": _numbers_fulfil(False)},
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)

@@ -1,0 +1,134 @@
+"""What must be true for each word that chooses a sentence about coordinates, potentials and oscillations."""
+
+from __future__ import annotations
+
+from sympy import Expr, diff
+
+from derive.algebra.expressions import Slope, explicit
+from derive.algebra.tidy import tidied
+from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
+from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.step import is_zero
+
+
+def _even_in(sign: int) -> Predicate:
+    """How a coordinate of the rolled body changes with the sign of the angle: across turns over, up does not."""
+
+    def is_so(facts: Facts) -> bool:
+        q = facts.inputs["angle"]
+        return is_zero(facts.result.subs(q, -q) - sign * facts.result)
+
+    return is_so
+
+
+def _cyclic(facts: Facts) -> bool:
+    return is_zero(diff(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
+
+
+def _not_cyclic(facts: Facts) -> bool:
+    return not _cyclic(facts)
+
+
+def _order_of(*orders: int, more: bool = False) -> Predicate:
+    def is_so(facts: Facts) -> bool:
+        symbol = facts.symbol
+        order = int(symbol.args[2]) if isinstance(symbol, Slope) else 0
+        return order > max(orders) if more else order in orders
+
+    return is_so
+
+
+def _shaped(shape: str, at_bound: bool) -> Predicate:
+    """The first derivative that does not vanish, by differentiation where the verb expands in a series."""
+
+    def is_so(facts: Facts) -> bool:
+        q, place = facts.inputs["coordinate"], facts.inputs["place"]
+        level = is_zero(diff(facts.result, q, 2).subs(q, place))
+        if at_bound != ("case" in facts.inputs) or at_bound and not level:
+            return False
+        for n in range(2, 9):
+            there = tidied(diff(facts.result, q, n).subs(q, place))
+            if not is_zero(there):
+                return shape == _shape_by(n, there)
+        return shape == "flat"
+
+    return is_so
+
+
+def _shape_by(order: int, derivative: Expr) -> str:
+    if order % 2:
+        return "inflection"
+    return "minimum" if derivative.is_positive else "maximum" if derivative.is_negative else "conditional"
+
+
+def _constraint_of(wanted: str) -> Predicate:
+    """A free coordinate has a multiplier of its own on its right side, with the factor one."""
+
+    def is_so(facts: Facts) -> bool:
+        own = facts.inputs.get("multiplier")
+        return (wanted == "free") == (own is not None and is_zero(facts.result.right - own))
+
+    return is_so
+
+
+def _directed(wanted: str) -> Predicate:
+    """At the angle zero the normal is upwards and the tangent to the right."""
+
+    def is_so(facts: Facts) -> bool:
+        q, forces = facts.inputs["angle"], (facts.inputs["right"], facts.inputs["up"])
+        there = forces[0 if wanted == "tangent" else 1]
+        return is_zero((facts.result - there).subs(q, 0))
+
+    return is_so
+
+
+_SIGNS = {
+    "stable": always_sign(1),
+    "unstable": always_sign(-1),
+    "neutral": always_sign(0),
+    "conditional": always_sign(None),
+}
+
+
+def _of_square(sign: int | None) -> Predicate:
+    return always_sign(sign, lambda facts: facts.inputs["squared"])
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "coordinates.rate_of": {"generic": lasts, "zero": vanishes},
+    "rolling.rolled_centre": {"across": _even_in(-1), "up": _even_in(1)},
+    "lagrangian.plane_kinetic_energy": {
+        "turning": lambda facts: "inertia" in facts.inputs,
+        "particle": lambda facts: "inertia" not in facts.inputs,
+    },
+    "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},
+    "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
+    "oscillations.linearised": {
+        "generic": lambda facts: is_zero(facts.inputs["place"]),
+        "displaced": lambda facts: not is_zero(facts.inputs["place"]),
+    },
+    "oscillations.frequency_squared": _SIGNS,
+    "oscillations.frequency": {
+        "stable": _of_square(1),
+        "unstable": _of_square(-1),
+        "neutral": _of_square(0),
+        "conditional": _of_square(None),
+    },
+    "potentials.slope": {"slope": _order_of(1), "curvature": _order_of(2), "higher": _order_of(2, more=True)},
+    "potentials.curvature_at": _SIGNS,
+    "potentials.leading_order": {
+        **{
+            shape: _shaped(shape, at_bound=False)
+            for shape in ("minimum", "maximum", "inflection", "conditional", "flat")
+        },
+        **{
+            f"{shape}_at_bound": _shaped(shape, at_bound=True)
+            for shape in ("minimum", "maximum", "inflection", "conditional", "flat")
+        },
+    },
+    "constraints.equation_with_multipliers": {"free": _constraint_of("free"), "turning": _constraint_of("turning")},
+    "constraints.contact_forces": {"normal": _directed("normal"), "tangent": _directed("tangent")},
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)

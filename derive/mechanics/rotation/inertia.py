@@ -1,0 +1,441 @@
+"""The inertia tensor: by integration about a point, and moved from point to point.
+
+I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) tensor in the body's axes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol, cos, sin
+
+from derive.algebra.expressions import (
+    Cross,
+    Dot,
+    Factors,
+    Outer,
+    Terms,
+    column,
+    component_names,
+    explicit,
+    scalar,
+    scaled,
+    tensor,
+    vector,
+)
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.integration import worked_integral
+from derive.mechanics.bodies.regions import Point, Region
+from derive.steps.establish import establish
+from derive.steps.step import Level, Quantity, compared_with, entry_name
+from derive.steps.subject import Subject
+
+Pair = tuple[int, int]
+
+PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
+ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # what symmetry about the z axis leaves: across it and along it
+
+
+def inertia_tensor(
+    body: Body,
+    about: str = "centre",
+    coordinates: str | None = None,
+    symbol: str | None = None,
+    key: str | None = None,
+) -> Quantity:
+    """Inertia tensor about a point, J = integral of (r.r 1 - r r) dm.
+
+    body         mass M, uniform density
+    about        a point that the body has: "centre", "corner", "apex", ...; axes those of the body
+    coordinates  "cartesian" or "cylindrical", where the body has both
+    Each of the six entries is a step of its own; of a body that is round about z, the two that symmetry leaves.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
+    centre of mass is the body's.
+    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; of a
+    body that is round about z, round or round_isotropic.
+    Errors: no such point, no such coordinates.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    point = body.point(about)
+    region = body.within(point, coordinates)
+    name = symbol or ("I" if about == "centre" else "J")
+    key = key or "inertia_tensor"
+    by_definition = _definition(body, point, region, name, key)
+    pairs = pairs_left_by_symmetry(body, point)
+    entries = {pair: _entry_by_integration(body, point, region, name, key, pair, by_definition) for pair in pairs}
+    return establish(
+        "inertia.inertia_tensor",
+        tensor(name),
+        lambda *found: _assembled(pairs, found),
+        _by_pair(entries),
+        routes={
+            "definition": compared_with(lambda: by_definition.value),
+            "particles": lambda tensor: _moment_about_any_axis(tensor, body, point),
+            "balanced": lambda _: (_first_moment(body, point), body.mass * point.seen(body.middle.position)),
+        },
+        outcome=_round_shape if pairs == ROUND else _shape,
+        kind="moment of inertia",
+        put_in=None,
+        context={"body": body, "about": point},
+        words={"about": point.name},
+        key=key,
+        about=Subject(body=body, point=point),
+    )
+
+
+def moment_of_inertia(
+    body: Body, axis: str = "z", about: str = "centre", symbol: str = "I", key: str = "moment_of_inertia"
+) -> Quantity:
+    """Moment of inertia about one axis through a point, I = integral of the squared distance from it dm.
+
+    body    mass M, uniform density
+    axis    "x", "y" or "z": parallel to which of the body's axes
+    about   a point that the body has, through which the axis goes
+    Second route: the sum of m times the squared distance over the body's equimomental particles.
+    Errors: no such point.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    """
+    point, i = body.point(about), "xyz".index(axis)
+    region, rho = body.within(point, None), body.density
+    weight = entry_weight(region, (i, i))
+    return establish(
+        "inertia.moment_of_inertia",
+        scalar(symbol),
+        _with_sign_in_front(region, weight),
+        {"density": rho},
+        told=_told_square(region, (i, i), weight),
+        between=worked_integral(region, weight, rho.symbol, body.size),
+        routes={"particles": compared_with(lambda: _entry_from_particles(body, point, (i, i)))},
+        kind="moment of inertia",
+        put_in=None,
+        words={"about": point.name, "axis": axis},
+        key=key,
+        parents=body.radii(point, region),
+        about=Subject(body=body, mass=body.mass, point=point, axis=axis),
+    )
+
+
+def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
+    """The entries to be worked out: of a round body seen from its axis, I_yy is I_xx and the products vanish."""
+    return ROUND if body.is_round and point.position[0] == point.position[1] == 0 else PAIRS
+
+
+def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
+    """J = integral of (r.r 1 - r r) dm, r from the point: what the symbol means."""
+    return establish(
+        "inertia.definition",
+        tensor(name),
+        lambda _: _law(region, body.density.symbol),
+        {"r": vector("r")},
+        definition=True,
+        kind="moment of inertia",
+        parents=[body.density, *body.radii(point, region)],
+        put_in=None,
+        show_result=False,
+        words={"about": point.name},
+        key=f"{key}_definition",
+        about=Subject(body=body, point=point),
+    )
+
+
+def _law(region: Region, density: Expr) -> Any:
+    """The integral of (r.r 1 - r r) dm, not carried out."""
+    r = vector("r")
+    integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
+    return region.with_section_put_in().mass_integral(integrand, density)
+
+
+def _as_defined(body: Body, point: Point) -> Any:
+    return explicit(_law(body.region(point), body.density.value))
+
+
+def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
+    return {"xyz"[i] + "xyz"[j]: quantity for (i, j), quantity in entries.items()}
+
+
+def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
+    """The symmetric tensor of its entries; what is not among them symmetry about z gives."""
+    at = dict(zip(pairs, found, strict=True))
+    if pairs == ROUND:
+        at |= {(1, 1): at[(0, 0)], (0, 1): Integer(0), (0, 2): Integer(0), (1, 2): Integer(0)}
+    return ImmutableDenseMatrix(3, 3, lambda i, j: at[(min(i, j), max(i, j))])
+
+
+def _shape(tensor: Any) -> str:
+    if not tensor.is_diagonal():
+        return "generic"
+    different = len({tensor[i, i] for i in range(3)})
+    return {1: "isotropic", 2: "two_equal"}.get(different, "diagonal")
+
+
+def _round_shape(tensor: Any) -> str:
+    return "round_isotropic" if tensor[0, 0] == tensor[2, 2] else "round"
+
+
+def _entry_outcome(pair: Pair) -> str:
+    """The first moment and the first product are introduced; the others follow on."""
+    kind = "moment" if pair[0] == pair[1] else "product"
+    return f"first_{kind}" if pair in ((0, 0), (0, 1)) else kind
+
+
+def _round_entry_outcome(pair: Pair) -> str:
+    return "along" if pair == (2, 2) else "across"
+
+
+def _entry_by_integration(
+    body: Body, point: Point, region: Region, name: str, key: str, pair: Pair, definition: Quantity
+) -> Quantity:
+    """One entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
+    i, j = pair
+    weight = entry_weight(region, pair)
+    rho = body.density
+    is_round = pairs_left_by_symmetry(body, point) == ROUND
+    return establish(
+        "inertia.entry",
+        entry_name(name, i, j),
+        _with_sign_in_front(region, weight),
+        {"density": rho},
+        told=_told_square(region, pair, weight),
+        between=worked_integral(region, weight, rho.symbol, body.size),
+        routes={"particles": compared_with(lambda: _entry_from_particles(body, point, pair))},
+        outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
+        kind="moment of inertia",
+        put_in=None,
+        key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
+        words={"about": point.name},
+        parents=[definition, *body.radii(point, region)],
+        about=Subject(body=body, point=point, axis=f"{'xyz'[i]}{'xyz'[j]}"),
+    )
+
+
+def entry_weight(region: Region, pair: Pair) -> Expr:
+    """What is integrated over the mass: the squared distance from the axis, or minus the product of two coordinates."""
+    i, j = pair
+    at = region.position
+    weight = sum((x**2 for k, x in enumerate(at) if k != i), Integer(0)) if i == j else -at[i] * at[j]
+    return _without_angles(weight)
+
+
+def _without_angles(weight: Expr) -> Expr:
+    """r^2 cos^2 + r^2 sin^2 is written r^2; what depends on the angle stays as it is."""
+    if not weight.atoms(sin, cos):
+        return weight
+    plain = weight.expand().replace(
+        lambda e: e.is_Pow and isinstance(e.base, cos) and e.exp == 2, lambda e: 1 - sin(e.base.args[0]) ** 2
+    )
+    plain = plain.expand()
+    return weight if plain.atoms(sin, cos) else plain
+
+
+def _with_sign_in_front(region: Region, weight: Expr) -> Callable[[Expr], Expr]:
+    if weight.could_extract_minus_sign():
+        return lambda rho: Factors(-rho, region.integral(-weight))
+    return lambda rho: Factors(rho, region.integral(weight))
+
+
+def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
+    """The squared distance from the axis of a moment, and the same as |e x r|^2."""
+    if pair[0] != pair[1]:
+        return {}
+    across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
+    return {"square": (weight, explicit(Dot(across, across)))}
+
+
+def _moment_from_particles(body: Body, point: Point, n: Any) -> Expr:
+    """The moment of inertia about the axis through the point along n: mass times distance squared, summed."""
+    total: Expr = Integer(0)
+    for mass, place in body.particles():
+        arm = explicit(Cross(n, point.seen(place)))
+        total += mass * explicit(Dot(arm, arm))
+    return total
+
+
+def _first_moment(body: Body, point: Point) -> Any:
+    """The sum of m r over the particles, r from the point: M times where the centre of mass is seen from there."""
+    total = column(0, 0, 0)
+    for mass, place in body.particles():
+        total = total + mass * point.seen(place)
+    return total
+
+
+def _entry_from_particles(body: Body, point: Point, pair: Pair) -> Expr:
+    """n.I n at n = e_i + e_j less the two moments is twice the entry I_ij."""
+    axes = [column(*(int(k == axis) for k in range(3))) for axis in pair]
+    if pair[0] == pair[1]:
+        return _moment_from_particles(body, point, axes[0])
+    both, *alone = (_moment_from_particles(body, point, n) for n in (axes[0] + axes[1], *axes))
+    return (both - sum(alone)) / 2
+
+
+def _moment_about_any_axis(tensor: Any, body: Body, point: Point) -> tuple[Expr, Expr]:
+    n = column(*component_names("n"))
+    return explicit(Dot(n, tensor * n)), _moment_from_particles(body, point, n)
+
+
+def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
+    """Inertia tensor about the centre of mass, I = J - M (c.c 1 - c c), from J about another point of the body.
+
+    tensor_there    tensor (3, 3), kg m^2, about a point of the body
+    centre          vector (3), m: the body's centre of mass, from that point and in the same axes
+    Second route: each entry, and the tensor as a whole, by direct integration about the centre; the trace as twice the
+    integral of r.r dm.
+    Outcomes: as `inertia_tensor`.
+    Errors: the tensor is already about the centre of mass; the centre is counted from another point.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
+    """
+    body: Body = tensor_there.context["body"]
+    start: Point = tensor_there.context["about"]
+    if start.position == body.middle.position:
+        message = f"`{tensor_there.key}` is already about the centre of mass"
+        raise Rejected(Complaint("already-there", message, help="start from another point, or use the tensor as it is"))
+    _check_start(tensor_there, centre, start)
+    there = replace(body.middle, axes=start.axes)
+    pairs = pairs_left_by_symmetry(body, start)
+    entries = {pair: _entry_moved(tensor_there, centre, there, symbol, key, pair) for pair in pairs}
+    return establish(
+        "inertia.moved_to",
+        tensor(symbol),
+        lambda *found: _assembled(pairs, found),
+        _by_pair(entries),
+        routes={
+            "integration": compared_with(lambda: _as_defined(body, there)),
+            "trace": lambda result: (result.trace(), 2 * body.over_mass(lambda r: Dot(r, r), there)),
+        },
+        outcome=_round_shape if pairs == ROUND else _shape,
+        kind="moment of inertia",
+        parents=[body.density],
+        put_in=None,
+        context={"body": body, "about": there},
+        words={"about": "centre", "start": start.name},
+        key=key,
+        about=Subject(body=body, point=there),
+    )
+
+
+def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", key: str = "moved_tensor") -> Quantity:
+    """Inertia tensor about another point of the body, J = I + M (c.c 1 - c c), from I about its centre of mass.
+
+    inertia   tensor (3, 3), kg m^2, about the centre of mass
+    centre    vector (3), m: the centre of mass as seen from the other point, in the same axes
+    Second route: each entry, and the tensor as a whole, by direct integration about the other point.
+    Outcomes: as `inertia_tensor`.
+    Errors: the tensor is not about the centre of mass; the axes are others.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
+    """
+    body: Body = inertia.context["body"]
+    target: Point = centre.context["from"]
+    if inertia.context["about"] != replace(body.middle, axes=target.axes):
+        message = f"`{inertia.key}` is not about the centre of mass along the axes of `{centre.key}`"
+        raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre"))
+    pairs = pairs_left_by_symmetry(body, target)
+    entries = {pair: _entry_moved(inertia, centre, target, symbol, key, pair) for pair in pairs}
+    return establish(
+        "inertia.moved_from_centre",
+        tensor(symbol),
+        lambda *found: _assembled(pairs, found),
+        _by_pair(entries),
+        routes={"integration": compared_with(lambda: _as_defined(body, target))},
+        outcome=_round_shape if pairs == ROUND else _shape,
+        kind="moment of inertia",
+        parents=[body.density],
+        put_in=None,
+        context={"body": body, "about": target},
+        words={"about": target.name},
+        key=key,
+        about=Subject(body=body, point=target),
+    )
+
+
+def _check_start(tensor_there: Quantity, centre: Quantity, start: Point) -> None:
+    """Parallel axes hold from the point of the tensor: the centre must be counted from there."""
+    counted_from = centre.context.get("from")
+    if counted_from != start:
+        told = f"from the {counted_from.name}" if isinstance(counted_from, Point) else "from another point"
+        message = f"`{tensor_there.key}` is about the {start.name}, but `{centre.key}` is counted {told}"
+        help_line = f'use centre_of_mass(body, origin="{start.name}")'
+        raise Rejected(Complaint("another-origin", message, help=help_line))
+
+
+def _components(v: Any) -> tuple[Any, ...]:
+    return component_names(v.name) if isinstance(v, MatrixSymbol) else tuple(v)
+
+
+def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, key: str, pair: Pair) -> Quantity:
+    """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z); away from the
+    centre with the opposite signs."""
+    i, j = pair
+    body: Body = there.context["body"]
+    other: Point = centre.context["from"]
+    outward = target == other
+    sign = 1 if outward else -1
+    is_round = pairs_left_by_symmetry(body, other) == ROUND
+    entry = next(parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}"))
+    # From a point of the axis of a round body, the distance along the axis is all there is.
+    apart = [k for k in range(3) if k != i and not (is_round and centre.value[k] == 0)]
+
+    def law(at_start: Expr, mass: Expr, c: Any) -> Expr:
+        c = _components(c)
+        if i == j:
+            squares = [c[k] ** 2 for k in apart]
+            shift = squares[0] if len(squares) == 1 else Terms(*squares)
+            return Terms(at_start, sign * Factors(mass, shift)) if squares else at_start
+        return Terms(at_start, -sign * Factors(mass, c[i], c[j]))
+
+    def directly() -> Expr:
+        return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], target)
+
+    return establish(
+        "inertia.entry_moved",
+        entry_name(name, i, j),
+        law,
+        {"entry": entry, "mass": body.mass, "centre": centre},
+        routes={"integration": compared_with(directly)},
+        outcome=_outward_outcome(pair) if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
+        kind="moment of inertia",
+        put_in=Level.STANDARD,
+        parents=[there],
+        words={"start": other.name},
+        key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
+        about=Subject(body=body, point=target),
+        differ={"point"},
+    )
+
+
+def _outward_outcome(pair: Pair) -> str:
+    return "outward_first" if pair == (0, 0) else "outward"
+
+
+def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:
+    """Two ways to the same tensor agree, I' = I.
+
+    found   tensor (3, 3), kg m^2
+    again   the tensor of the same body about the same point, found in another way, perhaps along axes that are turned
+    Second route: the tensor found in the other way, turned to the axes of the first.
+    Outcomes: generic; turned, where z was counted the other way.
+    Errors: the tensors are not of one body about one point.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    points = [tensor.context["about"] for tensor in (found, again)]
+    if found.context["body"] != again.context["body"] or points[0].position != points[1].position:
+        message = f"`{found.key}` and `{again.key}` are not tensors of one body about one point"
+        raise Rejected(Complaint("not-the-same", message))
+    turn = points[0].axes.T * points[1].axes
+    return establish(
+        "inertia.agreement",
+        again.symbol,
+        lambda first, _: first,
+        {"found": found, "again": again},
+        routes={"other_way": compared_with(lambda: turn * again.value * turn.T)},
+        outcome="generic" if turn.is_Identity else "turned",
+        kind="moment of inertia",
+        put_in=None,
+        context=found.context,
+        words={"about": points[0].name},
+        key=key,
+        about=found.subject,
+        differ={"point", "axes"},
+        judged_by={"turn": turn},
+    )

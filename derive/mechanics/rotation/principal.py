@@ -1,0 +1,267 @@
+"""Principal moments and principal axes: the axes along which angular momentum is parallel to angular velocity.
+
+A real symmetric tensor has three principal axes at right angles, I e_k = I_k e_k. Where two moments are equal every
+axis in the plane of theirs is principal, and where all three are, every axis is.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Poly, Symbol, cos, sin, sqrt
+
+from derive.algebra.expressions import Dot, column, explicit, scalar, vector
+from derive.algebra.tidy import factored_matrix, tidied
+from derive.errors import Complaint, Rejected
+from derive.steps.establish import establish
+from derive.steps.step import Quantity, is_zero, require_kind
+
+
+def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principal_moments") -> Quantity:
+    """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
+
+    inertia   symmetric tensor (3, 3), kg m^2
+    Of a diagonal tensor they are its diagonal, in the order of the axes; else they are given in increasing order.
+    Second route: sum, sum of products in pairs and product of the three are the invariants of the tensor.
+    Outcomes: isotropic (all equal), two_equal, distinct; where the tensor is not diagonal, two_equal_roots, roots.
+    Errors: the roots are those of a cubic that has no rational factor, so no closed form that one could use.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """
+    require_kind("principal_moments", "inertia", inertia, "moment of inertia")
+    roots = _roots(inertia)
+    names = column(*(scalar(f"{symbol}_{k}") for k in (1, 2, 3)))
+
+    def law(tensor: Any) -> Any:
+        if not inertia.value.is_diagonal():
+            return roots
+        whole = _by_entries(inertia) if isinstance(tensor, MatrixSymbol) else tensor
+        return column(*(whole[k, k] for k in range(3)))
+
+    def axis_by_axis(found: Any) -> tuple[Any, Any]:
+        """A unit vector along each axis, multiplied by the tensor, is its own moment times that vector."""
+        units = ImmutableDenseMatrix.eye(3)
+        return inertia.value * units, ImmutableDenseMatrix.hstack(*(found[k] * units[:, k] for k in range(3)))
+
+    return establish(
+        "principal.principal_moments",
+        names,
+        law,
+        {"inertia": inertia},
+        routes={
+            "invariants": lambda found: (column(*_symmetric_sums(found)), column(*_invariants(inertia.value))),
+            **({"axis_by_axis": axis_by_axis} if inertia.value.is_diagonal() else {}),
+        },
+        parents=[parent for parent in inertia.parents if parent.symbol in _by_entries(inertia).free_symbols],
+        outcome=_multiplicity if inertia.value.is_diagonal() else _multiplicity_of_roots,
+        kind="moment of inertia",
+        put_in=None,
+        context={**inertia.context, "tensor": inertia},
+        key=key,
+    )
+
+
+def principal_axes(
+    moments: Quantity, symbol: str = "e", key: str = "principal_axis"
+) -> tuple[Quantity, Quantity, Quantity]:
+    """Principal axes, unit vectors with I e_k = I_k e_k, right-handed.
+
+    moments   the principal moments of a tensor
+    Where two moments are equal, their axes are at an angle that remains free; where all are, any three will do.
+    Second route: each is put back into I e = I_k e; they are unit vectors, and each at right angles to the others.
+    Outcomes: single, or symmetry of a round body, free, free_too (two equal moments: the axis of the third and those
+    across it); any, any_too; distinct, distinct_too.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """
+    found, angle = _frame(moments)
+    alone = lone_moment(moments.value)
+    first = alone if alone is not None else 0
+    order = [first, *(k for k in range(3) if k != first)]
+    axes: dict[int, Quantity] = {}
+    for place, k in enumerate(order):
+        axes[k] = _axis(moments, found[k], angle, k, place, list(axes.values()), symbol, key)
+    return axes[0], axes[1], axes[2]
+
+
+def _axis(
+    moments: Quantity,
+    direction: Any,
+    angle: Symbol,
+    k: int,
+    place: int,
+    before: list[Quantity],
+    symbol: str,
+    key: str,
+) -> Quantity:
+    """One principal axis."""
+    tensor: Quantity = moments.context["tensor"]
+    is_free = direction.has(angle)
+    return establish(
+        "principal.axis",
+        vector(f"{symbol}_{k + 1}"),
+        lambda *_: direction,
+        {"moments": moments, **({"angle": angle} if is_free else {})},
+        routes={
+            "put_back": lambda e: (tensor.value * e, moments.value[k] * e),
+            "unit": lambda e: (Dot(e, e), Integer(1)),
+            "perpendicular": lambda e: (column(*_products(e, before)), column(0, 0, 0)),
+            **({"right_handed": lambda e: (_volume(k, e, before), Integer(1))} if len(before) == 2 else {}),
+        },
+        outcome=_axis_outcome(moments, place),
+        kind="number",
+        put_in=None,
+        parents=[tensor, *before],
+        coordinates={angle: "angle"} if is_free else {},
+        key=f"{key}_{k + 1}",
+    )
+
+
+def _axis_outcome(moments: Quantity, place: int) -> str:
+    different = _number_of_different(moments.value)
+    if different == 1:
+        return "any_too" if place else "any"
+    if different == 3:
+        return "distinct_too" if place else "distinct"
+    if place == 0:
+        return "symmetry" if moments.step.outcome == "two_equal" and _is_round(moments) else "single"
+    return "free" if place == 1 else "free_too"
+
+
+def _is_round(moments: Quantity) -> bool:
+    """Whether the tensor is that of a body which is round about the axis of the single moment, z."""
+    body = moments.context.get("body")
+    return getattr(body, "is_round", False) and lone_moment(moments.value) == 2
+
+
+def _products(e: Any, before: list[Quantity]) -> list[Expr]:
+    """The scalar products with the axes found before, filled up to three."""
+    found = [explicit(Dot(e, other.value)) for other in before]
+    return [*found, *[Integer(0)] * (3 - len(found))]
+
+
+def _volume(k: int, e: Any, before: list[Quantity]) -> Expr:
+    """e_1 . (e_2 x e_3), which is 1 for unit vectors that are right-handed."""
+    named = {int(other.symbol.name[-1]) - 1: other.value for other in before} | {k: e}
+    return explicit(ImmutableDenseMatrix.hstack(*(ImmutableDenseMatrix(named[i]) for i in range(3)))).det()
+
+
+def _number_of_different(moments: Any) -> int:
+    different: list[Expr] = []
+    for moment in moments:
+        if not any(is_zero(moment - other) for other in different):
+            different.append(moment)
+    return len(different)
+
+
+def _multiplicity(moments: Any) -> str:
+    return {1: "isotropic", 2: "two_equal"}.get(_number_of_different(moments), "distinct")
+
+
+def _multiplicity_of_roots(moments: Any) -> str:
+    return "two_equal_roots" if _number_of_different(moments) == 2 else "roots"
+
+
+def lone_moment(moments: Any) -> int | None:
+    """Which moment differs from two others that are equal."""
+    if _number_of_different(moments) != 2:
+        return None
+    for k in range(3):
+        i, j = (other for other in range(3) if other != k)
+        if is_zero(moments[i] - moments[j]):
+            return k
+    return None
+
+
+def _by_entries(inertia: Quantity) -> Any:
+    """The tensor by the names of its entries, as its own step writes it."""
+    formula = inertia.step.chain[0].expr
+    return formula if isinstance(formula, MatrixBase) else inertia.value
+
+
+def _symmetric_sums(m: Any) -> tuple[Expr, Expr, Expr]:
+    return m[0] + m[1] + m[2], m[0] * m[1] + m[0] * m[2] + m[1] * m[2], m[0] * m[1] * m[2]
+
+
+def _invariants(t: Any) -> tuple[Expr, Expr, Expr]:
+    """Trace, sum of the principal minors, determinant: what no turn of the axes changes."""
+    minors = sum((t[i, i] * t[j, j] - t[i, j] * t[j, i] for i, j in ((0, 1), (0, 2), (1, 2))), Integer(0))
+    return t.trace(), minors, explicit(ImmutableDenseMatrix(t)).det(method="berkowitz")
+
+
+def _roots(inertia: Quantity) -> Any:
+    """The eigenvalues, those of a diagonal tensor in its order, others from the least to the greatest."""
+    if inertia.value.is_diagonal():
+        return column(*(inertia.value[k, k] for k in range(3)))
+    common, rest = factored_matrix(inertia.value)
+    unknown = Symbol("lambda_root", real=True)
+    polynomial = (rest - unknown * ImmutableDenseMatrix.eye(3)).det(method="berkowitz")
+    found: list[Expr] = []
+    for part, times in Poly(polynomial, unknown).factor_list()[1]:
+        if part.degree() > 2:
+            message = f"the principal moments of `{inertia.key}` are roots of a cubic without a rational factor"
+            raise Rejected(Complaint("no-closed-form", message, help="use a tensor about a point of more symmetry"))
+        found += [common * root for root in _of_low_degree(part) for _ in range(times)]
+    return column(*sorted((tidied(root) for root in found), key=_size))
+
+
+def _of_low_degree(part: Poly) -> list[Expr]:
+    if part.degree() == 1:
+        a, b = part.all_coeffs()
+        return [-b / a]
+    a, b, c = part.all_coeffs()
+    inside = sqrt(b**2 - 4 * a * c)
+    return [(-b - inside) / (2 * a), (-b + inside) / (2 * a)]
+
+
+def _size(root: Expr) -> tuple[float, str]:
+    """For the order: by size, every letter taken as 1."""
+    return float(root.subs(dict.fromkeys(root.free_symbols, 1))), str(root)
+
+
+def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
+    """Three unit vectors, with an angle that remains free where two moments are equal."""
+    tensor = moments.context["tensor"].value
+    taken = {letter.name for letter in tensor.free_symbols}
+    angle = scalar(next(name for name in ("phi", "psi", "chi", "alpha") if name not in taken))
+    if tensor.is_diagonal():
+        frame = [column(*(int(i == k) for i in range(3))) for k in range(3)]
+    else:
+        frame = _eigenvectors(tensor, moments.value)
+    alone = lone_moment(moments.value)
+    if alone is not None:
+        i, j = (alone + 1) % 3, (alone + 2) % 3
+        u, v = frame[i], frame[j]
+        frame[i], frame[j] = cos(angle) * u + sin(angle) * v, -sin(angle) * u + cos(angle) * v
+    return [ImmutableDenseMatrix(e) for e in frame], angle
+
+
+def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
+    """Of a single moment, the vector at right angles to the rows of I - I_k 1; what is left, by vector products."""
+    alone = lone_moment(moments)
+    first = alone if alone is not None else 0
+    i, j = (first + 1) % 3, (first + 2) % 3
+    frame: dict[int, Any] = {first: _null_vector(tensor, moments[first])}
+    if alone is None:
+        frame[i] = _null_vector(tensor, moments[i])
+    else:
+        frame[i] = _unit(next(v for v in (_across(frame[first], a) for a in range(3)) if not is_zero(v)))
+    frame[j] = ImmutableDenseMatrix(frame[first].cross(frame[i]).applyfunc(tidied))
+    return [frame[k] for k in range(3)]
+
+
+def _across(e: Any, axis: int) -> Any:
+    return ImmutableDenseMatrix(e.cross(column(*(int(k == axis) for k in range(3)))))
+
+
+def _null_vector(tensor: Any, moment: Expr) -> Any:
+    rows = (tensor - moment * ImmutableDenseMatrix.eye(3)).applyfunc(tidied)
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        v = ImmutableDenseMatrix(rows[i, :].cross(rows[j, :]).T.applyfunc(tidied))
+        if not is_zero(v):
+            return _unit(v)
+    raise AssertionError("a single root leaves two independent rows")
+
+
+def _unit(v: Any) -> Any:
+    _, rest = factored_matrix(v)
+    length = sqrt(sum((x**2 for x in rest), Integer(0)))
+    return ImmutableDenseMatrix((rest / length).applyfunc(tidied))

@@ -1,0 +1,353 @@
+"""Rotation of a rigid body: angular velocity, energy, angular momentum, torque. All vectors in body axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Pow, Rational, acos, atan2, cos, pi, sin
+
+from derive.algebra.expressions import (
+    BodyRate,
+    CarriedRate,
+    Cross,
+    Dot,
+    Factors,
+    Norm,
+    Ratio,
+    Root,
+    Terms,
+    applied,
+    column,
+    component_names,
+    explicit,
+    scalar,
+    scaled,
+    vector,
+)
+from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.regions import Point
+from derive.steps.establish import establish
+from derive.steps.record import require_constant
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero, require_kind
+from derive.steps.subject import Subject
+
+
+def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
+    """An angular velocity of which nothing is known: omega = (omega_x, omega_y, omega_z), in 1/s: a definition.
+
+    through   the point of the body that stays at rest
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
+    """
+    components = column(*component_names(symbol))
+    return establish(
+        "rotation.any_angular_velocity",
+        vector(symbol),
+        lambda: components,
+        {},
+        key=key,
+        definition=True,
+        kind="angular speed",
+        context={"through": through},
+        about=Subject(rotation=components),
+    )
+
+
+def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "omega", key: str = "spin") -> Quantity:
+    """Angular velocity of a steady rotation, omega d/|d|.
+
+    rate      angular speed, 1/s; with a minus sign left-handed
+    along     vector (3) along the axis
+    through   the point of the body that the axis goes through, which stays at rest
+    Second route: put back: its length is the size of the rate, and its scalar product with d that of parallel vectors.
+    Outcomes: left_handed (the rate is negative), right_handed.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
+    """
+    body = along.subject.body
+    if body is not None:
+        body.point(through)  # which says so, where the body has no such point
+    length = tidied(Norm(along.value))
+    return establish(
+        "rotation.spin",
+        vector(symbol),
+        lambda w, d: scaled(w / Norm(d), d),
+        {"rate": rate, "axis": along},
+        between=[] if length == 1 else [Form(scaled(Ratio(rate, length), along.value), "length", Level.STANDARD)],
+        put_in=None,
+        routes={
+            "length": lambda omega: (length_by_turning(omega) ** 2, rate**2),
+            "parallel": lambda omega: (explicit(Dot(omega, along.value)), rate * length),
+        },
+        outcome="left_handed" if rate.is_negative else "right_handed",
+        key=key,
+        kind="angular speed",
+        context={"rate": rate, "through": through},
+        about=lambda omega: Subject(rotation=omega),
+    )
+
+
+def length_by_turning(v: Any) -> Expr:
+    """A vector's length: turn it about z into the xz plane, then about y onto z, and read off the component."""
+    size, (x, y, z) = size_and_rest(v)
+    level = _turned_onto_first(x, y)
+    return tidied(size * _turned_onto_first(level, z))
+
+
+def _turned_onto_first(p: Expr, q: Expr) -> Expr:
+    """The first component of (p, q) after the turn in their plane that makes the second one vanish."""
+    radius = tidied(p**2 + q**2) ** Rational(1, 2)
+    return p if radius == 0 else p * (p / radius) + q * (q / radius)
+
+
+def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
+    """The integral over the body of a function of the position from the point of the tensor, times dm."""
+    body: Body = inertia.context["body"]
+    point: Point = inertia.context["about"]
+    return body.over_mass(integrand, point)
+
+
+def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
+    """The acceleration of the place r of the body, omega_dot x r + omega x (omega x r)."""
+    turning = explicit(BodyRate(omega.value, *omega.coordinates))
+    return lambda r: explicit(Cross(turning, r)) + explicit(Cross(omega.value, Cross(omega.value, r)))
+
+
+def _left_by_turning(omega: Quantity) -> tuple[Any, Any]:
+    """L = I omega and I omega_dot = -omega x L of a free body in any axes of its own, its tensor not diagonal."""
+    xx, xy, xz, yy, yz, zz = (scalar(f"A_{pair}") for pair in ("xx", "xy", "xz", "yy", "yz", "zz"))
+    momentum = explicit(applied(ImmutableDenseMatrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), omega.value))
+    return momentum, -explicit(Cross(omega.value, momentum))
+
+
+def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
+    """The tensor must be about the point that stays at rest; that point is the word of the step."""
+    require_kind(verb, "inertia", inertia, "moment of inertia")
+    require_kind(verb, "omega", omega, "angular speed")
+    require_constant(verb, "inertia tensor", inertia, "a body whose size or mass changes is not rigid")
+    point, at_rest = inertia.context["about"].name, omega.context["through"]
+    if point != at_rest:
+        message = f"`{inertia.key}` is about the {point}, but the axis of `{omega.key}` goes through the {at_rest}"
+        help_line = f'move the tensor with `moved_to`, or write `through="{point}"` where the axis is given'
+        raise Rejected(Complaint("wrong-point", message, help=help_line))
+    return {"about": point, "point": point}
+
+
+def _whether_zero(v: Any) -> str:
+    """`zero`, `generic` if it is zero for no values of its letters, `in_general` if that is not known."""
+    if is_zero(v):
+        return "zero"
+    common, rest = factored_matrix(v)
+    return "generic" if common.is_nonzero and any(entry.is_nonzero for entry in rest) else "in_general"
+
+
+def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
+    """Kinetic energy of rotation, T = (1/2) omega . I omega.
+
+    inertia   tensor (3, 3), kg m^2, about the point that stays at rest
+    omega     vector (3), 1/s, same axes
+    Errors: the tensor is about another point than the axis goes through, or changes; arguments of other kinds.
+    Second route: half the integral of |omega x r|^2 dm over the body.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+
+    words = _check_point("kinetic_energy", inertia, omega)
+
+    def by_speeds() -> Expr:
+        return _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), Cross(omega.value, r))) / 2
+
+    acceleration = _acceleration(omega)
+    product = scaled(*factored_matrix(tidied(applied(inertia.value, omega.value))))
+    return establish(
+        "rotation.kinetic_energy",
+        scalar(symbol),
+        lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
+        {"omega": omega, "inertia": inertia},
+        between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.STANDARD)],
+        put_in=Level.FULL,
+        routes={"speeds": compared_with(by_speeds)},
+        key=key,
+        kind="energy",
+        words=words,
+        context={
+            "rate": lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r))),
+            "any_axes": lambda N: (
+                explicit(Dot(omega.value, N)) + explicit(Dot(omega.value, _left_by_turning(omega)[1]))
+            ),
+        },
+    )
+
+
+def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key: str = "angular_momentum") -> Quantity:
+    """Angular momentum, L = I omega: in general not along omega.
+
+    inertia   tensor (3, 3), kg m^2, about the point that stays at rest
+    omega     vector (3), 1/s, same axes
+    Errors: the tensor is about another point than the axis goes through, or changes; arguments of other kinds.
+    Second route: the integral of r x (omega x r) dm over the body.
+    Outcomes: parallel (omega is along a principal axis), generic (never), in_general (it depends on the letters).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
+    """
+    words = _check_point("angular_momentum", inertia, omega)
+    acceleration = _acceleration(omega)
+    by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
+    return establish(
+        "rotation.angular_momentum",
+        vector(symbol),
+        applied,
+        {"inertia": inertia, "omega": omega},
+        routes={"moments": by_moments},
+        outcome=lambda L: "parallel" if (how := _whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
+        key=key,
+        kind="angular momentum",
+        words=words,
+        context={
+            "about": words["about"],
+            "rate": lambda: _over_the_body(inertia, lambda r: Cross(r, acceleration(r))),
+            "any_axes": lambda N: (
+                explicit(Dot(applied(inertia.value, omega.value), N)) + explicit(Dot(*_left_by_turning(omega)))
+            ),
+        },
+    )
+
+
+def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "theta") -> Quantity:
+    """Cosine of the angle between two vectors, a.b/(|a||b|).
+
+    a, b    vectors (3), not zero, same axes
+    angle   the letter of the angle
+    Second route: the law of cosines in the triangle whose sides are the two directions.
+    Outcomes: parallel, opposite, perpendicular, generic.
+    Errors: one of them vanishes; they belong to two bodies.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    lengths = [tidied(Norm(v.value)) for v in (a, b)]
+    for v, length in zip((a, b), lengths, strict=True):
+        if length == 0:
+            raise Rejected(Complaint("zero-vector", f"`{v.key}` vanishes, so that it makes no angle with anything"))
+
+    def by_law_of_cosines() -> Expr:
+        (f, u), (g, v) = (factored_matrix(q.value) for q in (a, b))
+        sign = -1 if (f * g).could_extract_minus_sign() else 1
+        beside, opposite = [length_by_turning(w) for w in (u, v)], length_by_turning(u - v)
+        return sign * (beside[0] ** 2 + beside[1] ** 2 - opposite**2) / (2 * beside[0] * beside[1])
+
+    return establish(
+        "rotation.cosine_between",
+        cos(scalar(angle)),
+        lambda u, v: Ratio(Dot(u, v), Factors(Norm(u), Norm(v))),
+        {"a": a, "b": b},
+        between=_lengths_worked(a, b, lengths),
+        put_in=Level.FULL,
+        routes={"triangle": compared_with(by_law_of_cosines)},
+        outcome=_relation_of_directions,
+        key=key,
+        kind="number",
+        differ={"point", "rotation"},
+        means={scalar(angle): _angle_by_components(a.value, b.value)},
+    )
+
+
+def _angle_by_components(u: Any, v: Any) -> Expr:
+    """The angle of v in the plane of u and v, counted from u."""
+    across, along = tidied(Norm(Cross(u, v))), tidied(Dot(u, v))
+    return atan2(across, along)
+
+
+def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
+    """The scalar product and the two lengths: with the sums of products in sight, then carried out."""
+    parts = [size_and_rest(v.value) for v in (a, b)]
+    (_, u), (_, v) = parts
+    signed = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0])
+    forms = [Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)]
+    if u.free_symbols or v.free_symbols:
+        return forms
+    products = [x * y for x, y in zip(u, v, strict=True) if x * y != 0]
+    roots = [_as_root_of_squares(size, rest, length) for (size, rest), length in zip(parts, lengths, strict=True)]
+    if len(products) > 1:
+        worked = Ratio(Factors(signed, Terms(*products)), Factors(*roots))
+        forms.insert(0, Form(worked, "products", Level.STANDARD))
+        forms[1] = Form(forms[1].expr, "lengths", Level.FULL)
+    return forms
+
+
+def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
+    """M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225); a length that is plain stays plain."""
+    if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
+        return length
+    squares = [entry**2 for entry in rest if entry != 0]
+    return Factors(size, Root(Terms(*squares))) if len(squares) > 1 else length
+
+
+def _relation_of_directions(cosine: Expr) -> str:
+    return {Integer(1): "parallel", Integer(-1): "opposite", Integer(0): "perpendicular"}.get(cosine, "generic")
+
+
+def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "angle_between") -> Quantity:
+    """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
+
+    a, b    vectors (3), not zero, same axes
+    Second route: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they leave one
+    angle from 0 to pi.
+    Outcomes: parallel, opposite, perpendicular, generic.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    """
+    cosine = cosine_between(a, b, "cosine" if key == "angle_between" else f"{key}_cosine", symbol)
+    across = tidied(Norm(Cross(a.value, b.value)))
+    along = tidied(Dot(a.value, b.value))
+    lengths = length_by_turning(a.value) * length_by_turning(b.value)
+    return establish(
+        "rotation.angle_between",
+        scalar(symbol),
+        lambda: acos(cosine.value),
+        {},
+        parents=[cosine, a, b],
+        points_to={"a": a, "b": b},
+        routes={
+            "tangent": lambda theta: (sin(theta) * along, cos(theta) * across),
+            "sine": lambda theta: (sin(theta) * lengths, across),
+        },
+        outcome=lambda theta: {Integer(0): "parallel", pi: "opposite", pi / 2: "perpendicular"}.get(theta, "generic"),
+        key=key,
+        kind="angle",
+    )
+
+
+def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
+    """Torque that keeps L turning with the body: tau = dL/dt = omega x L.
+
+    omega      vector (3), 1/s, body axes, constant
+    momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
+    Second route: carry L round the axis by a rotation matrix and differentiate.
+    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
+    Errors: omega or L changes; L belongs to another rotation than omega.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
+    """
+    require_kind("torque", "omega", omega, "angular speed")
+    require_kind("torque", "momentum", momentum, "angular momentum")
+    require_constant("torque", "angular velocity", omega, "`rate_in_space` is dL/dt for one that changes")
+    require_constant(
+        "torque", "angular momentum in the body", momentum, "`rate_in_space` is dL/dt for one that changes"
+    )
+    about = momentum.context["about"]
+    (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
+    carried = CarriedRate(momentum.value, omega.value)
+    return establish(
+        "rotation.torque",
+        vector(symbol),
+        Cross,
+        {"omega": omega, "momentum": momentum},
+        before=[
+            Form(CarriedRate(momentum.symbol, omega.symbol), "law"),
+            Form(MatAdd(BodyRate(momentum.symbol), Cross(omega.symbol, momentum.symbol)), "moving_axes"),
+        ],
+        between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
+        put_in=Level.FULL,
+        routes={"carried_round": compared_with(lambda: carried)},
+        outcome=_whether_zero,
+        key=key,
+        kind="torque",
+        words={"about": about, "point": about},
+    )

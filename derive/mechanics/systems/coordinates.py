@@ -1,0 +1,147 @@
+"""Generalized coordinates: what varies in a motion, its rates, and how anything that depends on it changes in time.
+
+A coordinate q is a plain name, and so are its rates q_dot and q_ddot: `TimeRate` differentiates by the chain rule. The
+second route makes q a function of t and leaves the differentiation to SymPy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Derivative, Expr, Function, MatrixBase, Symbol, diff
+
+from derive.algebra.collect import by_rates
+from derive.algebra.dimensions import dimension_of_kind, kind_of_dimension
+from derive.algebra.expressions import TIME, TimeRate, explicit, rate, scalar
+from derive.errors import Complaint, Rejected
+from derive.steps.establish import establish
+from derive.steps.record import coordinate_named
+from derive.steps.step import Level, Quantity, compared_with
+
+T = TIME  # coordinates are functions of it where a second route makes them so
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A generalized coordinate. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
+
+    symbol   its name
+    kind     `angle`, `length`, or another kind of quantity that varies
+    """
+
+    symbol: Symbol
+    kind: str
+
+    @property
+    def rate(self) -> Symbol:
+        return rate(self.symbol)
+
+    @property
+    def acceleration(self) -> Symbol:
+        return rate(self.symbol, 2)
+
+    @property
+    def letters(self) -> dict[Symbol, str]:
+        return {self.symbol: self.kind}
+
+
+def coordinate(name: str, kind: str = "angle") -> Coordinate:
+    """A coordinate by name, real, free to vary."""
+    found = Coordinate(scalar(name), kind)
+    coordinate_named(found.symbol, kind)
+    return found
+
+
+def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
+    """Each coordinate's name with its kind, as steps keep them."""
+    return {q.symbol: q.kind for q in coordinates}
+
+
+def kind_of_rate(kind: str) -> str:
+    """A length changes at a speed, an angle at an angular speed, an angular momentum by a torque."""
+    if kind in {"angle", "number", "angular momentum"}:
+        return "torque" if kind == "angular momentum" else "angular speed"
+    faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))
+    if faster is None:
+        raise Rejected(Complaint("no-such-kind", f"the rate of a quantity of the kind `{kind}` has no name"))
+    return faster
+
+
+def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
+    """The expression with every coordinate, and its rates, as functions of the time and their derivatives."""
+    replaced: dict[Any, Any] = {}
+    for q in coordinates:
+        f = Function(q.name)(T)
+        replaced.update({q: f, rate(q): Derivative(f, T), rate(q, 2): Derivative(f, (T, 2))})
+    return explicit(expr).xreplace(replaced)
+
+
+def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
+    """The way back: functions of the time, and their derivatives, as plain names."""
+    replaced: dict[Any, Any] = {}
+    for q in coordinates:
+        f = Function(q.name)(T)
+        replaced.update({Derivative(f, (T, 3)): rate(q, 3), Derivative(f, (T, 2)): rate(q, 2)})
+        replaced.update({Derivative(f, T): rate(q), f: q})
+    for derivative_or_function, name in replaced.items():  # the highest derivatives first
+        expr = expr.xreplace({derivative_or_function: name})
+    return expr
+
+
+def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 1) -> Any:
+    """The n-th time derivative with every coordinate a function of t: the second route to what `TimeRate` yields."""
+    coordinates = list(coordinates)
+    value = changing(expr, coordinates)
+    for _ in range(order):
+        value = value.diff(T) if isinstance(value, MatrixBase) else diff(value, T)
+    return unchanging(value, coordinates)
+
+
+def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
+    """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
+
+    quantity   a scalar that depends on coordinates; its unit per second is that of the result
+    Second route: the coordinates as functions of t, differentiated by SymPy.
+    Outcomes: generic, zero.
+    Errors: the quantity has no plain letter as its name.
+    Source: Taylor, *Classical Mechanics*, section 7.1.
+    """
+    if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no letter that could take a dot"))
+    moving = list(quantity.coordinates)
+
+    def by_time() -> Expr:
+        return by_functions_of_time(quantity.value, moving)
+
+    return establish(
+        "coordinates.rate_of",
+        rate(quantity.symbol),
+        lambda x: TimeRate(x, *moving),
+        {"quantity": quantity},
+        put_in=Level.FULL,
+        law_shown=Level.FULL,
+        routes={"functions_of_time": compared_with(by_time)},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        arranged=lambda value: by_rates(value, moving),
+        key=key or f"{quantity.key}_rate",
+        kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
+    )
+
+
+def only_coordinate(quantity: Quantity) -> Symbol:
+    """The one coordinate that a quantity depends on."""
+    found = [q for q in quantity.coordinates if quantity.value.has(q, rate(q), rate(q, 2))]
+    if len(found) != 1:
+        names = ", ".join(q.name for q in found) or "none"
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` must depend on one coordinate, but has {names}"))
+    return found[0]
+
+
+def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quantity: Quantity) -> None:
+    """Refuse a coordinate that the quantity does not have."""
+    if q.symbol not in coordinates:
+        known = ", ".join(s.name for s in coordinates) or "none"
+        message = f"`{verb}`: `{quantity.key}` does not depend on the coordinate {q.symbol.name}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"it has {known}"))

@@ -1,0 +1,118 @@
+"""What a Lagrangian is made of, as mass points and forces: the ground on which its second routes stand.
+
+A rigid body moves as a few mass points would: one of the whole mass at the centre of mass, and for the rotation points
+on unit vectors fixed in the body, whose `masses` are second moments, in kg m^2. Kinetic energy, momenta and the virtual
+work of inertia and of forces then come from positions alone, differentiated as functions of t.
+
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from sympy import Expr, Integer, Rational, Symbol, cos, diff, sin
+
+from derive.algebra.expressions import explicit
+from derive.mechanics.systems.coordinates import by_functions_of_time
+
+Vector = tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class MassPoint:
+    """A mass, in kg, at a place in space, in m; or a second moment, in kg m^2, on a unit vector."""
+
+    mass: Expr
+    place: Vector
+
+
+@dataclass(frozen=True)
+class Load:
+    """A force, in N, constant in space, that acts at a place, in m."""
+
+    force: Vector
+    place: Vector
+
+
+@dataclass(frozen=True)
+class Matter:
+    """Mass points and loads together, and the coordinates that their places depend on."""
+
+    points: tuple[MassPoint, ...] = ()
+    loads: tuple[Load, ...] = ()
+    coordinates: tuple[Symbol, ...] = ()
+
+    def __add__(self, other: Matter) -> Matter:
+        both = dict.fromkeys((*self.coordinates, *other.coordinates))
+        return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both))
+
+    def kinetic_energy(self) -> Expr:
+        """Half the sum of m v.v"""
+        return sum((_dot(v, v) * m / 2 for m, _, v in self._moving(1)), Integer(0))
+
+    def momentum_along(self, q: Symbol) -> Expr:
+        """The sum of m v . dr/dq"""
+        return sum((m * _dot(v, _along(r, q)) for m, r, v in self._moving(1)), Integer(0))
+
+    def inertia_along(self, q: Symbol) -> Expr:
+        """The sum of m a . dr/dq: less the virtual work of the forces of inertia"""
+        return sum((m * _dot(a, _along(r, q)) for m, r, a in self._moving(2)), Integer(0))
+
+    def turning_along(self, q: Symbol) -> Expr:
+        """The sum of m v . d(dr/dq)/dt: what the kinetic energy gains per unit of q"""
+        found: Expr = Integer(0)
+        for m, r, v in self._moving(1):
+            found += m * _dot(v, self._rates(_along(r, q), 1))
+        return found
+
+    def force_along(self, q: Symbol) -> Expr:
+        """The sum of F . dr/dq: the virtual work of the loads"""
+        return sum((_dot(load.force, _along(load.place, q)) for load in self.loads), Integer(0))
+
+    def _moving(self, order: int) -> list[tuple[Expr, Vector, Vector]]:
+        return [(point.mass, point.place, self._rates(point.place, order)) for point in self.points]
+
+    def _rates(self, v: Vector, order: int) -> Vector:
+        return _rates_of(v, self.coordinates, order)
+
+
+@lru_cache(maxsize=256)  # each momentum, force and equation of motion asks for those of the same points
+def _rates_of(v: Vector, coordinates: tuple[Symbol, ...], order: int) -> Vector:
+    return tuple(by_functions_of_time(x, coordinates, order) for x in v)
+
+
+def _dot(u: Vector, v: Vector) -> Expr:
+    return sum((a * b for a, b in zip(u, v, strict=True)), Integer(0))
+
+
+def _along(v: Vector, q: Symbol) -> Vector:
+    return tuple(diff(x, q) for x in v)
+
+
+def plane_body(mass: Expr, place: Sequence[Any], inertia: Expr, angle: Expr, coordinates: Sequence[Symbol]) -> Matter:
+    """A body that moves in a plane: its mass at the centre of mass, and its moment of inertia about that on a pointer.
+
+    Two points of half the mass at the distances +-k along the pointer, with M k^2 = I, have the same moment of inertia.
+    """
+    at = tuple(explicit(x) for x in place)
+    return Matter((MassPoint(mass, at), *_pointer(inertia, angle)), (), tuple(coordinates))
+
+
+def _pointer(inertia: Expr, angle: Expr) -> tuple[MassPoint, ...]:
+    return (MassPoint(inertia, (cos(angle), sin(angle))),) if inertia != 0 else ()
+
+
+def symmetric_body(across: Expr, along: Expr, axes: Sequence[Sequence[Expr]], coordinates: Sequence[Symbol]) -> Matter:
+    """A body with an axis of symmetry, from its moments of inertia about a fixed point and its axes in space.
+
+    across, along   moments of inertia across the axis of symmetry and along it, kg m^2
+    axes            the body's unit vectors x, y, z in space, z along the axis
+    The second moments, sum of m x^2 = sum of m y^2 = along/2 and sum of m z^2 = across - along/2, give these moments.
+    """
+    weights = (along * Rational(1, 2), along * Rational(1, 2), across - along / 2)
+    points = tuple(MassPoint(w, tuple(e)) for w, e in zip(weights, axes, strict=True))
+    return Matter(points, (), tuple(coordinates))

@@ -1,0 +1,323 @@
+"""Lagrange's equations: energies in generalized coordinates, the Lagrangian, and the equation of motion of each.
+
+The second routes go back to places and forces (`derive.mechanics.systems.dalembert`): momenta as mass times velocity
+along the motion of one coordinate, equations of motion by d'Alembert's principle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
+
+from derive.algebra.collect import by_accelerations, by_rates
+from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, required
+from derive.mechanics.systems.dalembert import Load, Matter, plane_body
+from derive.steps.establish import establish
+from derive.steps.record import changes, require_constant
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
+from derive.steps.subject import Subject, called
+
+ZERO = Integer(0)
+
+
+def plane_kinetic_energy(
+    mass: Expr | Quantity,
+    velocity: Sequence[Quantity],
+    place: Sequence[Quantity],
+    inertia: Any = ZERO,
+    turning: Coordinate | None = None,
+    symbol: str = "T",
+    key: str = "kinetic_energy",
+) -> Quantity:
+    """Kinetic energy of a body that moves in a plane, T = (1/2) I theta_dot^2 + (1/2) M (x_dot^2 + y_dot^2).
+
+    mass       M, kg
+    velocity   of the centre of mass, components in m/s
+    place      the centre of mass itself, components in m
+    inertia    I about the centre of mass, across the plane, kg m^2; none for a particle
+    turning    the coordinate by which the body turns
+    Second route: half the sum of m v^2 over mass points, whose places are differentiated as functions of t.
+    Errors: the moment is about another point than the centre of mass, about an axis in the plane, or that of another
+    mass; mass or moment change.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3 (the energy of and about the centre of mass).
+    """
+    own = turning.letters if turning else {}
+    coordinates = {**own, **{q: kind for part in place for q, kind in part.coordinates.items()}}
+    if turning and inertia is None:
+        raise Rejected(Complaint("wrong-argument", "`plane_kinetic_energy` needs the moment of inertia of what turns"))
+    moment = value_behind(inertia)
+    require_constant("plane_kinetic_energy", "mass", mass)
+    if turning:
+        require_constant("plane_kinetic_energy", "moment of inertia", inertia)
+    _check_moment(mass, inertia)
+    angle = turning.symbol if turning else Integer(0)
+    matter = plane_body(value_behind(mass), [x.value for x in place], moment, angle, list(coordinates))
+    inputs: dict[str, Any] = {"mass": mass, **{f"velocity_{i}": v for i, v in enumerate(velocity)}}
+    if turning:
+        inputs["inertia"] = inertia
+
+    def law(m: Expr, *rest: Expr) -> Expr:
+        speeds, moments = rest[: len(velocity)], rest[len(velocity) :]
+        moving = Factors(Rational(1, 2), m, Terms(*(Pow(v, 2) for v in speeds)))
+        spinning = [Factors(Rational(1, 2), i, Pow(turning.rate, 2)) for i in moments if turning]
+        return Terms(*spinning, moving) if spinning else moving
+
+    return establish(
+        "lagrangian.plane_kinetic_energy",
+        scalar(symbol),
+        law,
+        inputs,
+        put_in=Level.STANDARD,
+        routes={"mass_points": compared_with(matter.kinetic_energy)},
+        arranged=lambda value: by_rates(value, list(coordinates), halves=True),
+        outcome="turning" if turning else "particle",
+        key=key,
+        kind="energy",
+        parents=list(place),
+        context={"matter": matter},
+        coordinates=own,
+        about=Subject(mass=value_behind(mass), place=tuple(x.value for x in place)),
+    )
+
+
+def _check_moment(mass: Any, inertia: Any) -> None:
+    """A moment of a body must be that of this mass, about its centre of mass, and about an axis across the plane."""
+    if not isinstance(inertia, Quantity):
+        return
+    verb, body, about = "plane_kinetic_energy", inertia.subject.body, inertia.subject
+    require_kind(verb, "inertia", inertia, "moment of inertia")
+    if body is not None and about.point is not None:
+        middle = getattr(body, "middle", None)
+        if not isinstance(about.point, Point) or not middle or not is_zero(about.point.position - middle.position):
+            message = f"`{verb}` needs a moment about the centre of mass, but `{inertia.key}` is about "
+            help_line = 'give the moment with about="centre"'
+            raise Rejected(Complaint("wrong-point", message + called(about.point), help=help_line))
+    if about.mass is not None and not is_zero(about.mass - value_behind(mass)):
+        message = f"`{verb}`: `{inertia.key}` is the moment of a mass {called(about.mass)}"
+        raise Rejected(Complaint("different-subjects", f"{message}, not of {called(value_behind(mass))}"))
+    across = getattr(body, "flat_across", None)
+    if across is not None and about.axis not in (None, across):
+        message = f"`{inertia.key}` is about an axis in the plane of {called(body)}, which moves in that plane"
+        raise Rejected(Complaint("wrong-axis", message, help=f'give the moment with axis="{across}"'))
+    if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
+        message = f"`{inertia.key}` is about the line of {called(body)} itself, which lies in the plane"
+        raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))
+
+
+def weight_energy(
+    mass: Expr | Quantity, gravity: Expr, place: Sequence[Quantity], symbol: str = "U", key: str = "potential_energy"
+) -> Quantity:
+    """Potential energy of the weight, U = M g y, with y the last component of the place, upwards from the origin.
+
+    mass      M, kg
+    gravity   g, m/s^2
+    place     of the centre of mass, components in m, the last one upwards
+    Second route: the weight does the work -dU along any motion, for each coordinate -dU/dq = F . dr/dq.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 5.3.
+    """
+    height = place[-1]
+    coordinates = list({q: None for part in place for q in part.coordinates})
+    at = tuple(part.value for part in place)
+    require_constant("weight_energy", "mass", mass)
+    require_constant("weight_energy", "gravity", gravity)
+    down = (*(Integer(0) for _ in at[:-1]), -value_behind(mass) * gravity)
+    matter = Matter((), (Load(down, at),), tuple(coordinates))
+
+    def work_of_weight(potential: Expr) -> tuple[Expr, Expr]:
+        """Each coordinate with a factor of its own, so that no two terms can make up for one another."""
+        moving = [*coordinates, TIME]
+        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        lost = [-diff(potential, q) * mark for q, mark in zip(moving, marks, strict=True)]
+        done = [matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)]
+        return Add(*lost), Add(*done)
+
+    def zero_at_origin(potential: Expr) -> tuple[Expr, Expr]:
+        """Forces leave a constant open: it is zero at the height of the origin."""
+        weight = value_behind(mass) * gravity
+        return potential - weight * at[-1], ZERO
+
+    return establish(
+        "lagrangian.weight_energy",
+        scalar(symbol),
+        lambda m, g, y: Factors(m, g, y),
+        {"mass": mass, "gravity": gravity, "height": height},
+        put_in=Level.BRIEF,
+        show_result=False,
+        routes={"work": work_of_weight, "origin": zero_at_origin},
+        key=key,
+        kind="energy",
+        parents=list(place),
+        context={"matter": matter},
+        arranged=explicit,
+        about=_about_weight(mass, at),
+    )
+
+
+def _about_weight(mass: Any, at: tuple[Any, ...]) -> Subject:
+    """A mass with a body of its own needs no other sign of what it belongs to."""
+    if isinstance(mass, Quantity) and mass.subject.body is not None:
+        return mass.subject
+    return Subject(mass=value_behind(mass), place=at)
+
+
+def lagrangian(kinetic: Quantity, potential: Quantity, symbol: str = "L", key: str = "lagrangian") -> Quantity:
+    """Lagrangian, L = T - U.
+
+    kinetic, potential   energies in J of one body in one motion
+    Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
+    time itself occurs, L and U together are the kinetic energy of the mass points.
+    Errors: T and U belong to different bodies, masses or motions.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
+    """
+    require_kind("lagrangian", "kinetic", kinetic, "energy")
+    require_kind("lagrangian", "potential", potential, "energy")
+    moving = {**kinetic.coordinates, **potential.coordinates}
+
+    matter = kinetic.context.get("matter", Matter()) + potential.context.get("matter", Matter())
+
+    def energy(found: Expr) -> tuple[Expr, Expr]:
+        carried = Add(*(rate(q) * diff(found, rate(q)) for q in moving))
+        return carried - found, kinetic.value + potential.value
+
+    def of_mass_points(found: Expr) -> tuple[Expr, Expr]:
+        return found + potential.value, matter.kinetic_energy()
+
+    driven = changes(kinetic.value) is not None or changes(potential.value) is not None
+
+    return establish(
+        "lagrangian.lagrangian",
+        scalar(symbol),
+        lambda t, u: Terms(t, -u),
+        {"kinetic": kinetic, "potential": potential},
+        put_in=Level.BRIEF,
+        show_result=False,
+        routes={"mass_points": of_mass_points} if driven else {"energy": energy},
+        key=key,
+        kind="energy",
+        context={"matter": matter},
+        arranged=explicit,
+    )
+
+
+def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_motion") -> Quantity:
+    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    The force dL/dq, the momentum dL/dq_dot and its rate are steps of their own.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
+    Outcomes: generic, cyclic (L does not contain q, so its momentum is constant).
+    Errors: L does not depend on q.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    required(of.coordinates, q, "equation_of_motion", of)
+    matter: Matter = of.context["matter"]
+    moving = list(of.coordinates)
+    force, momentum = generalized_force(of, q), generalized_momentum(of, q)
+    changing = momentum_rate(momentum, q)
+
+    def by_virtual_work() -> Relation:
+        return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
+
+    return establish(
+        "lagrangian.equation_of_motion",
+        None,
+        lambda L: Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", 0),
+        {"lagrangian": of},
+        between=[
+            Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL),
+        ],
+        put_in=None,
+        routes={"virtual_work": compared_with(by_virtual_work)},
+        outcome="cyclic" if force.value == 0 else "generic",
+        judged_by={"coordinate": q.symbol},
+        key=key,
+        parents=[force, momentum, changing],
+        context={"lagrangian": of, "coordinate": q, "matter": matter},
+        arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
+    )
+
+
+def _difference(first: Expr, second: Expr) -> Expr:
+    return Terms(first, -Group(second)) if second != 0 else first
+
+
+def _key_of(lagrangian: Quantity, name: str) -> str:
+    """Steps of a second Lagrangian on the page begin with its own key."""
+    return name if lagrangian.key == "lagrangian" else f"{lagrangian.key}_{name}"
+
+
+def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Generalized force of the Lagrangian, dL/dq.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    Second route: the sum of F . dr/dq over the loads and of m v . d(dr/dq)/dt over the mass points.
+    Outcomes: generic, zero (q does not occur).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    matter: Matter = of.context["matter"]
+    return establish(
+        "lagrangian.generalized_force",
+        Partial(of.symbol, q.symbol),
+        lambda L: Partial(L, q.symbol),
+        {"lagrangian": of},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={
+            "virtual_work": compared_with(lambda: matter.force_along(q.symbol) + matter.turning_along(q.symbol)),
+        },
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        key=key or _key_of(of, f"force_{q.symbol.name}"),
+        arranged=lambda value: by_rates(value, list(of.coordinates)),
+    )
+
+
+def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Generalized momentum, p = dL/dq_dot.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    Second route: the sum of m v . dr/dq over the mass points.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
+    """
+    matter: Matter = of.context["matter"]
+    return establish(
+        "lagrangian.generalized_momentum",
+        Partial(of.symbol, q.rate),
+        lambda L: Partial(L, q.rate),
+        {"lagrangian": of},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
+        key=key or _key_of(of, f"momentum_{q.symbol.name}"),
+        context={"lagrangian": of, "coordinate": q},
+        arranged=lambda value: by_rates(value, list(of.coordinates)),
+    )
+
+
+def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
+    """Rate of a generalized momentum, dp/dt, by the chain rule.
+
+    momentum   dL/dq_dot
+    q          its coordinate
+    Second route: the coordinates as functions of t, differentiated by SymPy.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    moving = list(momentum.coordinates)
+    return establish(
+        "lagrangian.momentum_rate",
+        TimeRate(momentum.symbol, *moving),
+        lambda p: TimeRate(p, *moving),
+        {"momentum": momentum},
+        put_in=None,
+        law_shown=Level.FULL,
+        routes={"functions_of_time": compared_with(lambda: by_functions_of_time(momentum.value, moving))},
+        key=key or f"{momentum.key}_rate",
+        arranged=lambda value: by_accelerations(value, moving),
+    )

@@ -1,0 +1,1 @@
+"""The heavy symmetric top: Euler's angles, steady precession, the sleeping top."""

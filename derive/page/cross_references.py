@@ -1,0 +1,95 @@
+"""References by number: `<<eq torque>>` to an equation, `<<figure axes>>` to a drawing, `<<problem top>>`."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+
+from derive.course.prose import FIGURE, PROBLEM, Mention
+from derive.errors import Complaint, did_you_mean
+from derive.page.wording import Node, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
+from derive.steps.step import Step
+
+
+class References:
+    """Those of one page. An equation may be referred to before it has its number, so they are checked at the end.
+
+    others   the numbers of the set's problems, by their names
+    figures  the numbers of the drawings that have a caption, by their names
+    faults   gathers what is wrong
+    """
+
+    def __init__(
+        self,
+        set_id: str,
+        others: Mapping[str, int],
+        figures: Mapping[str, int],
+        words: Phrases,
+        faults: list[Complaint],
+    ):
+        self.set_id, self.others, self.figures, self.words, self.faults = set_id, others, figures, words, faults
+        self.equations: list[Mention] = []
+
+    def node(self, mention: Mention) -> Node | None:
+        """What stands in the text for a mention."""
+        if mention.of == PROBLEM:
+            return self._problem(mention)
+        if mention.of == FIGURE:
+            return self._figure(mention)
+        self.equations.append(mention)
+        return Ref(mention.name)
+
+    def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
+        """The names that stand for an equation: relations have a number and no symbol."""
+        mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
+        self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
+
+    def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
+        """A title is read where there are no numbers: in lists, bookmarks and at the head of pages."""
+        for mention in mentions:
+            if mention.of or isinstance(names.get(mention.name), Ref):
+                message = "a title cannot refer to an equation or to a problem"
+                self.faults.append(Complaint("mention", message, mention.place, help="mention it in the statement"))
+
+    def _problem(self, mention: Mention) -> Node | None:
+        if mention.name in self.others:
+            text = f"{self.words.labels['problem']} {self.others[mention.name]}"
+            return ProblemRef(f"{self.set_id}/{mention.name}", text)
+        help_line = did_you_mean(mention.name, self.others) or "the problems of a set are those that its set.yaml lists"
+        message = f"there is no problem `{mention.name}` in this set"
+        self.faults.append(Complaint("no-such-problem", message, mention.place, help=help_line))
+        return None
+
+    def _figure(self, mention: Mention) -> Node | None:
+        if mention.name in self.figures:
+            return Text(f"{self.words.labels['figure']}\u00a0{self.figures[mention.name]}")
+        message = f"no drawing with a caption is called `{mention.name}`"
+        help_line = did_you_mean(mention.name, self.figures) or "give the drawing a `caption:` under `drawings:`"
+        self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))
+        return None
+
+    def check(self, numbers: Mapping[str, int], known: Collection[str]) -> None:
+        """Whether every equation has a number; `known` are the steps of the page, shown or hidden."""
+        for mention in self.equations:
+            if mention.name in numbers:
+                continue
+            code, message = "undefined-name", f"no step on this page is called `{mention.name}`"
+            help_line = did_you_mean(mention.name, numbers) or "use the key of a step that the answers rest on"
+            if mention.name in known:
+                code, message = "not-shown", f"the equation of `{mention.name}` is hidden, so it has no number"
+                help_line = f"change `{mention.name}: hidden` under `show`, or write `<<{mention.name}>>`"
+            self.faults.append(Complaint(code, message, mention.place, help=help_line))
+
+
+def found_before(
+    steps: Iterable[Step], shown_in: Mapping[str, str], numbers: Mapping[str, int], words: Phrases
+) -> list[tuple[Node, ...]]:
+    """A sentence for each part that has given some of these steps: which, and by which equations."""
+    found: dict[str, list[tuple[Node, ...]]] = {}
+    for step in steps:
+        label = "found" if step.key in numbers else "found_unshown"
+        names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
+        found.setdefault(shown_in[step.key], []).append(filled(words.labels[label], names))
+    return [
+        filled(words.labels["found_before"], {"part": part, "results": joined(items, words.labels["and"])})
+        for part, items in found.items()
+    ]

@@ -1,0 +1,357 @@
+"""The drawings of a page in words: where each one stands, its caption, and what it shows for those who do not see it.
+
+The alternative text is made of the marks themselves, with the same expressions, so that it changes with what is given.
+A drawing stands in the statement if it shows only what is given, and otherwise in the first part that has derived all
+that it shows; a problem may move it further back, never forward.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import acos, degrees
+from typing import Any
+
+from sympy import Integer, MatrixBase
+
+from derive.algebra.dimensions import unit_of_kind
+from derive.algebra.expressions import Amount, Dot, Norm, explicit
+from derive.algebra.tidy import factored_matrix, tidied
+from derive.course.placement import HIDDEN, STATEMENT, Placement
+from derive.course.problem import Problem
+from derive.errors import Complaint, Rejected, did_you_mean
+from derive.figures import marks as m
+from derive.page.plots import curves_of
+from derive.page.wording import Math, Node, Phrases, Text, filled, joined
+from derive.steps.derivation import Derivation
+
+SHORT = 3  # operations
+FOUND = -1  # the index of the statement, before that of part a
+
+
+@dataclass(frozen=True)
+class Depicted:
+    """A drawing on its page; `number` is that of its caption, if it has one."""
+
+    drawing: m.Recorded
+    placement: Placement | None
+    at: str
+    alt: tuple[Node, ...]
+    number: int | None = None
+    caption: tuple[Node, ...] = field(default=())
+
+    @property
+    def key(self) -> str:
+        return self.drawing.key
+
+
+def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
+    """The numbers of the drawings that have a caption, in the order of the page."""
+    placed = [(index, d.key) for d in drawings if (index := _index(problem, d, derivation)) is not None]
+    captioned = {p.key for p in problem.drawings if p.caption}
+    ordered = sorted(placed, key=lambda entry: entry[0])
+    return {key: n for n, key in enumerate((key for _, key in ordered if key in captioned), 1)}
+
+
+def depictions(
+    problem: Problem,
+    drawings: Sequence[m.Recorded],
+    derivation: Derivation,
+    words: Phrases,
+    told: Callable[[Any], tuple[Node, ...]],
+) -> tuple[list[Depicted], list[Complaint]]:
+    """The drawings in the order of the page, and what is wrong with where the problem puts them."""
+    faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
+    numbers = caption_numbers(problem, drawings, derivation)
+    found: list[tuple[int, Depicted]] = []
+    for drawing in drawings:
+        placement = placement_of(problem, drawing.key)
+        fault = _given_away(problem, drawing, placement, derivation)
+        index = _index(problem, drawing, derivation)
+        if fault:
+            faults.append(fault)
+        elif index is not None:
+            caption = told(placement.caption.pieces) if placement and placement.caption else ()
+            at = STATEMENT if index == FOUND else chr(ord("a") + index)
+            try:
+                alt = alternative(problem, drawing, placement, words)
+            except Rejected as error:
+                faults += error.complaints
+                continue
+            found.append((index, Depicted(drawing, placement, at, alt, numbers.get(drawing.key), caption)))
+    return [depicted for _, depicted in sorted(found, key=lambda entry: entry[0])], faults
+
+
+def placement_of(problem: Problem, key: str) -> Placement | None:
+    return next((placement for placement in problem.drawings if placement.key == key), None)
+
+
+# --- where it stands -------------------------------------------------------------------------------------------------
+
+
+def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    names = [drawing.key for drawing in drawings]
+    known = "the drawings are " + ", ".join(f"`{name}`" for name in names) if names else "the script makes no drawing"
+    return [
+        Complaint(
+            "unknown-drawing",
+            f"the script draws nothing called `{placement.key}`",
+            placement.place,
+            help=did_you_mean(placement.key, names) or known,
+        )
+        for placement in problem.drawings
+        if placement.key not in names
+    ]
+
+
+def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
+    """Letters to which the problem gives a value for a drawing that does not have them."""
+    placement = placement_of(problem, drawing.key)
+    letters = {symbol.name for symbol in drawing.letters}
+    return [
+        Complaint("unknown-letter", f"the drawing `{drawing.key}` has no letter `{name}`", place,
+                  help=did_you_mean(name, letters) or "its letters are " + ", ".join(f"`{x}`" for x in sorted(letters)))
+        for name, place in (placement.names.items() if placement else ())
+        if name not in letters and name not in problem.symbols  # of one of its own it may be free for what is given now
+    ]  # fmt: skip
+
+
+def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    """Letters of the problem's own that a drawing no longer has, though it is given values for them."""
+    found = []
+    for drawing in drawings:
+        placement = placement_of(problem, drawing.key)
+        letters = {symbol.name for symbol in drawing.letters}
+        for name, place in placement.names.items() if placement else ():
+            if name not in letters and name in problem.symbols:
+                message = f"`{name}` does not occur in what `{drawing.key}` draws now, so its value is not used"
+                found.append(Complaint("unused-letter", message, place, severity="warning"))
+    return found
+
+
+def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
+    """The index of the first part by whose end everything that the drawing shows is derived; nothing if none has."""
+    known: set[str] = set()
+    for index, keys in enumerate(((), *derivation.parts), FOUND):
+        known |= set(keys)
+        if known >= set(drawing.keys):
+            return index
+    return None
+
+
+def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int | None:
+    """Where it stands: the statement before part 0; nothing if it is hidden."""
+    placement = placement_of(problem, drawing.key)
+    if placement is None or placement.at is None:
+        return _earliest(drawing, derivation)
+    if placement.at == HIDDEN:
+        return None
+    if len(placement.at) > 1 and placement.at != STATEMENT:
+        return _part_of(placement.at, problem, derivation)
+    return FOUND if placement.at == STATEMENT else ord(placement.at) - ord("a")
+
+
+def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
+    """The part that asks for a step, else that which shows it; nothing where none does, so that it is not drawn."""
+    asked = [index for index, part in enumerate(problem.parts) if key in part.answers]
+    shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
+    return next(iter([*asked, *shown]), None)
+
+
+def _given_away(
+    problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
+) -> Complaint | None:
+    """A drawing may not show what is derived later, or what no answer rests on."""
+    index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
+    place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
+    at = placement.at if placement is not None else None
+    if at == HIDDEN:
+        return None
+    if at is not None and at != STATEMENT and len(at) > 1 and at not in {*derivation.keys, *derivation.unshown}:
+        help_line = did_you_mean(at, derivation.keys)
+        return Complaint("undefined-name", f"no step of this problem is called `{at}`", place, help=help_line)
+    if earliest is None and at is None:
+        return None  # what it shows is not on the page, since a part was left out
+    if earliest is None:
+        loose = next(key for key in drawing.keys if key not in derivation.keys)
+        message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer rests"
+        return Complaint("drawing", message, place, help=f"let a part ask for it, or write `at: {HIDDEN}`")
+    if index is None or index >= earliest:
+        return None
+    shown = {key for keys in derivation.parts[: index + 1] for key in keys}
+    later = next(key for key in drawing.keys if key not in shown)
+    where = "the statement" if index == FOUND else f"part {chr(ord('a') + index)}"
+    message = f"in {where} the drawing `{drawing.key}` would show `{later}` before it is derived"
+    letter = chr(ord("a") + earliest)
+    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is")
+
+
+# --- what it shows ---------------------------------------------------------------------------------------------------
+
+
+def alternative(problem: Problem, drawing: m.Recorded, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
+    """What is drawn, in words."""
+    if isinstance(drawing, m.Plot):
+        return _curves(problem, drawing, placement, words)
+    told = [nodes for nodes in (_mark(mark, words) for mark in drawing.marks) if nodes]
+    axes = [_named(mark.label) for mark in drawing.marks if isinstance(mark, m.Axis) and mark.label is not None]
+    if axes:
+        told.append(
+            filled(words.drawings["axes"], {"names": joined(axes, words.labels["and"]), "several": len(axes) > 1})
+        )
+    items = joined(told, words.labels["and"])
+    return filled(words.drawings[drawing.view], {"marks": items})
+
+
+def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
+    """The range, and for each curve its numbers and where it turns."""
+    curves = curves_of(problem, plot, placement)
+    first = curves.curves[0]
+    names = {
+        "quantity": _named(plot.label),
+        "variable": _named(plot.variable),
+        "lower": _with_unit(first.lower * curves.per_unit, curves.unit),
+        "upper": _with_unit(first.upper * curves.per_unit, curves.unit),
+    }
+    told = [filled(words.drawings["plot"], names)]
+    for curve in curves.curves:
+        turns = [
+            filled(
+                words.drawings["extremum"],
+                {
+                    "kind": words.drawings[extremum.kind],
+                    "at": _with_unit(extremum.at * curves.per_unit, curves.unit),
+                    "value": _with_unit(extremum.value, unit_of_kind(plot.kind)),
+                },
+            )
+            for extremum in curve.extrema
+        ]
+        numbers = [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in curve.numbers]
+        last = words.labels["and"]
+        told.append(filled(words.drawings["curve"], {"numbers": joined(numbers, last), "turns": joined(turns, last)}))
+    return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
+
+
+def _with_unit(value: float, unit: str) -> str:
+    gap = "" if unit == "\u00b0" else " "
+    return f"{value:.4g}{gap}{unit}".replace("-", "\u2212").strip()
+
+
+def _mark(mark: m.Mark, words: Phrases) -> tuple[Node, ...]:
+    """The words for one mark; none for a line that only helps the eye."""
+    names = _names(mark)
+    if names is None:
+        return ()
+    kind = _kind(mark, names)
+    return filled(words.drawings[kind], names)
+
+
+def _kind(mark: m.Mark, names: Mapping[str, Any]) -> str:
+    match mark:
+        case m.Arrow() if all(entry == 0 for entry in explicit(mark.value)):
+            return "no_arrow"
+        case m.Arrow() if not names["direction"]:
+            return "arrow_of_letters"
+        case m.AxisOfRotation():
+            return "axis_of_rotation" if mark.rate is None else "turning_axis"
+        case m.CylinderMark(thin=True):
+            return "disc"
+        case m.AngleMark() if not names["size"]:
+            return "angle_of_letters"
+    return _KINDS[type(mark)]
+
+
+_KINDS: dict[type[m.Mark], str] = {
+    m.Box: "block",
+    m.ConeMark: "cone",
+    m.CylinderMark: "cylinder",
+    m.BallMark: "ball",
+    m.RodMark: "rod",
+    m.Circle: "circle",
+    m.Polygon: "polygon",
+    m.Arrow: "arrow",
+    m.AngleMark: "angle",
+    m.Turn: "turn",
+    m.Length: "length",
+    m.Dot: "point",
+    m.Support: "support",
+}
+
+
+def _names(mark: m.Mark) -> dict[str, Any] | None:
+    """What the phrase of a mark may mention; nothing for a mark that has no phrase."""
+    names: dict[str, Any] = {"label": _named(mark.label) if mark.label is not None else ()}
+    match mark:
+        case m.Box():
+            names.update(zip("xyz", (Math(side) for side in mark.sides), strict=True))
+        case m.ConeMark():
+            names.update(radius=Math(mark.radius), height=Math(_distance(mark.apex, mark.base)))
+        case m.CylinderMark():
+            names.update(radius=Math(mark.radius), height=Math(_distance(mark.start, mark.end)))
+        case m.RodMark():
+            if mark.length == 0:
+                return None
+            names.update(length=Math(mark.length))
+        case m.Circle() | m.BallMark():
+            names.update(radius=Math(mark.radius))
+        case m.Polygon():
+            names.update(corners=len(mark.corners))
+        case m.Arrow():
+            names.update(direction=_direction(mark.value))
+        case m.AxisOfRotation():
+            names.update(direction=_direction(mark.along))
+        case m.AngleMark():
+            size = _size(mark)
+            if mark.label is None or size == ():
+                return None
+            names.update(size=size)
+        case m.Turn() | m.Length() | m.Dot():
+            if mark.label is None or mark.label == 0:
+                return None
+            if isinstance(mark, m.Dot):
+                names.update(place=_short_place(mark.at))
+        case m.Axis() | m.Line():
+            return None
+    return names
+
+
+def _named(label: Any) -> tuple[Node, ...]:
+    return (Text(label),) if isinstance(label, str) else (Math(label),)
+
+
+def _distance(a: Any, b: Any) -> Any:
+    return tidied(Norm(explicit(b) - explicit(a)))
+
+
+def _whole_direction(value: Any) -> MatrixBase | None:
+    """The direction of a vector as plain numbers, if its letters are only in front; nothing for the zero vector."""
+    value = explicit(value)
+    if all(entry == 0 for entry in value):
+        return None
+    factor, rest = factored_matrix(value)
+    if rest.free_symbols or not (factor.is_positive or factor.is_negative):
+        return None
+    return -rest if factor.is_negative else rest
+
+
+def _direction(value: Any) -> tuple[Node, ...]:
+    found = _whole_direction(value)
+    return () if found is None else (Math(tuple(found)),)
+
+
+def _short_place(place: Any) -> tuple[Node, ...]:
+    """Where a point is, if that can be said in a few letters."""
+    entries = [tidied(entry) for entry in place]
+    return (Math(tuple(entries)),) if any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT else ()
+
+
+def _size(mark: m.AngleMark) -> tuple[Node, ...] | str:
+    """The angle in degrees where it does not depend on letters; empty nodes where there is no arc to see."""
+    a, b = _whole_direction(mark.a), _whole_direction(mark.b)
+    if a is None or b is None:
+        zero = any(all(entry == 0 for entry in explicit(v)) for v in (mark.a, mark.b))
+        return () if zero else ""
+    cosine = explicit(Dot(a, b)) / explicit(Norm(a) * Norm(b))
+    if cosine in (Integer(1), Integer(-1)):
+        return ()
+    return f"{degrees(acos(float(cosine))):.1f}\u00b0"

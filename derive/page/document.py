@@ -1,0 +1,447 @@
+"""The page as a tree, before any format: title, statement, parts, steps, answers, and how it was checked.
+
+Equations are numbered here, so that every format and every reference has the same numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+from sympy import preorder_traversal
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.equality import LEAST_SURE_FIRST, Grade
+from derive.algebra.expressions import Amount, Relation, Truncated
+from derive.course.parts import Part
+from derive.course.problem import ANY_OUTCOME, Problem
+from derive.course.reference.comparison import Told
+from derive.errors import Complaint, Place, did_you_mean
+from derive.figures.marks import Recorded
+from derive.page.checks import Checks, checks_of
+from derive.page.cross_references import References, found_before
+from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
+from derive.page.wording import (
+    AXIS_NAMES,
+    Chain,
+    Math,
+    Node,
+    Phrases,
+    Ref,
+    Text,
+    conversion,
+    filled,
+    given_words,
+    joined,
+    name_of,
+    names_of_step,
+    notes_apart,
+    stated_once,
+    told,
+    unknown_keys,
+)
+from derive.steps.derivation import Derivation
+from derive.steps.homogeneity import dimension_table
+from derive.steps.step import NUMBERS, Form, Level, Step
+
+HOMOGENEITY = "look in the script for one quantity given in another's place"
+
+
+@dataclass(frozen=True)
+class Line:
+    """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
+
+    left: Any | None
+    relation: str
+    right: Any
+    reason: tuple[Node, ...] = ()
+    presented: bool = False
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The lines of one step, numbered on the last of them."""
+
+    key: str
+    lines: tuple[Line, ...]
+    number: int
+
+
+@dataclass(frozen=True)
+class Display:
+    """Equations set together, and what the margin says of them."""
+
+    groups: tuple[Equations, ...]
+    grades: frozenset[Grade] = frozenset()
+    routes: tuple[str, ...] = ()
+    end: str = "."
+
+    @property
+    def grade(self) -> Grade:
+        """How sure the least sure of its steps is."""
+        return min(self.grades, key=LEAST_SURE_FIRST.index)
+
+    def with_more(self, other: Display) -> Display:
+        """The lines of both; the margin names the first step's routes."""
+        return Display((*self.groups, *other.groups), self.grades | other.grades, self.routes or other.routes)
+
+    @property
+    def stops(self) -> tuple[str, ...]:
+        """The punctuation behind each step: commas between them, at the end what the sentence needs."""
+        return (",",) * (len(self.groups) - 1) + (self.end,)
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A boxed result: symbol = exact value, or another relation between them; its numbers, each after its sign.
+
+    There is a note where the symbols of several answers are alike.
+    """
+
+    key: str
+    symbol: Any
+    value: Any
+    relation: str = "equals"
+    numbers: tuple[tuple[str, Any], ...] = ()
+    note: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True)
+class Answers:
+    answers: tuple[Answer, ...]
+
+
+@dataclass(frozen=True)
+class Illustration:
+    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+
+    key: str
+    stem: str
+    alt: tuple[Node, ...]
+    number: int | None
+    caption: tuple[Node, ...]
+    at: str
+    rests_on: tuple[str, ...] = ()
+
+
+Block = Paragraph | Display | Answers | Illustration
+
+
+@dataclass(frozen=True)
+class PartPage:
+    label: str
+    ask: tuple[Node, ...]
+    points: Fraction | None
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Document:
+    """One problem's page."""
+
+    id: str
+    title: tuple[Node, ...]
+    points: Fraction | None
+    statement: tuple[Node, ...]
+    illustrations: tuple[Illustration, ...]
+    parts: tuple[PartPage, ...]
+    note: tuple[Node, ...]
+    checks: Checks
+    closing: tuple[Node, ...]
+    numbers: Mapping[str, int]
+    symbols: Mapping[str, Any]
+    shown_in: Mapping[str, str]  # step -> label of the part that shows it
+    dimensions: Mapping[Any, Dimension | None] = field(repr=False)
+    warnings: tuple[Complaint, ...] = ()
+
+
+def document_of(
+    problem: Problem,
+    derivation: Derivation,
+    values: Mapping[str, Step],
+    words: Phrases,
+    level: Level,
+    compared: Sequence[Told] = (),
+    others: Mapping[str, int] | None = None,
+    drawings: Sequence[Recorded] = (),
+) -> tuple[Document, list[Complaint]]:
+    """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
+
+    `others` are the numbers of the set's problems, to which prose may refer.
+    """
+    writer = _Writer(problem, derivation, values, words, level, others or {}, drawings)
+    return writer.document([c for c in compared if c.here]), writer.faults
+
+
+class _Writer:
+    """Walks the parts once, giving numbers to equations and words to steps."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        derivation: Derivation,
+        values: Mapping[str, Step],
+        words: Phrases,
+        level: Level,
+        others: Mapping[str, int],
+        drawings: Sequence[Recorded],
+    ):
+        self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
+        self.drawings = drawings
+        self.numbers: dict[str, int] = {}
+        self.shown_in: dict[str, str] = {}
+        every = [*derivation.steps, *values.values()]
+        self.dimensions, unlike = dimension_table(problem.dimensions, every)
+        # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
+        self.faults = [replace(fault, place=problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
+        self.references = References(
+            problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
+        )
+        self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
+        self.converted: set[Any] = set()
+        self.symbols = {step.key: step.symbol for step in derivation.steps}
+        self.page_names = self._page_names()
+        answered = [derivation.step(key) for part in problem.parts for key in part.answers]
+        self.notes = notes_apart(answered, words)
+
+    def document(self, compared: Sequence[Told]) -> Document:
+        problem = self.problem
+        title = told(problem.title.pieces, self.page_names, self._unknown)
+        self.references.check_title(problem.title.mentions, self.page_names)
+        statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
+        illustrations = self._illustrations()
+        parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        note = self._told(problem.note.pieces) if problem.note else ()
+        self.references.check(self.numbers, self.symbols)
+        checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
+        self.faults += unknown_keys(problem, self.derivation, self.words)
+        return Document(
+            id=problem.id,
+            title=title,
+            points=problem.points,
+            statement=statement,
+            illustrations=tuple(illustrations),
+            parts=parts,
+            note=note,
+            checks=checks,
+            closing=checks.closing(self.words),
+            numbers=self.numbers,
+            symbols={**self.symbols, **{value.key: value.symbol for value in self.values.values()}},
+            shown_in=self.shown_in,
+            dimensions=self.dimensions,
+            warnings=(*self.derivation.warnings, *letters_not_drawn(problem, self.drawings)),
+        )
+
+    # --- names ---
+
+    def _page_names(self) -> dict[str, Any]:
+        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
+        for given in self.problem.givens:
+            names[given.name] = given_words(given, self.problem.measured, self.words)
+        return names
+
+    def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
+        names = {**self.page_names, **(names or {})}
+        self.references.note(pieces, names)
+        return told(pieces, names, self._unknown, self.references.node)
+
+    def _unknown(self, name: str, place: Place) -> None:
+        help_line = did_you_mean(name, self.page_names) or "use a key of `given:` or of a step that the answers rest on"
+        self.faults.append(
+            Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line)
+        )
+
+    def _assumed(self) -> tuple[Node, ...]:
+        """What the script takes to hold of the letters, said with what is given."""
+        if not self.derivation.assumed:
+            return ()
+        conditions = joined([(Math(each),) for each in self.derivation.assumed], self._and)
+        return (Text(" "), *filled(self.words.labels["assumed"], {"conditions": conditions}))
+
+    # --- drawings ---
+
+    def _illustrations(self) -> list[Illustration]:
+        found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
+        self.faults += faults
+        stem = self.problem.id.rpartition("/")[2]
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in found]
+
+    # --- parts ---
+
+    def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
+        label = chr(ord("a") + index)
+        blocks: list[Block] = self._found_before(part)
+        ends: dict[str, int] = {}
+        for key in self.derivation.parts[index]:
+            self.shown_in[key] = label
+            self._append(blocks, self.derivation.step(key))
+            ends[key] = len(blocks)
+        steps = len(blocks)
+        values = [v for key in part.answers if (v := self.values.get(key)) and v.key not in self.numbers]
+        for i, value in enumerate(v for v in values if v.outcome != "exact"):
+            self._append(blocks, value, goes_on=i > 0)
+        blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
+        own = [illustration for illustration in illustrations if illustration.at == label]
+        return PartPage(
+            label, self._told(part.ask.pieces), part.points, _illustrated(_punctuated(blocks), own, ends, steps)
+        )
+
+    def _found_before(self, part: Part) -> list[Block]:
+        """What an earlier part has answered already, with the numbers of the equations."""
+        before = [self.derivation.step(key) for key in part.answers if key in self.shown_in]
+        return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.numbers, self.words)]
+
+    @property
+    def _and(self) -> str:
+        return str(self.words.labels["and"])
+
+    def _answer(self, key: str) -> Answer:
+        step = self.derivation.step(key)
+        value = self.values.get(key)
+        forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
+        numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
+        if isinstance(step.result, Truncated):
+            return Answer(key, step.symbol, step.result, "approx")
+        if isinstance(step.result, Relation):
+            return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
+        note = (Text(self.words.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
+        return Answer(key, step.symbol, step.result, "equals", numbers, self.notes.get(key, note))
+
+    def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
+        """A step's words and lines; one that goes on from the step before needs no words of its own."""
+        mode = self.problem.show.get(step.key, "")
+        if mode == "hidden":
+            return
+        nodes = (Chain(),) if goes_on else self._phrase(step)
+        self.numbers[step.key] = len(self.numbers) + 1
+        equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
+        before, after = _around_chain(nodes)
+        display = Display((equations,), frozenset({step.grade}), self._routes(step))
+        if not before and blocks and isinstance(blocks[-1], Display):
+            blocks[-1] = blocks[-1].with_more(display)
+        else:
+            blocks.extend([Paragraph(before)] if before else [])
+            blocks.append(display)
+        if after:
+            blocks.append(Paragraph(after))
+
+    def _phrase(self, step: Step) -> tuple[Node, ...]:
+        own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
+        override = self.problem.wording.get(step.key, {})
+        own["amounts"] = self._amounts(step)
+        prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
+        if prose is not None:
+            nodes = self._told(prose.pieces, own)
+            return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
+        return filled(self.words.phrase(step), {**self.page_names, **own})
+
+    def _amounts(self, step: Step) -> tuple[Node, ...]:
+        """The numbers that a step puts in for the first time, in the units in which it does."""
+        used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
+        new = [m for m in self.problem.measured if self.problem.amounts[m.symbol] in used - self.converted]
+        self.converted |= used
+        items = [conversion(m, self.problem.amounts[m.symbol], self.problem.figures) for m in new]
+        return joined(items, self._and)
+
+    def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
+        level = Level.FULL if mode == "full" else self.level
+        forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
+        if mode == "result":
+            forms = [step.chain[-1]]
+        before = [None, *(form.because for form in forms)]
+        lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
+        return tuple(lines)
+
+    def _line(self, step: Step, form: Form, before: str | None) -> Line:
+        stands_alone = before is None and not isinstance(form.expr, Relation)
+        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
+        reason = self._reason(step, template)
+        if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
+            return Line(None, _sign_before(form), form.expr.right, reason)
+        if isinstance(form.expr, Relation):
+            return Line(form.expr.left, form.expr.word, form.expr.right, reason)
+        return Line(
+            left=step.symbol if before is None else None,
+            relation=_sign_before(form),
+            right=form.expr,
+            reason=reason,
+            presented=form.because == "result",
+        )
+
+    def _reason(self, step: Step, template: str) -> tuple[Node, ...]:
+        if not template:
+            return ()
+        direct = [symbol for _, symbol in step.roles]
+        refs = [
+            Ref(key)
+            for key in step.inputs
+            if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
+        ]
+        refs.sort(key=lambda ref: self.numbers[ref.key])
+        equations = [ref for ref in refs if self.symbols[ref.key] is None]
+        if "refs" in template and not refs or "equations" in template and not equations:
+            return ()
+        last = self._and
+        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        return filled(
+            template, {**self.page_names, **own, "refs": joined(refs, last), "equations": joined(equations, last)}
+        )
+
+    # --- how it was checked ---
+
+    def _routes(self, step: Step) -> tuple[str, ...]:
+        return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
+
+
+def _sign_before(form: Form) -> str:
+    return "approx" if form.because in {"rounded", "series"} else "equals"
+
+
+def _right_side(value: Any) -> Any:
+    return value.right if isinstance(value, Relation) else value
+
+
+def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
+    """A display ends with a comma where the sentence goes on after it."""
+    result: list[Block] = []
+    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
+        if isinstance(block, Display) and isinstance(following, Paragraph):
+            first = following.nodes[0]
+            if isinstance(first, Text) and first.text.lstrip()[:1].islower():
+                block = replace(block, end=",")
+        result.append(block)
+    return tuple(result)
+
+
+def _illustrated(
+    blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
+) -> tuple[Block, ...]:
+    """Each drawing after the step that completes it; at the end of the part if that is its last, or none of its."""
+    places = [max((ends[key] for key in drawing.rests_on if key in ends), default=steps) for drawing in own]
+    found: list[Block] = []
+    for i, block in enumerate(blocks):
+        found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]
+        found.append(block)
+    return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place >= steps))
+
+
+def _around_chain(nodes: tuple[Node, ...]) -> tuple[tuple[Node, ...], tuple[Node, ...]]:
+    at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
+    return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
+
+
+def _trimmed(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
+    """Without blank text at either end."""
+    kept = list(nodes)
+    while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
+        kept.pop(0)
+    while kept and isinstance(kept[-1], Text) and not kept[-1].text.strip():
+        kept.pop()
+    return tuple(kept)

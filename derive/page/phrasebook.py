@@ -1,0 +1,148 @@
+"""The phrases of a language: a folder of `templates/phrases` with a file for each topic, each phrase with its place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NoReturn
+
+import yaml
+
+from derive.course.yaml_tree import Source, abridged, read_source, yaml_tree
+from derive.errors import Complaint, Place, Rejected, did_you_mean
+
+SHOWN_AS = "templates/phrases/en"
+OF_EVERY_PAGE = "page.yaml"
+MAX_PHRASES = 20_000
+
+_ANY, _TEXT = "*", "text"
+_TABLE = {_ANY: _TEXT}
+_SHAPE: dict[str, Any] = {
+    "rules": {_ANY: _TABLE},
+    "routes": {_ANY: _TABLE},
+    "reasons": {_ANY: _TABLE},
+    "terms": _TABLE,
+    "drawings": _TABLE,
+    "grades": _TABLE,
+    "labels": {
+        _ANY: _TEXT,
+        "points": [_TEXT],
+        "in_case": _TABLE,
+        "checked_page": {_ANY: _TEXT, "intro": [_TEXT], "columns": {_ANY: [_TEXT]}},
+    },
+}
+
+
+class Phrase(str):
+    """A phrase, and by which keys it is found in its file."""
+
+    source: Source
+    keys: tuple[str, ...]
+
+    @property
+    def place(self) -> Place:
+        return _place(self.source, self.keys)
+
+
+class Table(dict[str, Any]):
+    """Phrases by their names; one that is missing is a fault of the file."""
+
+    def __init__(self, source: Source, keys: tuple[str, ...]):
+        super().__init__()
+        self.source, self.keys_above = source, keys
+
+    def __missing__(self, name: str) -> NoReturn:
+        where = f" under `{'.'.join(self.keys_above)}`" if self.keys_above else ""
+        message, help_line = f"the phrases have no `{name}`{where}", did_you_mean(str(name), self)
+        raise Rejected(Complaint("no-phrase", message, _place(self.source, self.keys_above), help=help_line))
+
+
+def read_phrases(folder: Path) -> Table:
+    """All phrases of a folder's files, or `Rejected` with the line at fault."""
+    page = _phrases_of(folder / OF_EVERY_PAGE)
+    for file in sorted(folder.glob("*.yaml")):
+        if file.name != OF_EVERY_PAGE:
+            _add(page, _phrases_of(file))
+    for name in _SHAPE:
+        page[name]  # complains
+    if len(page["labels"]["points"]) != 2:
+        _wrong(page.source, ("labels", "points"), "the word for one point and that for several")
+    page["reasons"]["general"]
+    return page
+
+
+def _phrases_of(file: Path) -> Table:
+    shown_as = f"{SHOWN_AS}/{file.name}"
+    source = read_source(file, shown_as)
+    try:
+        loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        yaml_tree(source)  # which tells what is wrong, and where
+        lines = str(error).splitlines() or [type(error).__name__]
+        raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
+    table: Table = _Checked(source).phrases(loaded, _SHAPE, ())
+    return table
+
+
+def _add(page: Table, topic: Table) -> None:
+    """The phrases of a topic to those of the page; what two files tell is told twice."""
+    for sort, table in topic.items():
+        known = page.setdefault(sort, Table(page.source, (sort,)))
+        for name, phrases in table.items():
+            if name in known:
+                place = _place(topic.source, (sort, name))
+                raise Rejected(Complaint("phrases", f"another file has `{sort}.{name}` too", place))
+            known[name] = phrases
+
+
+class _Checked:
+    """Puts places to phrases, and refuses another shape."""
+
+    def __init__(self, source: Source):
+        self.source, self.count = source, 0
+
+    def phrases(self, value: Any, shape: Any, keys: tuple[str, ...]) -> Any:
+        self.count += 1
+        if self.count > MAX_PHRASES:
+            _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases")
+        if shape == _TEXT:
+            return self.text(value, keys)
+        if isinstance(shape, list):
+            if not isinstance(value, list):
+                _wrong(self.source, keys, "a list of phrases")
+            return [self.phrases(each, shape[0], keys) for each in value]
+        if not isinstance(value, dict):
+            _wrong(self.source, keys, "a table of phrases")
+        table = Table(self.source, keys)
+        for name, each in value.items():
+            if not isinstance(name, str):
+                _wrong(self.source, keys, f"a table of phrases by their names, and `{abridged(str(name))}` is none")
+            if name not in shape and _ANY not in shape:
+                message, help_line = f"there are no phrases of the sort `{abridged(name)}`", did_you_mean(name, shape)
+                raise Rejected(Complaint("phrases", message, _place(self.source, (*keys, name)), help=help_line))
+            table[name] = self.phrases(each, shape.get(name, shape.get(_ANY)), (*keys, name))
+        return table
+
+    def text(self, value: Any, keys: tuple[str, ...]) -> Phrase:
+        if not isinstance(value, str):
+            _wrong(self.source, keys, "text", "put it in quotes" if isinstance(value, int | float) else None)
+        phrase = Phrase(value)
+        phrase.source, phrase.keys = self.source, keys
+        return phrase
+
+
+def _wrong(source: Source, keys: tuple[str, ...], wanted: str, help_line: str | None = None) -> NoReturn:
+    what = f"`{'.'.join(keys)}`" if keys else "the file"
+    raise Rejected(Complaint("phrases", f"{what} must be {wanted}", _place(source, keys), help=help_line))
+
+
+def _place(source: Source, keys: tuple[str, ...]) -> Place:
+    """The line of the last of these keys; the file is read again only to complain of it."""
+    node, index = yaml.compose(source.text, Loader=yaml.CSafeLoader), 0
+    for name in keys:
+        pairs = node.value if isinstance(node, yaml.MappingNode) else []
+        found = next(((key, value) for key, value in pairs if key.value == name), None)
+        if found is None:
+            break
+        index, node = found[0].start_mark.index, found[1]
+    place = source.place(index)
+    return source.place(index, len(place.text))

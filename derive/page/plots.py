@@ -1,0 +1,97 @@
+"""The curves of a plot: its numbers, case by case, its range, and where each curve turns.
+
+A case says only what differs from the first one; what no case gives must have a number in the problem.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Expr, Symbol, pi
+
+from derive.algebra.expressions import explicit
+from derive.course.given import Measured, read_value
+from derive.course.placement import Placement
+from derive.course.problem import Problem
+from derive.errors import Complaint, Rejected
+from derive.figures.extrema import Extremum, extrema
+from derive.figures.marks import Plot
+
+DEGREE, DEGREES = pi / 180, "°"
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One curve: the quantity in its SI unit, a function of one letter alone, and the numbers that are put in."""
+
+    expr: Expr
+    variable: Symbol
+    lower: float
+    upper: float
+    numbers: tuple[Measured, ...]
+    extrema: tuple[Extremum, ...]
+
+
+@dataclass(frozen=True)
+class Curves:
+    """The curves of a plot, and the unit of its horizontal axis: its name, and how many there are in one SI unit."""
+
+    curves: tuple[Curve, ...]
+    unit: str
+    per_unit: float
+
+
+def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
+    """Every curve of the plot with its extrema, or `Rejected` with what lacks a number."""
+    lower, upper = _range(problem, plot, placement)
+    given = placement.cases if placement and placement.cases else ((),)
+    # A number for a letter that the curve does not have would be told of it, but not be true of it.
+    cases = [tuple(number for number in case if number.symbol in plot.expr.free_symbols) for case in given]
+    found = tuple(_curve(problem, plot, placement, (*cases[0], *case), case, lower, upper) for case in cases)
+    in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for end in (lower, upper))
+    return Curves(found, DEGREES if in_degrees else _unit(plot.of), float(1 / DEGREE) if in_degrees else 1.0)
+
+
+def _unit(kind: str) -> str:
+    from derive.algebra.dimensions import unit_of_kind
+
+    return unit_of_kind(kind)
+
+
+def _range(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[Expr, Expr]:
+    ends = [plot.lower, plot.upper]
+    place = placement.place if placement else problem.place_of("solve")
+    if placement and placement.ends:
+        ends = [read_value("range", end, plot.of, {}) for end in placement.ends]
+        place = placement.ends[0].place
+    lower, upper = ends
+    if not (lower.is_number and upper.is_number and lower < upper):
+        raise Rejected(
+            Complaint("range", f"the range of `{plot.key}` must go from a smaller number to a larger", place)
+        )
+    return lower, upper
+
+
+def _curve(
+    problem: Problem,
+    plot: Plot,
+    placement: Placement | None,
+    known: tuple[Measured, ...],
+    own: tuple[Measured, ...],
+    lower: Expr,
+    upper: Expr,
+) -> Curve:
+    numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
+    numbers |= {measured.symbol: measured.si for measured in known}
+    missing = sorted(s.name for s in plot.expr.free_symbols - set(numbers) - {plot.variable})
+    if missing:
+        listed = ", ".join(f"`{name}`" for name in missing)
+        place = placement.place if placement else problem.place_of("solve")
+        help_line = "write it under `values:`, or under `cases:` of the drawing"
+        raise Rejected(
+            Complaint("drawing", f"the plot `{plot.key}` needs a number for {listed}", place, help=help_line)
+        )
+    expr = plot.expr.xreplace({letter: value for letter, value in numbers.items() if letter != plot.variable})
+    ends = float(lower), float(upper)
+    return Curve(expr, plot.variable, *ends, own, extrema(expr, plot.variable, *ends))

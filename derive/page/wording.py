@@ -1,0 +1,337 @@
+"""From steps to words: the phrase of a rule and outcome, with its names filled by what was derived.
+
+A phrase gives nodes that know no format: `Text`, `Math`, `Ref` and one `Chain`. Only verified things have names here,
+so prose cannot point at anything else: an unknown name is an error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jinja2 import StrictUndefined, UndefinedError
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+from sympy.core.symbol import Str
+
+from derive.algebra.dimensions import Dimension, unit_of_dimension, unit_of_kind
+from derive.algebra.expressions import AXES, Amount, scalar
+from derive.algebra.rounding import rounded_form
+from derive.course.given import Given, Measured
+from derive.course.problem import ANY_OUTCOME, Problem
+from derive.course.prose import Mention
+from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean
+from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, read_phrases
+from derive.steps.derivation import Derivation
+from derive.steps.step import Step
+
+
+@dataclass(frozen=True)
+class Text:
+    text: str
+
+
+@dataclass(frozen=True)
+class Math:
+    """An expression in running text."""
+
+    expr: Any
+
+
+@dataclass(frozen=True)
+class DimensionMark:
+    """A dimension, M L^2 T^-2, which is printed upright."""
+
+    dimension: Dimension
+
+
+@dataclass(frozen=True)
+class Unit:
+    text: str
+
+
+@dataclass(frozen=True)
+class Ref:
+    """The number of a step's last line."""
+
+    key: str
+
+
+@dataclass(frozen=True)
+class ProblemRef:
+    """Another problem of the set, in words: Problem 3."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Where the lines of the step go."""
+
+
+ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, and does not print
+
+AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
+
+Node = Text | Math | DimensionMark | Unit | Ref | ProblemRef | Chain
+
+
+@dataclass(frozen=True)
+class Phrases:
+    """The words of one language: see the files of `templates/phrases/en`."""
+
+    rules: Mapping[str, Mapping[str, str]]
+    routes: Mapping[str, Mapping[str, str]]
+    reasons: Mapping[str, Mapping[str, str]]
+    terms: Mapping[str, str]
+    drawings: Mapping[str, str]
+    grades: Mapping[str, str]
+    labels: Mapping[str, Any]
+
+    def phrase(self, step: Step) -> str:
+        phrase = self.rules.get(step.rule, {}).get(step.outcome)
+        if phrase is None:
+            message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
+            raise Rejected(Complaint("no-phrase", message, Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)))
+        return phrase
+
+    def reason(self, step: Step, because: str, before: str) -> str:
+        """Why a line follows from the line shown before it; a reason may hold only after a certain line."""
+        own = {**self.reasons["general"], **self.reasons.get(step.rule, {})}
+        return own.get(f"{because} after {before}", own.get(because, ""))
+
+    def route(self, step: Step, claim: str) -> str:
+        return self.routes.get(step.rule, {}).get(claim, "")
+
+    def term(self, word: str) -> tuple[Node, ...]:
+        """The words for a word of a step or of what is given: `diagonal` is "the long diagonal"."""
+        return filled(self.terms.get(word, word), AXIS_NAMES)
+
+
+@cache
+def phrases(folder: Path) -> Phrases:
+    return Phrases(**read_phrases(folder / "phrases" / "en"))
+
+
+# --- filling ---
+
+_TOKEN = re.compile("\x00(\\d+)\x00")
+
+
+class _Nodes:
+    """Collects what a template prints: a node leaves a token in the text, and `split` puts it back."""
+
+    def __init__(self) -> None:
+        self.found: list[Node | tuple[Node, ...]] = []
+
+    def token(self, value: Any) -> Any:
+        if value == ():
+            return ""  # so that a phrase can ask whether there is anything
+        if not isinstance(value, Node | tuple):
+            return value
+        self.found.append(value)
+        return f"\x00{len(self.found) - 1}\x00"
+
+    def split(self, text: str) -> tuple[Node, ...]:
+        nodes: list[Node] = []
+        for i, piece in enumerate(_TOKEN.split(text)):
+            if i % 2 == 0:
+                if piece:
+                    nodes.append(Text(piece))
+                continue
+            value = self.found[int(piece)]
+            nodes.extend(value if isinstance(value, tuple) else (value,))
+        return tuple(nodes)
+
+
+def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
+    """A phrase of ours with its names filled in."""
+    nodes = _Nodes()
+    try:
+        text = (
+            _environment()
+            .from_string(template)
+            .render(
+                {name: nodes.token(value) for name, value in names.items()},
+            )
+        )
+    except UndefinedError as error:
+        message = f"a phrase names what this step does not have: {error.message}"
+        raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
+    except DeriveError:
+        raise
+    except Exception as error:  # whatever a phrase computes may fail in any way
+        said = (str(error).splitlines() or [""])[0] or type(error).__name__
+        raise Rejected(Complaint("bad-phrase", f"a phrase cannot be read: {said}", _place_of(template))) from error
+    return nodes.split(text.strip())
+
+
+def _place_of(template: str) -> Place:
+    return template.place if isinstance(template, Phrase) else Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)
+
+
+@cache
+def _environment() -> ImmutableSandboxedEnvironment:
+    return ImmutableSandboxedEnvironment(
+        variable_start_string="<<",
+        variable_end_string=">>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+        undefined=StrictUndefined,
+        autoescape=False,
+    )
+
+
+def told(
+    pieces: Sequence[Any],
+    names: Mapping[str, Any],
+    missing: Callable[[str, Place], None],
+    referred: Callable[[Mention], Node | None] = lambda mention: None,
+) -> tuple[Node, ...]:
+    """An instructor's prose with its mentions filled; an unknown name is reported and left out.
+
+    `referred` is what a mention of an equation or a problem stands for, if it stands for anything.
+    """
+    nodes: list[Node] = []
+    for piece in pieces:
+        if isinstance(piece, str):
+            nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif piece.of:
+            node = referred(piece)
+            nodes += [node] if node else []
+        elif piece.name in names:
+            value = names[piece.name]
+            nodes.extend(
+                value if isinstance(value, tuple) else (value if isinstance(value, Node) else Text(str(value)),)
+            )
+        else:
+            missing(piece.name, piece.place)
+    return tuple(nodes)
+
+
+def joined(items: Iterable[tuple[Node, ...] | Node], last: str = "and") -> tuple[Node, ...]:
+    """`a, b and c`."""
+    groups = [item if isinstance(item, tuple) else (item,) for item in items]
+    nodes: list[Node] = []
+    for i, group in enumerate(groups):
+        if i:
+            nodes.append(Text(f" {last} " if i == len(groups) - 1 else ", "))
+        nodes.extend(group)
+    return tuple(nodes)
+
+
+def name_of(step: Step) -> Node:
+    """What prose calls the result of a step: its symbol, or the number of a relation that has none."""
+    return Ref(step.key) if step.symbol is None else Math(step.symbol)
+
+
+def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:
+    """What a step's phrase may mention besides the page's keys."""
+    names: dict[str, Any] = {
+        "chain": Chain(),
+        "symbol": name_of(step),
+        "result": Math(step.result),
+    }
+    names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in step.roles})
+    names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
+    names.update(AXIS_NAMES)
+    if dimension is not None:
+        names["dimension"] = DimensionMark(dimension)
+    unit = unit_of_kind(step.kind) if step.kind else unit_of_dimension(dimension) if dimension is not None else ""
+    if unit:
+        names["unit"] = Unit(unit)
+    return names
+
+
+def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Node, ...]]:
+    """What is said beside answers of one symbol: a general result, and what it becomes in a case."""
+    notes: dict[str, tuple[Node, ...]] = {}
+    for step in steps:
+        phrase = words.labels["in_case"].get(step.rule)
+        general = [g for g in steps if g.key in step.inputs and step.symbol is not None and g.symbol == step.symbol]
+        if phrase and general:
+            notes[general[0].key] = (Text(words.labels["in_general"]),)
+            notes[step.key] = filled(phrase, names_of_step(step, words, None))
+    return notes
+
+
+def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Node, ...]:
+    """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+    if given.word is not None:
+        return words.term(given.word)
+    if given.written is not None:
+        return (Math(given.written),)
+    if given.kind.name == "Direction":
+        return *words.term("components"), Text(f" {words.labels['along']} "), Math(tuple(given.value.components))
+    amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in measured}
+    values = given.value if isinstance(given.value, tuple) else (given.value,)
+    last = words.labels["and"]
+    if len(set(values)) == len(values) and all(v in amounts or not v.free_symbols & set(amounts) for v in values):
+        return joined([_stated(v, amounts) if v in amounts else (Math(v),) for v in values], last)
+    behind = [symbol for symbol in amounts if any(v.has(symbol) for v in values)]
+    names = joined([(Math(v),) for v in values], last)
+    if not behind:
+        return names
+    return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
+
+
+def stated_once(nodes: Sequence[Node], last: str) -> tuple[Node, ...]:
+    """Prose in which the number of a letter is told only where the letter comes first: `a = 10 cm`, then `a`.
+
+    `last` is the word before the letters behind an expression: in `a/2 with a = 10 cm` it goes with them.
+    """
+    kept: list[Node] = []
+    known: set[Any] = set()
+    for i, node in enumerate(nodes):
+        kept.append(node)
+        letter, sign = (kept[-3:-1]) if len(kept) > 2 else (None, None)
+        if not (sign == Text(" = ") and isinstance(letter, Math) and isinstance(node, Math)):
+            continue
+        if not isinstance(node.expr, Amount) or letter.expr not in known:
+            known.add(letter.expr)
+            continue
+        del kept[-2:]
+        alone = kept[-2:-1] == [Text(f" {last} ")] and nodes[i + 1 : i + 2] != (Text(" and "),)
+        if alone:
+            del kept[-2:]
+    return tuple(kept)
+
+
+def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Node, ...]:
+    """`omega = 900 rpm = 30 pi rad/s = 94.25 rad/s` (rounded), `M = 1.5 kg`."""
+    written = Amount(measured.number, measured.unit, measured.factor)
+    nodes: list[Node] = [Math(measured.symbol), Text(" = "), Math(written)]
+    if measured.unit != amount.args[1].name:
+        nodes += [Text(" = "), Math(amount)]
+    if not measured.si.is_Rational:
+        nodes += [Text(" \u2248 "), Math(Amount(rounded_form(measured.si, figures), amount.args[1], amount.args[2]))]
+    return tuple(nodes)
+
+
+def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Node, ...]:
+    return Math(symbol), Text(" = "), Math(amounts[symbol])
+
+
+def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> list[Complaint]:
+    """What `wording:` and `show:` say of steps that are not there, or of outcomes that no step of the rule has."""
+    here = {step.key: step for step in derivation.steps}
+    in_another_case = {key for step in derivation.steps for key in step.stands_for}
+    known = {*here, *in_another_case, *derivation.unshown}  # the words of these wait for the part that was left out
+    faults = []
+    for section, key in [*(("wording", key) for key in problem.wording), *(("show", key) for key in problem.show)]:
+        if key not in known:
+            message, place = f"no step on this page is called `{key}`", problem.place_of(section, key)
+            faults.append(Complaint("unknown-key", message, place, help=did_you_mean(key, here)))
+    for key, outcome in [(key, outcome) for key, told_of in problem.wording.items() for outcome in told_of]:
+        outcomes = words.rules.get(here[key].rule, {}) if key in here else {}
+        if outcome != ANY_OUTCOME and outcomes and outcome not in outcomes:
+            message, place = f"the step `{key}` has no outcome `{outcome}`", problem.place_of("wording", key, outcome)
+            help_line = did_you_mean(outcome, outcomes) or "they are " + ", ".join(f"`{each}`" for each in outcomes)
+            faults.append(Complaint("unknown-key", message, place, help=help_line))
+    return faults

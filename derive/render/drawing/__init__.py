@@ -1,0 +1,1 @@
+"""What a script draws, projected, lettered and laid out on a sheet."""

@@ -1,0 +1,167 @@
+"""From a drawing's expressions to points on paper: numbers for the letters, and the direction one looks from.
+
+A letter with a number has that number. Every other letter has a stand-in: the letters of a kind get 1, 3/2, 2, ... in
+the order in which they are declared (times what the numbers of that kind are like), angles 36, 54, 72 degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import acos, cos, hypot, isfinite, pi, radians, sin, sqrt
+from typing import Any, TypeAlias
+
+from sympy import Expr, Float, Symbol
+from sympy.core.function import AppliedUndef
+
+from derive.algebra.expressions import explicit
+from derive.errors import Complaint, Rejected
+from derive.figures.marks import PLANE, AngleMark, Arrow, Drawing
+
+Vector: TypeAlias = tuple[float, float, float]
+Spot: TypeAlias = tuple[float, float]
+
+ANGLE = pi / 5
+
+
+def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
+    """A number for each letter, given with its kind: its own, or one that stands in for it."""
+    found = {symbol: float(explicit(number)) for symbol, number in numbers.items()}
+    known: dict[str, list[float]] = {}
+    for symbol, kind in letters:
+        if symbol in found:
+            known.setdefault(kind, []).append(found[symbol])
+    counts: dict[str, int] = {}
+    for symbol, kind in letters:
+        if symbol in found:
+            continue
+        rank = counts[kind] = counts.get(kind, -1) + 1
+        size = 1.0 if kind != "angle" else ANGLE
+        if kind in known:
+            size = sum(map(abs, known[kind])) / len(known[kind]) or size
+        found[symbol] = size * (1 + rank / 2)
+    return found
+
+
+class Numbers:
+    """The values of expressions, by the numbers of their letters; a letter of which nothing is known is an angle."""
+
+    def __init__(self, values: Mapping[Symbol, float]):
+        self._values = {symbol.name: value for symbol, value in values.items()}
+
+    def of(self, expr: Any) -> float:
+        if isinstance(expr, float):
+            return expr
+        value = explicit(expr)
+        letters = {*value.free_symbols, *value.atoms(AppliedUndef)} - {Symbol("t"), Symbol("t", real=True)}
+        put_in = {letter: Float(self._values.get(_name(letter), ANGLE)) for letter in letters}
+        number = value.xreplace(put_in).evalf()
+        if not number.is_real or not isfinite(float(number)):
+            raise Rejected(Complaint("drawing", f"a drawing needs the value of {value}, which is not a real number"))
+        return float(number)
+
+    def vector(self, column: Any) -> Vector:
+        x, y, z = (self.of(entry) for entry in explicit(column))
+        return x, y, z
+
+
+def _name(letter: Expr) -> str:
+    return letter.func.__name__ if isinstance(letter, AppliedUndef) else str(letter.name)
+
+
+# --- vectors of numbers ----------------------------------------------------------------------------------------------
+
+
+def plus(a: Vector, b: Vector, times: float = 1.0) -> Vector:
+    return a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]
+
+
+def dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def size_of(a: Vector) -> float:
+    return sqrt(dot(a, a))
+
+
+def unit(a: Vector) -> Vector:
+    """The direction of a vector; of one that is zero, zero."""
+    size = size_of(a)
+    return (a[0] / size, a[1] / size, a[2] / size) if size > 0 else a
+
+
+def angle_of(a: Vector, b: Vector) -> float:
+    """The angle between two vectors, from 0 to pi."""
+    return acos(max(-1.0, min(1.0, dot(unit(a), unit(b)))))
+
+
+def across(a: Vector) -> tuple[Vector, Vector]:
+    """Two unit vectors perpendicular to a direction and to each other, right-handed with it."""
+    n = unit(a)
+    helper: Vector = (0.0, 0.0, 1.0) if abs(n[2]) < 0.9 else (1.0, 0.0, 0.0)
+    u = unit(cross(helper, n))
+    return u, cross(n, u)
+
+
+# --- where one looks from --------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Stance:
+    """A parallel projection: the directions on paper that are right and up, and the one to the eye."""
+
+    right: Vector
+    up: Vector
+    eye: Vector
+
+    def spot(self, place: Vector) -> Spot:
+        return dot(place, self.right), dot(place, self.up)
+
+
+def stance_from(azimuth: float, elevation: float) -> Stance:
+    """Looking from an azimuth about z, from x towards y, and an elevation above the plane of x and y, in degrees."""
+    az, el = radians(azimuth), radians(elevation)
+    return Stance(
+        right=(-sin(az), cos(az), 0.0),
+        up=(-sin(el) * cos(az), -sin(el) * sin(az), cos(el)),
+        eye=(cos(el) * cos(az), cos(el) * sin(az), sin(el)),
+    )
+
+
+FLAT = Stance((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+USUAL = stance_from(25, 18)
+
+
+def best_stance(drawing: Drawing, numbers: Numbers) -> Stance:
+    """The usual stance, turned where vectors would point at the eye or fall on one another."""
+    if drawing.view == PLANE:
+        return FLAT
+    vectors = [unit(numbers.vector(mark.value)) for mark in drawing.marks if isinstance(mark, Arrow)]
+    pairs = [
+        (unit(numbers.vector(mark.a)), unit(numbers.vector(mark.b)))
+        for mark in drawing.marks
+        if isinstance(mark, AngleMark)
+    ]
+    vectors, pairs = [v for v in vectors if size_of(v)], [(a, b) for a, b in pairs if size_of(a) and size_of(b)]
+    pairs += [pair for pair in combinations(vectors, 2) if pair not in pairs]
+    if not vectors and not pairs:
+        return USUAL
+    tried = [stance_from(azimuth, elevation) for elevation in (18, 24, 30, 38) for azimuth in range(15, 76, 6)]
+    return max(tried, key=lambda stance: _clearness(stance, vectors, pairs))
+
+
+def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
+    """How little the worst vector is foreshortened, times how open the worst angle looks."""
+    longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
+    widest = 1.0
+    for a, b in pairs:
+        if 0.02 < angle_of(a, b) < pi - 0.02:
+            flat_a, flat_b = ((*stance.spot(v), 0.0) for v in (a, b))
+            seen = angle_of(flat_a, flat_b) if size_of(flat_a) and size_of(flat_b) else 0.0
+            widest = min(widest, sin(min(seen, pi / 2)), sin(min(pi - seen, pi / 2)) * 1.2)
+    return round(min(longest, 0.8) * min(widest, 0.7), 6)

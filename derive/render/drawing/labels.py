@@ -1,0 +1,78 @@
+"""Where the labels of a drawing stand: beside what they name, and on nothing else.
+
+Each label tries a ring of places round its spot and takes the one that covers the least; between equals, the one
+nearest to the side that its mark asked for. The first label chooses first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import cos, hypot, pi, sin
+from typing import Any, TypeAlias
+
+from derive.render.drawing.camera import Spot
+from derive.render.drawing.hidden_lines import Bullet, Piece, Stroke, Tag
+
+Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
+
+CLEAR = 1.5  # points between a label and a line
+HEAVY = 60.0  # what covering another label costs, in points of line covered
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A label and the lower left corner of its box."""
+
+    label: Any
+    corner: Spot
+    extent: Extent
+
+
+def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float]]) -> list[Placed]:
+    """Every label of the pieces with its place; `measured` gives a label's width and height in points."""
+    drawn = [dot for piece in pieces for dot in _dots(piece)]
+    found: list[Placed] = []
+    for tag in (piece for piece in pieces if isinstance(piece, Tag)):
+        width, height = measured(tag.label)
+        boxes = [(cost, box) for cost, box in _tried(tag, width, height)]
+        best = min(boxes, key=lambda entry: entry[0] + _covered(entry[1], drawn, [p.extent for p in found]))[1]
+        found.append(Placed(tag.label, (best[0], best[1]), best))
+    return found
+
+
+def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
+    """Boxes round the spot, each with what it costs to stand there rather than where the mark asked."""
+    base = (tag.towards[0], tag.towards[1])
+    for ring, gap in enumerate((tag.gap, tag.gap + 4, tag.gap + 9, tag.gap + 15)):
+        for turn in range(-8, 9):
+            angle = turn * pi / 8
+            x = base[0] * cos(angle) - base[1] * sin(angle)
+            y = base[0] * sin(angle) + base[1] * cos(angle)
+            # The box touches a circle about the spot: its middle lies beyond by its half size in that direction.
+            away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
+            middle = tag.spot[0] + away * x, tag.spot[1] + away * y
+            box = (middle[0] - width / 2, middle[1] - height / 2, middle[0] + width / 2, middle[1] + height / 2)
+            yield abs(turn) * 0.8 + ring * 2.5, box
+
+
+def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> float:
+    left, below, right, above = box[0] - CLEAR, box[1] - CLEAR, box[2] + CLEAR, box[3] + CLEAR
+    lines = sum(left < x < right and below < y < above for x, y in drawn)
+    labels = sum(left < o[2] and o[0] < right and below < o[3] and o[1] < above for o in others)
+    return lines * 2.0 + labels * HEAVY
+
+
+def _dots(piece: Piece) -> list[Spot]:
+    """A stroke as spots a point apart; a head or a bullet as a small cluster."""
+    if isinstance(piece, Bullet):
+        x, y = piece.spot
+        return [(x + i, y + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    if not isinstance(piece, Stroke):
+        return []
+    found = []
+    for (x, y), (u, v) in pairwise(piece.spots):
+        steps = max(1, round(hypot(u - x, v - y)))
+        found += [(x + (u - x) * i / steps, y + (v - y) * i / steps) for i in range(steps + 1)]
+    return found

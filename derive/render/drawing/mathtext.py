@@ -1,0 +1,53 @@
+"""A layout as runs of mathtext, the part of TeX's mathematics that matplotlib sets.
+
+Its Computer Modern has no bold italic, so a vector's letter is a run of its own that is drawn with an outline.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+from derive.render.notation.latex import latex
+from derive.render.notation.layout import Layout, Name, Row
+
+_BOLD = re.compile(r"\\bm\{((?:[^{}]|\{[^{}]*\})*)\}")
+_UNKNOWN = {r"\tfrac": r"\frac", r"\lvert ": "|", r"\rvert ": "|", r"\mathopen{}": "", r"\!": "", r"\ ": r"\,"}
+
+
+@dataclass(frozen=True)
+class Run:
+    """A piece of mathtext between its dollar signs, to be drawn bold or not."""
+
+    text: str
+    bold: bool = False
+
+
+def runs(layout: Layout) -> tuple[Run, ...]:
+    """The runs of a label, from left to right."""
+    items = layout.items if isinstance(layout, Row) else (layout,)
+    found: list[Run] = []
+    pending: list[Layout] = []
+    for item in items:
+        if isinstance(item, Name) and item.style == "vector":
+            found += _plain(pending)
+            pending = []
+            letter = replace(item, subscript="", style="scalar")
+            found.append(Run(_mathtext(letter), bold=True))
+            if item.subscript:
+                below = latex(Name("X", item.subscript)).removeprefix("X")
+                found.append(Run("${}" + below + "$"))
+        else:
+            pending.append(item)
+    return tuple(found + _plain(pending))
+
+
+def _plain(items: list[Layout]) -> list[Run]:
+    return [Run(_mathtext(Row(tuple(items))))] if items else []
+
+
+def _mathtext(layout: Layout) -> str:
+    text = _BOLD.sub(r"\1", latex(layout))
+    for unknown, known in _UNKNOWN.items():
+        text = text.replace(unknown, known)
+    return f"${text}$"

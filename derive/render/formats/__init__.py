@@ -1,0 +1,1 @@
+"""Each format in which a page is given out."""

@@ -1,0 +1,204 @@
+"""The names in the lines of a step: what each stands for, and how it is written so that SymPy alone can put it in.
+
+A name is an identifier, that of its letter if this is free in every chain that has it (`omega` is not where a letter
+omega stands beside the vector; then it is `omega_`), or the key of its step if it is a formula such as dV/dtheta. Such
+a formula is written out, `Derivative(V, theta(t))`, wherever with the names in it put in it is its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from sympy import Integer, MatrixBase, MatrixSymbol, Symbol, cancel, preorder_traversal, together
+from sympy.simplify.fu import TR5
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import (
+    PLUS_MINUS,
+    BodyRate,
+    CarriedRate,
+    Partial,
+    Relation,
+    TimeRate,
+    bound,
+    explicit,
+    rate,
+)
+from derive.render.formats.plain_sympy import Setting, Written, identifier, written
+from derive.steps.step import Step
+
+Text = str | list[str]  # a list: one for each of two roots
+
+
+@dataclass(frozen=True)
+class Page:
+    """The steps of a page, by which it is decided what moves on it and what its names are called."""
+
+    steps: Sequence[Step]
+
+    @cached_property
+    def moving(self) -> frozenset[str]:
+        """The coordinates that are functions of time: those with a rate, or along which a rate is taken."""
+        coordinates = {q for step in self.steps for q, _ in step.coordinates}
+        parts = {part for step in self.steps for expr in _exprs(step) for part in preorder_traversal(expr)}
+        along = {
+            q for part in parts if isinstance(part, TimeRate | CarriedRate | BodyRate | Partial) for q in part.args[1:]
+        }
+        return frozenset(q.name for q in coordinates if q in along or any(rate(q, n) in parts for n in (1, 2)))
+
+    @cached_property
+    def identifiers(self) -> dict[Any, str]:
+        """What each name is called, in every chain that has it."""
+        found = self._first_identifiers
+        order = {name: place for place, name in enumerate(found)}
+        clashes: dict[Any, set[str]] = {name: set() for name in found}
+        for step in self.steps:
+            lines = self._drafts[step.key].lines
+            words = {word for line in lines for word in line.words}
+            for name in sorted({name for line in lines for name in line.used}, key=order.__getitem__):
+                clashes[name] |= words
+                words.add(found[name])  # the first of two names that are alike keeps its letter
+        return {name: identifier(called, clashes[name]) for name, called in found.items()}
+
+    @cached_property
+    def _first_identifiers(self) -> dict[Any, str]:
+        found: dict[Any, str] = {}
+        for step in self.steps:
+            for name in [name for name, _ in step.names] + [step.symbol]:
+                if name is not None:
+                    letter = isinstance(name, Symbol | MatrixSymbol)
+                    found.setdefault(name, identifier(name.name if letter else step.key))
+        return found
+
+    def names_of(self, step: Step) -> StepNames:
+        return replace(self._drafts[step.key], identifiers=self.identifiers)
+
+    @cached_property
+    def _drafts(self) -> dict[str, StepNames]:
+        called = self._first_identifiers
+        return {step.key: StepNames(step, called, self.moving, *_put_in(step)) for step in self.steps}
+
+
+def _exprs(step: Step) -> list[Any]:
+    return [expr for expr in (step.symbol, *(form.expr for form in step.chain)) if expr is not None]
+
+
+@dataclass(frozen=True)
+class StepNames:
+    """The lines of one step as SymPy reads them, with its names.
+
+    values        the names that are put in, with their values: letters, and formulas that are not written out
+    has_formula   whether the left side is a formula of names that says what the chain begins with
+    """
+
+    step: Step
+    identifiers: Mapping[Any, str]
+    moving: frozenset[str]
+    values: Mapping[Any, Any]
+    has_formula: bool
+
+    def text(self, expr: Any) -> Text:
+        """The text of a line or of a part of it; two if the step is about two roots."""
+        return _of_each_root(written(expr, setting).text for setting in self._settings(self._called))
+
+    def text_of_value(self, expr: Any) -> Text:
+        """The text of an expression in which letters alone are meant."""
+        return _of_each_root(written(expr, setting).text for setting in self._settings({}))
+
+    def factor(self, i: int) -> Any:
+        """What times the residual of line i is that of the line before, with the names and the motion put in."""
+        puts = dict(self.step.names)
+        before, here = (explicit(bound(self.step.chain[n].expr, puts)) for n in (i - 1, i))
+        if self.step.chain[i].because == "motion":
+            before, here = (bound(each, dict(self.step.motion)) for each in (before, here))
+        return factor_between(before.residual, here.residual)
+
+    @property
+    def symbol(self) -> Text:
+        """The left side: written out if it is a formula of names, else what it is called."""
+        symbol = self.step.symbol
+        if isinstance(symbol, MatrixBase):
+            return _of_each_root([written(symbol, Setting(self.identifiers)).text])
+        return self.text(symbol) if self.has_formula else self.identifiers[symbol]
+
+    @property
+    def names(self) -> dict[str, Text]:
+        """Each name that stands in a line, and what it stands for."""
+        used = {name: called for line in self.lines for name, called in line.used.items()}
+        return {called: self.text_of_value(self.values[name]) for name, called in used.items()}
+
+    @property
+    def motion(self) -> dict[str, Text]:
+        """What the equations of motion make of each rate."""
+        plain = Setting(moving=self.moving)
+        return {written(rate, plain).text: self.text_of_value(value) for rate, value in self.step.motion}
+
+    @property
+    def lines(self) -> list[Written]:
+        """Every line, with what its names stand for and what its motion is."""
+        setting = self._settings(self._called)[0]
+        shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
+        lines = [written(expr, setting) for expr in shown]
+        used = {name for line in lines for name in line.used}
+        plain = Setting(moving=self.moving)
+        motion = [side for pair in self.step.motion for side in pair]
+        return [*lines, *(written(expr, plain) for expr in [*(self.values[name] for name in used), *motion])]
+
+    @property
+    def _called(self) -> dict[Any, str]:
+        own = {self.step.symbol} if self.has_formula else set()
+        return {name: self.identifiers[name] for name in self.values if name not in own}
+
+    def _settings(self, names: Mapping[Any, str]) -> list[Setting]:
+        signs: tuple[int | None, ...] = (1, -1) if self._has_two_roots else (None,)
+        return [Setting(names, self.moving, sign) for sign in signs]
+
+    @cached_property
+    def _has_two_roots(self) -> bool:
+        exprs = [*_exprs(self.step), *(value for _, value in self.step.names)]
+        return any(PLUS_MINUS in expr.free_symbols for expr in exprs)
+
+
+def _put_in(step: Step) -> tuple[dict[Any, Any], bool]:
+    """The names that are put in, and whether the left side is a formula of them."""
+    known = {name: value for name, value in step.names if isinstance(name, Symbol | MatrixSymbol)}
+    formulas = [(name, value) for name, value in step.names if name not in known]
+    for name, value in sorted(formulas, key=lambda pair: _size(pair[0])):
+        if not says(name, value, known):
+            known[name] = value
+    if step.symbol is None or isinstance(step.symbol, Symbol | MatrixSymbol | MatrixBase):
+        return known, False
+    others = {name: value for name, value in known.items() if name != step.symbol}
+    return known, says(step.symbol, bound(step.chain[0].expr, dict(step.names)), others)
+
+
+def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
+    """Whether a formula of known names is that value once they are put in."""
+    whole = bound(formula, known)
+    if isinstance(value, Relation) or whole == formula or whole.has(MatrixSymbol):
+        return False
+    return bool(equal(whole, value))
+
+
+def factor_between(before: Any, here: Any) -> Any:
+    """The simplest factor f with before = f here."""
+    for sign in (Integer(1), Integer(-1)):
+        if equal(before, sign * here):
+            return sign
+    if isinstance(before, MatrixBase):
+        raise TypeError("equations of vectors differ by no factor")
+    quotient = before / here
+    simpler = cancel(together(TR5(before.expand(), max=8) / TR5(here.expand(), max=8)))
+    return simpler if equal(before, simpler * here) else quotient
+
+
+def _of_each_root(texts: Iterable[str]) -> Text:
+    several = list(texts)
+    return several if len(several) > 1 else several[0]
+
+
+def _size(expr: Any) -> int:
+    return sum(1 for _ in preorder_traversal(expr))

@@ -1,0 +1,185 @@
+"""The JSON of `derive solve ID --format json`: the contract that other programs read.
+
+Every step says what its page says, in plain SymPy text (`derive.render.formats.plain_sympy`): `names` is what each name
+in its chain stands for, and with these put in, `sympify(line, names)`, each line equals the one before it:
+
+    a number        of `because: rounded` is `within` of the last line before the numbers
+    a relation      has the residual, left minus right, of the one before it but for `factor`, which does not vanish
+                    where the `nonzero` do not (in an inequality, where they are positive)
+    a series        of `because: series` is the line before it up to an `order` in its `variable`
+    the motion      of `because: motion` holds with `motion` put in
+
+A left side that is a formula (`symbol.formula`) equals the first line. Where there are two roots each text is a list.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import MatrixBase, Symbol
+
+from derive.algebra import expressions as ex
+from derive.algebra.dimensions import NUMBER, Dimension, unit_of_dimension, unit_of_kind
+from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
+from derive.course.parts import points_text
+from derive.course.problem import Problem
+from derive.page.document import Document, Illustration
+from derive.render.formats.chain_names import Page, StepNames
+from derive.render.formats.plain_sympy import sympy_text
+from derive.render.formats.text_page import inline_text
+from derive.render.notation.latex import latex
+from derive.render.notation.notation import Notation
+from derive.steps.derivation import Derivation
+from derive.steps.step import NUMBERS, Step
+
+
+def contract(
+    problem: Problem,
+    derivation: Derivation,
+    values: Mapping[str, Step],
+    document: Document,
+    notation: Notation,
+    reference: Sequence[Mapping[str, Any]] = (),
+) -> str:
+    """The JSON text."""
+    answers = {key: derivation.step(key) for part in problem.parts for key in part.answers}
+    page = Page([*derivation.steps, *values.values()])
+    data = {
+        "problem": problem.id,
+        "title": inline_text(document.title, notation),
+        "points": _points(problem.points),
+        "given": {given.name: _given(given) for given in problem.givens},
+        "parts": [
+            {"label": page.label, "points": _points(page.points), "answers": list(part.answers)}
+            for page, part in zip(document.parts, problem.parts, strict=True)
+        ],
+        "assumed": [sympy_text(condition) for condition in derivation.assumed],
+        "answers": {
+            key: _answer(page.names_of(step), values.get(key), document.dimensions.get(step.symbol), notation)
+            for key, step in answers.items()
+        },
+        "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
+        "steps": [_step(page.names_of(step), notation) for step in page.steps],
+        "reference": list(reference),
+    }
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def _drawing(drawing: Illustration, notation: Notation) -> dict[str, Any]:
+    return {
+        "key": drawing.key,
+        "at": drawing.at,
+        "number": drawing.number,
+        "caption": inline_text(drawing.caption, notation),
+        "alt": inline_text(drawing.alt, notation),
+        "files": [f"{drawing.stem}.pdf", f"{drawing.stem}.svg"],
+    }
+
+
+def _points(points: Any) -> int | float | None:
+    return None if points is None else json.loads(points_text(points))
+
+
+def _given(given: Any) -> Any:
+    """The value as SymPy text, with the number behind each letter."""
+    if given.word is not None:
+        return given.word
+    value = given.value.components if given.kind.name == "Direction" else given.value
+    text = [sympy_text(v) for v in value] if isinstance(value, tuple) else sympy_text(value)
+    if not given.measured:
+        return text
+    numbers = {str(m.symbol): f"{m.number} {m.unit}" for m in given.measured}
+    return {"value": text, "measured": numbers}
+
+
+def _answer(named: StepNames, value: Step | None, dimension: Dimension | None, notation: Notation) -> dict[str, Any]:
+    step = named.step
+    forms = [form for form in value.chain if form.because in NUMBERS] if value else []
+    first, *others = [_number(form.expr) for form in forms] or [None]
+    return {
+        "symbol": _symbol(step, notation),
+        "sympy": named.text_of_value(step.result),
+        "latex": latex(notation.result(step.result)),
+        "unit": unit_of_kind(step.kind) if step.kind else unit_of_dimension(dimension or NUMBER),
+        "number": first,
+        **({"also": others} if others else {}),
+    }
+
+
+def _symbol(step: Step, notation: Notation) -> str:
+    """What the page calls the result; a relation has no name."""
+    return "" if step.symbol is None else latex(notation.layout(step.symbol))
+
+
+def _number(value: Any) -> dict[str, Any] | None:
+    """The rounded value, or nothing while letters are left in it; of a relation, that on its right."""
+    shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
+    if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
+        return None  # a comparison of two numbers
+    if shown.free_symbols:
+        return None
+    if isinstance(shown, ex.Amount | ex.MatrixAmount):
+        shown, unit = shown.args[0], shown.args[1].name
+    entries = list(shown) if isinstance(shown, MatrixBase) else [shown]
+    texts = [decimal_text(entry) if isinstance(entry, Rounded) else str(entry) for entry in entries]
+    figures = next((int(entry.args[1]) for entry in entries if isinstance(entry, Rounded)), None)
+    whole = texts[0] if len(texts) == 1 else "(" + ", ".join(texts) + ")"
+    numbers = [float(text) for text in texts]
+    return {
+        "value": numbers[0] if len(numbers) == 1 else numbers,
+        "unit": unit,
+        "figures": figures,
+        "text": f"{whole} {unit}".strip(),
+    }
+
+
+def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
+    step = named.step
+    return {
+        "key": step.key,
+        "rule": step.rule,
+        "symbol": None if step.symbol is None else _left_side(named, notation),
+        "outcome": step.outcome,
+        "inputs": list(step.inputs),
+        "names": named.names,
+        **({"motion": named.motion} if step.motion else {}),
+        "chain": [_form(named, i, notation) for i in range(len(step.chain))],
+        "evidence": [{"claim": e.claim, "grade": e.grade.value, "detail": e.detail} for e in step.evidence],
+    }
+
+
+def _left_side(named: StepNames, notation: Notation) -> dict[str, Any]:
+    return {"sympy": named.symbol, "latex": _symbol(named.step, notation), "formula": named.has_formula}
+
+
+def _form(named: StepNames, i: int, notation: Notation) -> dict[str, Any]:
+    form = named.step.chain[i]
+    layout = notation.result(form.expr) if form.because == "result" else notation.layout(form.expr)
+    return {
+        "sympy": named.text(form.expr),
+        "latex": latex(layout),
+        "because": form.because,
+        "level": form.level.value,
+        **_to_the_line_before(named, i),
+    }
+
+
+def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
+    """In what a line may differ from the one before it: a rounding, a factor of a relation, the rest of a series."""
+    form = named.step.chain[i]
+    if form.because == "rounded":
+        return {"within": named.text_of_value(_half_units(form.expr))}
+    if isinstance(form.expr, ex.Truncated):
+        _, x, place, order = form.expr.args
+        return {"variable": named.text(x), "place": named.text(place), "order": int(order)}
+    if isinstance(form.expr, ex.Relation) and i and form.because not in NUMBERS:
+        return {"factor": named.text_of_value(named.factor(i)), "nonzero": [named.text(each) for each in form.nonzero]}
+    return {}
+
+
+def _half_units(expr: Any) -> Any:
+    """By how much each number of a rounded line may be off."""
+    shown = expr.right if isinstance(expr, ex.Relation) else expr
+    return shown.xreplace({number: half_a_unit(number) for number in shown.atoms(Rounded)})

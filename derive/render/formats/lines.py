@@ -1,0 +1,88 @@
+"""Which forms of a chain share a line: as many as fit, a form with a reason ending its line; long ones take several."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from derive.page.document import Answer, Equations, Line
+from derive.page.wording import Node, Text
+from derive.render.notation.breaking import broken
+from derive.render.notation.layout import Layout, width
+from derive.render.notation.notation import Notation
+
+INDENT = 4.0  # of a line that goes on
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One printed line: `left` if it begins the chain, then relations and right sides, then the reason."""
+
+    left: Layout | None
+    sides: tuple[tuple[str, Layout], ...]
+    reason: tuple[Node, ...]
+    number: int | None = None
+
+    @property
+    def width(self) -> float:
+        return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
+
+
+def printed_lines(equations: Equations, notation: Notation, limit: float) -> list[Printed]:
+    """The lines of one step, packed to a width in characters; the last carries the number."""
+    packed: list[Printed] = []
+    for line in equations.lines:
+        side = (line.relation, right_side(line, notation))
+        last = packed[-1] if packed else None
+        if line.left is not None and packed:
+            packed.append(Printed(notation.side(line.left), (side,), line.reason))
+            continue
+        if last and last.sides[-1][1] == side[1] and line.relation == "equals":
+            continue  # what is laid out alike is one line to the reader
+        room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit
+        if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
+            packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
+        else:
+            left = notation.side(line.left) if line.left is not None else None
+            packed.append(Printed(left, (side,), line.reason))
+    lines = [line for whole in packed for line in _fitted(whole, limit)]
+    lines[-1] = replace(lines[-1], number=equations.number)
+    return lines
+
+
+def answer_lines(answer: Answer, notation: Notation, limit: float) -> list[Printed]:
+    """A boxed result on as few lines as it takes."""
+    sides = [(answer.relation, notation.result(answer.value))]
+    sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]
+    whole = Printed(notation.side(answer.symbol), tuple(sides), ())
+    if whole.width <= limit:
+        return [whole]
+    begun = replace(whole, sides=whole.sides[:1])
+    return [*_fitted(begun, limit), *(Printed(None, (side,), ()) for side in sides[1:])]
+
+
+def _fitted(line: Printed, limit: float) -> list[Printed]:
+    """A line that is too long as several, if it can be broken; what it says at its end stays at its end."""
+    if line.width <= limit or len(line.sides) > 1:
+        return [line]
+    ((relation, side),) = line.sides
+    if line.left is not None and width(line.left) > width(side):
+        room = limit - 2 - width(side)
+        first, *others = broken(line.left, room, room - INDENT)
+        begun, ends = Printed(None, (("start", first),), ()), line.sides
+    else:
+        room = limit - 2 - (width(line.left) if line.left is not None else 0)
+        first, *others = broken(side, room, room - INDENT)
+        begun, ends = Printed(line.left, ((relation, first),), ()), line.sides[:0]
+    if not others:
+        return [line]
+    *between, last = (Printed(None, (("on", piece),), ()) for piece in others)
+    return [begun, *between, replace(last, sides=(*last.sides, *ends), reason=line.reason)]
+
+
+def reason_width(reason: tuple[Node, ...]) -> float:
+    """A reason is set small, with a gap before it."""
+    return 3 + 0.75 * sum(len(node.text) if isinstance(node, Text) else 3 for node in reason) if reason else 0
+
+
+def right_side(line: Line, notation: Notation) -> Layout:
+    return notation.result(line.right) if line.presented else notation.layout(line.right)

@@ -1,0 +1,105 @@
+"""The templates of `templates/latex` filled: what is not TeX of ours is escaped, and a fault is told at its line."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateNotFound, TemplateSyntaxError, Undefined
+
+from derive import FOLDER
+from derive.errors import Complaint, DeriveError, Place, Rejected
+from derive.render.notation.latex import escaped
+from derive.render.rendered import Tex
+
+
+def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
+    """A template of the folder `latex`; what is wrong with it is told at its own line."""
+    try:
+        return Tex(_environment(folder).get_template(template).render(facts))
+    except TemplateNotFound as error:
+        message = f"there is no template `{error.name}`"
+        raise Rejected(Complaint("template", message, help=f"it belongs in `{_shown(folder / 'latex')}`")) from error
+    except TemplateSyntaxError as error:
+        file = folder / "latex" / (error.name or template)
+        complaint = Complaint("template", f"the template cannot be read: {_said(error)}", _line(file, error.lineno))
+        raise Rejected(complaint) from error
+    except (OSError, UnicodeError) as error:
+        raise Rejected(Complaint("template", f"the template `{template}` cannot be read: {_said(error)}")) from error
+    except DeriveError:
+        raise
+    except Exception as error:
+        place = _failing_line(error, folder)
+        if place is None:
+            raise
+        raise Rejected(Complaint("template", f"the template fails: {_said(error)}", place)) from error
+
+
+def _failing_line(error: Exception, folder: Path) -> Place | None:
+    """The line of a template that failed; nothing if the fault is in what it asked for, which is ours."""
+    files = {str(file): file for file in (folder / "latex").glob("*.j2")}
+    frames = traceback.extract_tb(error.__traceback__)
+    theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
+    below = frames[theirs[-1] + 1 :] if theirs else []
+    if not theirs or any(Path(frame.filename).is_relative_to(FOLDER) for frame in below):
+        return None
+    last = frames[theirs[-1]]
+    return _line(files[last.filename], last.lineno or 1)
+
+
+def _line(file: Path, number: int) -> Place:
+    """A line of a template, by its path in the folder of templates."""
+    try:
+        lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    text = lines[number - 1] if 0 < number <= len(lines) else ""
+    indent = len(text) - len(text.lstrip())
+    return Place(_shown(file), number, indent + 1, text[:150], len(text[:150].strip()))
+
+
+def _shown(file: Path) -> str:
+    """`templates/latex/set.tex.j2`, wherever the templates are."""
+    parts = file.parts[::-1]
+    return "/".join(file.parts[-parts.index("templates") - 1 :]) if "templates" in parts else file.name
+
+
+@cache
+def _environment(folder: Path) -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(folder / "latex"),
+        variable_start_string="<<",
+        variable_end_string=">>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # that would be HTML
+        finalize=_as_tex,  # so that no template can forget it
+    )
+    environment.filters["text"] = lambda text: Tex(escaped(str(text)))
+    environment.filters["bookmark"] = bookmark_text
+    return environment
+
+
+def _as_tex(printed: Any) -> Any:
+    """What a template prints, escaped unless it is TeX of ours; what is not defined is left to complain."""
+    return printed if isinstance(printed, Tex | Undefined) else Tex(escaped(str(printed)))
+
+
+def bookmark_text(text: str) -> Tex:
+    """Plain text for the title of a PDF or of a bookmark, where there are no fonts and no mathematics."""
+    return Tex("".join(escaped(c) if c.isascii() else rf"\unichar{{{ord(c)}}}" for c in text))
+
+
+def _said(error: Exception) -> str:
+    """What went wrong, in a line."""
+    lines = str(error).strip().splitlines()
+    return (lines[0] if lines else type(error).__name__).rstrip(".")

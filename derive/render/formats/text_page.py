@@ -1,0 +1,155 @@
+"""A page as plain text for a terminal, 88 columns wide."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from derive.algebra.dimensions import exponents
+from derive.course.parts import points_text
+from derive.course.placement import STATEMENT
+from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
+from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
+from derive.render.formats.lines import Printed, answer_lines, printed_lines
+from derive.render.notation.layout import Layout, Mark, row
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import MARKS, columns, plain, to_the_right
+
+COLUMNS = 88
+WIDTH = 60.0
+BOX = 70.0
+STARTS = tuple(MARKS[kind] for kind in ("equals", "approx", "unequal", "less", "greater", "at_most", "at_least"))
+
+
+def page_text(document: Document, words: Phrases, notation: Notation) -> str:
+    """The whole page."""
+    return _Page(document, words, notation).text()
+
+
+def inline_text(nodes: Sequence[Node], notation: Notation, numbers: Mapping[str, int] | None = None) -> str:
+    """Running text; `numbers` are those of the equations it may refer to."""
+    return " ".join("".join(_node(node, notation, numbers or {}) for node in nodes).split())
+
+
+def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
+    match node:
+        case Text(text):
+            return text
+        case Math(expr):
+            return plain(notation.list_of(expr) if isinstance(expr, tuple) else notation.result(expr))
+        case DimensionMark(dimension):
+            return exponents(dimension)
+        case Unit(text):
+            return text
+        case Ref(key):
+            return f"({numbers[key]})"
+        case ProblemRef(_, text):
+            return text
+    return ""
+
+
+class _Page:
+    def __init__(self, document: Document, words: Phrases, notation: Notation):
+        self.document, self.words, self.notation = document, words, notation
+
+    def text(self) -> str:
+        title = self._with_points(self._inline(self.document.title), self.document.points)
+        blocks = [title, "=" * COLUMNS, self._wrapped(self.document.statement)]
+        blocks += [line for i in self.document.illustrations if i.at == STATEMENT for line in ("", self._drawing(i))]
+        for part in self.document.parts:
+            blocks += ["", self._part(part)]
+        blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
+        blocks += ["", "-" * COLUMNS, self._wrapped((Text(self.words.labels["checked"] + " "), *self.document.closing))]
+        return "\n".join(blocks) + "\n"
+
+    def _part(self, part: PartPage) -> str:
+        heading = self._with_points(f"({part.label}) {self._inline(part.ask)}", part.points)
+        blocks = [heading, "-" * min(columns(heading), COLUMNS)]
+        for block in part.blocks:
+            match block:
+                case Paragraph(nodes):
+                    blocks += ["", self._wrapped(nodes)]
+                case Display():
+                    blocks += ["", self._display(block)]
+                case Answers(answers):
+                    blocks += ["", *(self._answer(answer) for answer in answers)]
+                case Illustration():
+                    blocks += ["", self._drawing(block)]
+        return "\n".join(blocks)
+
+    def _drawing(self, illustration: Illustration) -> str:
+        """What it shows, and its caption below."""
+        figure = self.words.labels["figure"]
+        shown = self._wrapped((Text(f"[{figure.lower()}: "), *illustration.alt, Text("]")))
+        if illustration.number is None:
+            return shown
+        return shown + "\n" + self._wrapped((Text(f"{figure} {illustration.number}. "), *illustration.caption))
+
+    def _with_points(self, text: str, points: Any) -> str:
+        if points is None:
+            return text
+        one, many = self.words.labels["points"]
+        worth = f"[{points_text(points)} {one if points == 1 else many}]"
+        if columns(text) + len(worth) + 2 > COLUMNS:
+            return textwrap.fill(text, COLUMNS) + "\n" + worth.rjust(COLUMNS)
+        return text + " " * (COLUMNS - columns(text) - len(worth)) + worth
+
+    def _wrapped(self, nodes: Sequence[Node]) -> str:
+        return textwrap.fill(self._inline(nodes), COLUMNS, break_long_words=False, break_on_hyphens=False)
+
+    def _inline(self, nodes: Sequence[Node]) -> str:
+        return inline_text(nodes, self.notation, self.document.numbers)
+
+    def _display(self, display: Display) -> str:
+        lines: list[str] = []
+        for group in display.groups:
+            printed = printed_lines(group, self.notation, WIDTH)
+            indent = max((columns(plain(line.left)) for line in printed if line.left is not None), default=0)
+            for line in printed:
+                lines += self._line(line, indent)
+        return "\n".join(lines)
+
+    def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:
+        """The formula, its relations below each other, and on which line they stand."""
+        items: list[Layout] = [item for relation, side in line.sides for item in (Mark(relation), side)]
+        body = plain(row(*items)).split("\n")
+        left = plain(line.left) if line.left else ""
+        middle = _middle(body)
+        before = [to_the_right(left if i == middle else "", indent) for i in range(len(body))]
+        return [a + text for a, text in zip(before, body, strict=True)], middle
+
+    def _line(self, line: Printed, indent: int) -> list[str]:
+        body, middle = self._body(line, indent)
+        lines = ["    " + text for text in body]
+        reason = f"[{self._inline(line.reason)}]" if line.reason else ""
+        if reason and columns(lines[middle]) + columns(reason) + 10 <= COLUMNS:
+            lines[middle] += "  " + reason
+        elif reason:
+            lines.append(to_the_right(reason, COLUMNS - 8))
+        if line.number is not None:
+            number = f"({line.number})"
+            room = COLUMNS - len(number) - columns(lines[middle])
+            lines[middle] += (" " * room if room > 0 else "  ") + number
+        return lines
+
+    def _answer(self, answer: Answer) -> str:
+        lines = answer_lines(answer, self.notation, BOX)
+        indent = max((columns(plain(line.left)) for line in lines if line.left is not None), default=0)
+        body = [text for line in lines for text in self._body(line, indent)[0]]
+        if answer.note:
+            body = [f"{body[0]}   {self._inline(answer.note)}", *body[1:]]
+        size = max(map(columns, body))
+        rule = "─" * (size + 2)
+        return "\n".join(
+            [
+                "    ┌" + rule + "┐",
+                *(f"    │ {text}{' ' * (size - columns(text))} │" for text in body),
+                "    └" + rule + "┘",
+            ]
+        )
+
+
+def _middle(body: Sequence[str]) -> int:
+    """The line of a formula of several on which its relation stands."""
+    return next((i for i, text in enumerate(body) if text.startswith(STARTS)), 0)

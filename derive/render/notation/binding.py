@@ -1,0 +1,111 @@
+"""How firmly a layout holds together, and so where it needs brackets and which sign it has: decided here alone.
+
+Brackets follow from what stands on paper, not from what it was made of: a product of which one factor is negative
+begins with a minus sign, whether it is a `Mul`, a `Factors` or a number times a vector, and is bracketed beside others.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from derive.render.notation.layout import (
+    Applied,
+    Array,
+    Evaluated,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Limits,
+    Lowered,
+    Mark,
+    Name,
+    Number,
+    Raised,
+    RootSign,
+    Row,
+    Word,
+    row,
+)
+
+
+class Binding(IntEnum):
+    """From what nothing can pull apart to what is only held by brackets.
+
+    PRODUCT    factors side by side: 2 M a
+    DOTTED     numbers and letters with a dot between them: M·1/2 a
+    MEASURED   a number with its unit: 2 cm
+    OPEN       what takes in all that follows: a·b and w x L of vectors, an integral, d/dt (...)
+    SIGNED     -M a
+    """
+
+    ATOM = 0
+    FACTOR = 1
+    PRODUCT = 2
+    DOTTED = 3
+    MEASURED = 4
+    OPEN = 5
+    SIGNED = 6
+    SUM = 7
+    RELATION = 8
+
+
+_MARKS = {"plus": Binding.SUM, "minus": Binding.SUM, "plus_minus": Binding.SUM, "comma": Binding.RELATION}
+_MARKS |= {"dot": Binding.DOTTED, "times": Binding.DOTTED, "inner": Binding.OPEN, "cross": Binding.OPEN}
+_MARKS |= {"space": Binding.PRODUCT, "open": Binding.PRODUCT, "close": Binding.PRODUCT}
+_SIGNS = {"plus", "minus", "plus_minus"}
+
+
+def binding(layout: Layout) -> Binding:
+    match layout:
+        case Number() | Name() | Fenced() | Limits() | Array() | Word():
+            return Binding.ATOM
+        case Fraction() | RootSign() | Applied() | Raised() | Lowered() | Evaluated():
+            return Binding.FACTOR
+        case Row(items):
+            ended = len(items) > 1 and items[-2] == Word("d")
+            return max(_of_item(i, items, ended) for i in range(len(items)))
+        case Mark(kind):
+            return _MARKS.get(kind, Binding.RELATION)
+        case IntegralSign():
+            return Binding.OPEN
+    raise TypeError(f"no binding for {type(layout).__name__}")
+
+
+def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
+    """`ended`: the row ends in a differential, behind which an integral takes in nothing more."""
+    item = items[i]
+    if isinstance(item, IntegralSign) and ended:
+        return Binding.PRODUCT
+    if i == 0 and isinstance(item, Mark) and item.kind in _SIGNS:
+        return Binding.SIGNED
+    if isinstance(item, Mark | IntegralSign):
+        return binding(item)
+    if isinstance(item, Word) and item.text not in ("d", "partial"):
+        return Binding.MEASURED
+    return Binding.OPEN if _is_operator(item) and i + 1 < len(items) else Binding.PRODUCT
+
+
+def _is_operator(layout: Layout) -> bool:
+    """d/dt or d^2/dx^2, which waits for what it is applied to."""
+    if not isinstance(layout, Fraction):
+        return False
+    sign = layout.above.base if isinstance(layout.above, Raised) else layout.above
+    return sign in (Word("d"), Word("partial"))
+
+
+def within(layout: Layout, most: Binding) -> Layout:
+    """The layout, in brackets if it would not hold together in a place that takes no more than `most`."""
+    return Fenced(layout) if binding(layout) > most else layout
+
+
+def sign_apart(layout: Layout) -> tuple[Mark | None, Layout]:
+    """The sign that a layout begins with, unless it is that of a sum's first term, and the layout without it."""
+    if isinstance(layout, Row) and isinstance(layout.items[0], Mark) and binding(layout) is Binding.SIGNED:
+        return layout.items[0], row(*layout.items[1:])
+    return None, layout
+
+
+def signed(sign: Mark, layout: Layout) -> Layout:
+    """The layout with a sign before it."""
+    return row(sign, within(layout, Binding.OPEN))

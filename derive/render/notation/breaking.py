@@ -1,0 +1,55 @@
+"""Sums too long for a line, broken before a sign, as one does on paper: never within a root or a matrix.
+
+A bracket that is itself too long is opened on one line and closed on another; so is a fraction whose numerator is,
+once its denominator stands in front.
+"""
+
+from __future__ import annotations
+
+from derive.render.notation.layout import Fenced, Fraction, Layout, Mark, Number, Row, row, width
+
+SIGNS = {"plus", "minus"}
+SMALL = 0.5  # of the room: a bracket below this stays in one piece
+
+
+def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
+    """What stands on the first line, which has `room`, and on the lines after it; one piece if it cannot be broken."""
+    pieces = _pieces(layout, min(room, room_after)) if width(layout) > room else [layout]
+    lines = [pieces[0]]
+    for piece in pieces[1:]:
+        longer = row(lines[-1], piece)
+        if width(longer) <= (room if len(lines) == 1 else room_after):
+            lines[-1] = longer
+        else:
+            lines.append(piece)
+    return lines
+
+
+def _pieces(layout: Layout, room: float) -> list[Layout]:
+    """The parts before each of which a line may end."""
+    terms = _terms(layout)
+    if len(terms) > 1:
+        return [piece for term in terms for piece in (_pieces(term, room) if width(term) > room else [term])]
+    items = layout.items if isinstance(layout, Row) else (layout,)
+    at = max(range(len(items)), key=lambda i: width(items[i]))
+    before, widest, after = items[:at], items[at], items[at + 1 :]
+    if isinstance(widest, Fraction) and len(_terms(widest.above)) > 1 and width(widest) > SMALL * room:
+        before, widest = (*before, Fraction(Number("1"), widest.below)), Fenced(widest.above)
+    if not isinstance(widest, Fenced) or widest.kind != "(" or width(widest) <= SMALL * room:
+        return [layout]
+    first, *others = _pieces(widest.inside, room)
+    if not others:
+        return [layout]
+    return [row(*before, Mark("open"), first), *others[:-1], row(others[-1], Mark("close"), *after)]
+
+
+def _terms(layout: Layout) -> list[Layout]:
+    """The terms of a sum, each with its sign."""
+    if not isinstance(layout, Row):
+        return [layout]
+    terms: list[list[Layout]] = [[]]
+    for item in layout.items:
+        if isinstance(item, Mark) and item.kind in SIGNS and terms[-1]:
+            terms.append([])
+        terms[-1].append(item)
+    return [row(*term) for term in terms]

@@ -1,0 +1,234 @@
+"""Layout to LaTeX: the only place that knows TeX's words for mathematics and how text is escaped."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from pylatexenc.latexencode import UnicodeToLatexEncoder
+
+from derive.errors import Complaint, Rejected
+from derive.render.notation.layout import (
+    GREEK,
+    Applied,
+    Array,
+    Evaluated,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Limits,
+    Lowered,
+    Mark,
+    Name,
+    Number,
+    Raised,
+    RootSign,
+    Row,
+    Word,
+    begins_with_number,
+)
+
+FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
+MARKS = {
+    "dot": r"\cdot ",
+    "inner": r"\cdot ",
+    "times": r"\times ",
+    "cross": r"\times ",
+    "plus": "+",
+    "minus": "-",
+    "equals": "=",
+    "approx": r"\approx ",
+    "unequal": r"\ne ",
+    "less": "<",
+    "greater": ">",
+    "at_most": r"\le ",
+    "at_least": r"\ge ",
+    "plus_minus": r"\pm ",
+    "space": r"\,",
+    "comma": r",\ ",
+    "open": r"\Bigl(",
+    "close": r"\Bigr)",
+    "start": "",
+    "on": r"\qquad ",
+}
+
+
+def latex(layout: Layout, *, inline: bool = False) -> str:
+    """The LaTeX of a layout; inline, fractions are small."""
+    return _Printer(inline).show(layout)
+
+
+class _Printer:
+    def __init__(self, inline: bool):
+        self.inline = inline
+
+    def show(self, layout: Layout) -> str:
+        match layout:
+            case Number(digits):
+                return digits
+            case Name():
+                return _name(layout)
+            case Word(text):
+                if text == "partial":
+                    return r"\partial "
+                return text if text == "d" else rf"\mathrm{{{_unit(text)}}}"
+            case Mark(kind):
+                return MARKS[kind]
+            case Row(items):
+                return self._row(items)
+            case Fraction(above, below):
+                return self._fraction(above, below)
+            case Raised(base, power):
+                return f"{self.show(base)}^{{{self.show(power)}}}"
+            case Lowered(base, word):
+                subscript = word if len(word) == 1 else rf"\mathrm{{{word}}}"
+                return f"{self.show(base)}_{{{subscript}}}"
+            case RootSign(inside):
+                return rf"\sqrt{{{self.show(inside)}}}"
+            case Fenced(inside, kind):
+                left, right = ("(", ")") if kind == "(" else ("|", "|")
+                tall = _is_tall(inside, self.inline)
+                return self._fenced(left, self.show(inside), right, tall)
+            case Limits(inside, lower, upper):
+                bounds = f"_{{{self.show(lower)}}}^{{{self.show(upper)}}}"
+                return rf"\mathopen{{}}\left[{self.show(inside)}\right]{bounds}"
+            case Evaluated(inside, where):
+                return rf"\left.{self.show(inside)}\right|_{{{self.show(where)}}}"
+            case IntegralSign(lower, upper):
+                if lower is None or upper is None:
+                    return r"\int "
+                return rf"\int_{{{self.show(lower)}}}^{{{self.show(upper)}}}\! "
+            case Applied(name, argument, power):
+                raised = f"^{{{self.show(power)}}}" if power else ""
+                command = rf"\{name}" if name in FUNCTIONS else rf"\operatorname{{{name}}}"
+                gap = "" if isinstance(argument, Fenced) or raised else " "
+                return f"{command}{raised}{gap}{self.show(argument)}"
+            case Array(rows):
+                body = r" \\ ".join(" & ".join(_Printer(True).show(entry) for entry in line) for line in rows)
+                return rf"{{\begin{{pmatrix}} {body} \end{{pmatrix}}}}"
+        raise TypeError(f"no LaTeX for {type(layout).__name__}")
+
+    def _row(self, items: tuple[Layout, ...]) -> str:
+        shown: list[str] = []
+        for before, item in zip((None, *items[:-1]), items, strict=True):
+            text = self.show(item)
+            if before is not None and _runs_into(before, item):
+                shown.append(r"\,")
+            shown.append(text)
+        return "".join(_separated(shown))
+
+    def _fraction(self, above: Layout, below: Layout) -> str:
+        command = r"\tfrac" if self.inline else r"\frac"
+        return rf"{command}{{{self.show(above)}}}{{{self.show(below)}}}"
+
+    def _fenced(self, left: str, inside: str, right: str, tall: bool) -> str:
+        if left == "|":
+            return rf"\left|{inside}\right|" if tall else rf"\lvert {inside}\rvert "
+        return rf"{{\left({inside}\right)}}" if tall else f"({inside})"
+
+
+def _separated(pieces: list[str]) -> list[str]:
+    r"""`\pi` before `a` needs a space: a command ends where a letter cannot follow."""
+    result: list[str] = []
+    for piece in pieces:
+        if result and result[-1][-1:].isalpha() and "\\" in result[-1] and piece[:1].isalpha():
+            command = result[-1].rpartition("\\")[2]
+            if command.isalpha():
+                result.append(" ")
+        result.append(piece)
+    return result
+
+
+def _runs_into(before: Layout, item: Layout) -> bool:
+    """A thin space where two factors touch: after a fraction, before a bracket or a vector."""
+    if isinstance(item, Mark) or isinstance(before, Mark | IntegralSign) or begins_with_number(item):
+        return False
+    return isinstance(before, Fraction | Array | RootSign) or isinstance(item, Array | Fenced) and before != Word("d")
+
+
+def _is_tall(layout: Layout, inline: bool) -> bool:
+    match layout:
+        case Fraction():
+            return not inline
+        case Array() | Limits() | Evaluated():
+            return True
+        case IntegralSign():
+            return not inline
+        case Row(items):
+            return any(_is_tall(item, inline) for item in items)
+        case Raised(base, _) | RootSign(base) | Fenced(base, _) | Lowered(base, _):
+            return _is_tall(base, inline)
+        case Applied(_, argument, _):
+            return _is_tall(argument, inline)
+    return False
+
+
+def _name(name: Name) -> str:
+    base = name.base.rstrip("'")
+    primes = name.base[len(base) :]
+    letter = rf"\{base}" if base in GREEK else base
+    if len(base) > 1 and base not in GREEK:
+        letter = rf"\mathit{{{base}}}"
+    if name.style == "vector":
+        letter = rf"\bm{{{letter}}}"
+    elif name.style == "tensor":
+        letter = rf"\mathbf{{{letter}}}"
+    if name.dots:
+        letter = rf"\{'d' * name.dots}ot{{{letter}}}"
+    letter = f"{{{letter}{primes}}}" if primes else letter  # in braces, so that it can be squared
+    return f"{letter}_{{{_subscript(name.subscript)}}}" if name.subscript else letter
+
+
+def _subscript(text: str) -> str:
+    if text in GREEK:
+        return rf"\{text}"
+    parts = text.split("_")
+    between = "," if any(len(part) > 2 for part in parts) else ""
+    return between.join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in parts)
+
+
+def unit_latex(text: str) -> str:
+    """A unit in mathematics, upright: kg m^2/s."""
+    return rf"\mathrm{{{_unit(text)}}}"
+
+
+def _unit(text: str) -> str:
+    if text in {"degree", "deg"}:
+        return r"{}^\circ"
+    text = text.replace("^{", "^").replace("**", "^").replace("²", "^2").replace("³", "^3").replace("°", r"{}^\circ ")
+    text = re.sub(r"\^(?:(-?\d+)|\((\d+/\d+)\))", r"^{\1\2}", text)
+    return text.replace("*", r"\,").replace("·", r"\,").replace(" ", r"\,").replace("%", r"\%")
+
+
+@cache
+def _encoder() -> UnicodeToLatexEncoder:
+    return UnicodeToLatexEncoder(
+        non_ascii_only=False,
+        replacement_latex_protection="braces-all",
+        unknown_char_policy="fail",
+        unknown_char_warning=False,
+    )
+
+
+def escaped(text: str) -> str:
+    """Plain text that TeX prints as it is: every special character is made harmless."""
+    if text.isascii() and not any(c in text for c in "\\{}$&#^_%~<>|\"'`"):
+        return text
+    try:
+        return str(_encoder().unicode_to_latex(text))
+    except ValueError as error:
+        raise Rejected(Complaint("character", f"`{text}` has a character that cannot be printed")) from error
+
+
+def unprintable(text: str) -> int | None:
+    """Where the first character stands that the fonts of the page do not have."""
+    return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
+
+
+@cache
+def _is_printable(character: str) -> bool:
+    try:
+        return "\\cyr" not in escaped(character).lower()
+    except Rejected:
+        return False

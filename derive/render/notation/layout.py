@@ -1,0 +1,248 @@
+"""Mathematics as it stands on paper, before any format: what is a fraction, what is raised, what is in brackets.
+
+`notation.py` decides the layout once; `latex.py` and `text.py` only print it.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Number:
+    """Digits as printed."""
+
+    digits: str
+
+
+@dataclass(frozen=True)
+class Name:
+    """A symbol: `omega`, with subscript `x`, so many dots; style is scalar, vector or tensor."""
+
+    base: str
+    subscript: str = ""
+    dots: int = 0
+    style: str = "scalar"
+
+
+@dataclass(frozen=True)
+class Word:
+    """A unit or another word that is printed upright."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Mark:
+    """An operator or relation: + - = times dot inner cross approx comma space."""
+
+    kind: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """Things side by side."""
+
+    items: tuple[Layout, ...]
+
+
+@dataclass(frozen=True)
+class Fraction:
+    above: Layout
+    below: Layout
+
+
+@dataclass(frozen=True)
+class Raised:
+    base: Layout
+    power: Layout
+
+
+@dataclass(frozen=True)
+class Lowered:
+    """A layout with a word as its subscript: (dL/dt)_body."""
+
+    base: Layout
+    word: str
+
+
+@dataclass(frozen=True)
+class RootSign:
+    inside: Layout
+
+
+@dataclass(frozen=True)
+class Fenced:
+    """Brackets of one kind, ( ) or | |, around a layout."""
+
+    inside: Layout
+    kind: str = "("
+
+
+@dataclass(frozen=True)
+class Limits:
+    """[F] between limits."""
+
+    inside: Layout
+    lower: Layout
+    upper: Layout
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """A layout with a bar behind it, and below the bar where it is taken."""
+
+    inside: Layout
+    where: Layout
+
+
+@dataclass(frozen=True)
+class IntegralSign:
+    """The sign with its limits, if it has any."""
+
+    lower: Layout | None = None
+    upper: Layout | None = None
+
+
+@dataclass(frozen=True)
+class Applied:
+    """A function by its printed name, perhaps raised, and its argument."""
+
+    name: str
+    argument: Layout
+    power: Layout | None = None
+
+
+@dataclass(frozen=True)
+class Array:
+    """The entries of a vector or tensor, row by row."""
+
+    rows: tuple[tuple[Layout, ...], ...]
+
+
+Layout = (
+    Number
+    | Name
+    | Word
+    | Mark
+    | Row
+    | Fraction
+    | Raised
+    | Lowered
+    | RootSign
+    | Fenced
+    | Limits
+    | Evaluated
+    | IntegralSign
+    | Applied
+    | Array
+)
+
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
+    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
+    "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
+    "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
+    "Omega": "Ω",
+}  # fmt: skip
+
+DOT, TIMES, PLUS, MINUS, SPACE = (Mark(kind) for kind in ("dot", "times", "plus", "minus", "space"))
+PLUS_MINUS = Mark("plus_minus")
+INNER, CROSS = Mark("inner"), Mark("cross")  # between two vectors: a dot, and a cross
+
+
+def row(*items: Layout) -> Layout:
+    """Items side by side, rows within rows opened."""
+    flat: list[Layout] = []
+    for item in items:
+        flat.extend(item.items if isinstance(item, Row) else [item])
+    return flat[0] if len(flat) == 1 else Row(tuple(flat))
+
+
+def first_of(layout: Layout) -> Layout:
+    return first_of(layout.items[0]) if isinstance(layout, Row) and layout.items else layout
+
+
+def last_of(layout: Layout) -> Layout:
+    return last_of(layout.items[-1]) if isinstance(layout, Row) and layout.items else layout
+
+
+def begins_with_number(layout: Layout) -> bool:
+    """Whether it may not stand directly behind another factor: `3a`, `3/2 a`, `10^2`."""
+    first = first_of(layout)
+    if isinstance(first, Raised):
+        return begins_with_number(first.base)
+    if isinstance(first, Fraction):
+        return begins_with_number(first.above) and is_numeric(first)
+    return isinstance(first, Number)
+
+
+def is_numeric(layout: Layout) -> bool:
+    """Whether it is made of numbers alone: 2/(3 sqrt(14))."""
+    match layout:
+        case Fraction(above, below):
+            return is_numeric(above) and is_numeric(below)
+        case RootSign(inside):
+            return is_numeric(inside)
+        case Row(items):
+            return all(is_numeric(item) for item in items)
+    return isinstance(layout, Number)
+
+
+def is_number(layout: Layout) -> bool:
+    """A plain number, or a fraction of plain numbers."""
+    if isinstance(layout, Fraction):
+        return is_number(layout.above) and is_number(layout.below)
+    return isinstance(layout, Number)
+
+
+def is_enclosed(layout: Layout) -> bool:
+    return isinstance(layout, Fenced | Limits | Array)
+
+
+def named(name: str) -> Name:
+    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots."""
+    match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
+    if not match:
+        return Name(name)
+    sub, dots = match["sub"] or "", match["dots"]
+    if not dots and re.fullmatch(r"d*dot", sub):
+        sub, dots = "", sub
+    return Name(match["base"], sub, dots.count("d") if dots else 0)
+
+
+def width(layout: Layout) -> float:
+    """About how many characters wide a layout is in print."""
+    match layout:
+        case Number(digits):
+            return len(digits)
+        case Name(_, subscript, _, _):
+            return 1.2 + 0.7 * len(subscript)
+        case Word(text):
+            return 0.9 * len(text)
+        case Mark(kind):
+            return {"space": 0.4, "dot": 1.2, "inner": 1.2, "open": 0.8, "close": 0.8}.get(kind, 2)
+        case Row(items):
+            return sum(width(item) for item in items)
+        case Fraction(above, below):
+            return max(width(above), width(below)) + 0.6
+        case Raised(base, power):
+            return width(base) + 0.7 * width(power)
+        case Lowered(base, word):
+            return width(base) + 0.6 * len(word)
+        case RootSign(inside):
+            return width(inside) + 1.5
+        case Fenced(inside, _):
+            return width(inside) + 1.6
+        case Limits(inside, lower, upper):
+            return width(inside) + 1.6 + 0.7 * max(width(lower), width(upper))
+        case Evaluated(inside, where):
+            return width(inside) + 0.3 + 0.7 * width(where)
+        case IntegralSign(lower, upper):
+            return 2.0 + (0.5 * max(width(lower), width(upper)) if lower and upper else 0)
+        case Applied(name, argument, power):
+            return 0.9 * len(name) + 0.5 + width(argument) + (0.7 * width(power) if power else 0)
+        case Array(rows):
+            columns = [max(width(line[j]) for line in rows) for j in range(len(rows[0]))]
+            return sum(columns) + 2.0 * (len(columns) - 1) + 2.6

@@ -1,0 +1,118 @@
+"""One letter, one thing: what each letter of a page stands for, and the letters of a problem that stand for two.
+
+Steps bring in letters of their own: symbols, components and entries, coordinates and their rates, variables of
+integration. What counts is what is printed: `r_Cz` looks just like the component `r_C_z`; a bold `I` is not `I`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from sympy import Basic, Integral, MatrixBase, MatrixSymbol, Symbol
+
+from derive.algebra.direction import Direction
+from derive.algebra.expressions import AXES, RATES, Bracket, MassIntegral, component_names, rate
+from derive.course.given import Given
+from derive.course.problem import Problem
+from derive.errors import Complaint, Place
+from derive.render.notation.latex import latex
+from derive.render.notation.notation import Notation
+from derive.steps.step import Quantity, Step, entry_name
+
+ANOTHER = "use another letter"
+_NOTATION = Notation()
+
+
+def letter_clashes(problem: Problem, known: Mapping[str, Quantity]) -> list[Complaint]:
+    """A complaint for each letter in use that stands, as printed, for something else too; one for each letter."""
+    used = letters_in_use(problem)
+    looks = {as_printed(letter): letter for letter in used}
+    faults: dict[Symbol, Complaint] = {}
+    for letter in used:
+        other = looks[as_printed(letter)]
+        if other != letter:
+            message = f"`{letter.name}` and `{other.name}` are printed alike"
+            faults[letter] = Complaint("letter-clash", message, _place(problem, letter), help=ANOTHER)
+    for quantity in known.values():
+        for name, what in meanings(quantity.step, set(problem.dimensions)):
+            mine = looks.get(as_printed(name))
+            if mine is not None and mine not in faults:
+                faults[mine] = _clash(problem, mine, name, what)
+    return list(faults.values())
+
+
+def letters_in_use(problem: Problem) -> list[Symbol]:
+    """The letters that stand for something given, or have a number; one that is only declared stands for nothing."""
+    found = [letter for given in problem.givens for letter in _letters_of(given)]
+    return list(dict.fromkeys([*found, *(measured.symbol for measured in problem.measured)]))
+
+
+def _letters_of(given: Given) -> list[Symbol]:
+    value = given.value.components or () if isinstance(given.value, Direction) else given.value
+    entries = value if isinstance(value, tuple) else (value,)
+    return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
+
+
+def as_printed(name: Any) -> str:
+    return latex(_NOTATION.layout(name))
+
+
+def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, str]]:
+    """Every name that a step brings in, and what it stands for; `letters` are those that it has from elsewhere."""
+    yield from _named_by(step)
+    for q, _ in step.coordinates:
+        yield q, "the script has a coordinate of that name"
+        yield from ((rate(q, n), f"it is a rate of the coordinate `{q.name}`") for n in range(1, len(RATES)))
+    own: set[Basic] = {q for q, _ in step.coordinates}
+    for form in step.chain:
+        own |= {x for whole in form.expr.atoms(MassIntegral) for x, *_ in whole.args[5:]}  # not printed there
+        for variable in _integrated(form.expr):
+            own.add(variable)
+            yield variable, f"the step `{step.key}` integrates over it"
+    free = {name for form in step.chain for name in form.expr.free_symbols if isinstance(name, Symbol)}
+    for name in sorted(free - own - set(letters), key=str):
+        yield name, f"the step `{step.key}` has another letter of that form"
+
+
+def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
+    """What a step calls its result, and the components or entries of that."""
+    symbol, result = step.symbol, f"the step `{step.key}` calls its result so too"
+    if isinstance(symbol, Symbol):
+        yield symbol, result
+    elif isinstance(symbol, MatrixBase):
+        yield from ((entry, result) for entry in symbol if isinstance(entry, Symbol))
+    elif isinstance(symbol, MatrixSymbol) and symbol.shape == (3, 1):
+        yield symbol, result
+        yield from ((name, f"it is a component of `{symbol.name}`") for name in component_names(symbol.name))
+    elif isinstance(symbol, MatrixSymbol):
+        yield symbol, result
+        yield from (
+            (entry_name(symbol.name, i, j), f"it is an entry of `{symbol.name}`")
+            for i in range(len(AXES))
+            for j in range(len(AXES))
+        )
+
+
+def _integrated(expr: Any) -> Iterator[Symbol]:
+    """The variables of integrals and brackets, which are printed."""
+    for whole in expr.atoms(Integral, Bracket):
+        if isinstance(whole, Integral):
+            yield from whole.variables
+        else:
+            yield whole.args[1]
+
+
+def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
+    so = what if name.name == letter.name else f"`{name.name}` is printed so too: {what}"
+    message = f"`{letter.name}` is a letter of this problem, but {so}"
+    chosen = f"symbols.{letter.name}" not in problem.places
+    help_line = "declare another letter of its kind under `symbols:`" if chosen else ANOTHER
+    return Complaint("letter-clash", message, _place(problem, letter), help=help_line)
+
+
+def _place(problem: Problem, letter: Symbol) -> Place | None:
+    """Where the letter is declared, or the given for whose number it was chosen."""
+    given = next((given.name for given in problem.givens if letter in _letters_of(given)), "")
+    keys = (f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
+    return next((problem.places[key] for key in keys if key in problem.places), None)

@@ -1,0 +1,447 @@
+"""From expressions to the layout of a textbook: 13/12 M a^2, not 13 M a^2/12; dots for rates; masses before lengths.
+
+`present()` pulls the common factor out of vectors and tensors; it changes no value. `Notation` holds the one thing
+that depends on the problem, the dimensions of its letters, which decide their order in a product.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from sympy import (
+    Abs,
+    Add,
+    Derivative,
+    Expr,
+    Function,
+    Identity,
+    Integral,
+    MatAdd,
+    MatMul,
+    MatrixBase,
+    MatrixSymbol,
+    Mul,
+    Pow,
+    Rational,
+    Symbol,
+    fraction,
+)
+from sympy.core.function import AppliedUndef
+from sympy.core.numbers import Exp1, Pi
+
+from derive.algebra import expressions as ex
+from derive.algebra.dimensions import Dimension
+from derive.algebra.rounding import Rounded, decimal_text
+from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
+from derive.render.notation.layout import (
+    CROSS,
+    INNER,
+    MINUS,
+    PLUS,
+    PLUS_MINUS,
+    SPACE,
+    Applied,
+    Array,
+    Evaluated,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Limits,
+    Lowered,
+    Mark,
+    Name,
+    Number,
+    Raised,
+    RootSign,
+    Word,
+    begins_with_number,
+    named,
+    row,
+)
+from derive.render.notation.products import (
+    accelerations_first,
+    between,
+    decimal,
+    either_sign,
+    number_and_letters,
+    positive_first,
+    present,
+    rank_of_dimension,
+    root_cancelled,
+    roots_last,
+    roots_together,
+    side_by_side,
+    sign_and_size,
+)
+
+SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
+FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
+
+
+class Notation:
+    """The layout of any expression of the engine.
+
+    dimensions   of the letters, so that masses come first and rates last; unknown letters stand with the lengths
+    """
+
+    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None):
+        self.known_dimensions = dimensions or {}
+        self._known: dict[Any, Layout] = {}
+
+    def layout(self, expr: Any) -> Layout:
+        """The layout, worked out once: every format of a page asks for the same ones."""
+        if expr not in self._known:
+            self._known[expr] = self._worked_out(expr)
+        return self._known[expr]
+
+    def _worked_out(self, expr: Any) -> Layout:
+        if isinstance(expr, MatrixBase):
+            return self._matrix(expr)
+        for kinds, method in self._methods:
+            if isinstance(expr, kinds):
+                return method(self, expr)
+        if isinstance(expr, Function):
+            return self._function(expr)
+        raise TypeError(f"no notation for {type(expr).__name__}")
+
+    def result(self, expr: Any) -> Layout:
+        """A result, with its common factor in front."""
+        return self.layout(present(expr))
+
+    def list_of(self, components: tuple[Any, ...]) -> Layout:
+        """Components in running text: (1, 1, 0)."""
+        items: list[Layout] = []
+        for component in components:
+            items += [Mark("comma")] * bool(items) + [self.layout(component)]
+        return Fenced(row(*items))
+
+    # --- sums and products ---
+
+    def _sum(self, expr: Any) -> Layout:
+        if isinstance(expr, Add):
+            content, rest = expr.primitive()
+            if content != 1 and content.q == 1:
+                return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
+        return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
+
+    def _ordered_terms(self, expr: Add) -> list[Expr]:
+        return accelerations_first(positive_first(roots_last(expr.as_ordered_terms())))
+
+    def _terms(self, terms: list[Any]) -> Layout:
+        items: list[Layout] = []
+        for term in terms:
+            sign, size = sign_apart(self.layout(term))
+            if items or sign:
+                items.append(sign or PLUS)
+            items.append(within(size, Binding.OPEN))
+        return row(*items)
+
+    def _product(self, expr: Expr) -> Layout:
+        behind = either_sign(expr)
+        if behind is not None:
+            return signed(PLUS_MINUS, self.layout(behind))
+        minus, size = sign_and_size(expr)
+        if minus:
+            return signed(MINUS, self.layout(size))
+        under_one_root = roots_together(size)
+        if under_one_root is not None:
+            size = under_one_root
+        above, below = fraction(size)
+        number_above, letters_above = number_and_letters(above)
+        number_below, letters_below = number_and_letters(below)
+        number_above, number_below = root_cancelled(number_above, number_below)
+        if letters_below:
+            top = self._factors([*number_above, *self._ordered(letters_above)])
+            return Fraction(top, self._factors([*number_below, *self._ordered(letters_below)]))
+        letters = self._ordered(letters_above)
+        if number_below and len(letters) == 1 and isinstance(letters[0], ex.Amount):
+            letters = [ex.Group(letters[0])]
+        if not number_below:
+            return self._factors([*number_above, *letters])
+        if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
+            return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
+        number = Fraction(self._factors(number_above), self._factors(number_below))
+        if len(letters) == 1:
+            return row(number, self._as_factor(letters[0]))
+        return row(number, within(self._factors(letters), Binding.OPEN)) if letters else number
+
+    def _ordered(self, factors: list[Expr]) -> list[Expr]:
+        return sorted(factors, key=self._rank)
+
+    def _rank(self, factor: Expr) -> tuple[int, int, str]:
+        """Density and mass, accelerations, lengths, numbers, rates; then brackets and functions."""
+        base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
+        if isinstance(base, Add | ex.Terms):
+            return (0, SUMS, str(factor))
+        if not isinstance(base, Symbol | ex.Amount):
+            return (2 if isinstance(base, Add | ex.Terms | ex.Group) else 1, 0, str(factor))
+        dimension = self.known_dimensions.get(base)
+        return (0, rank_of_dimension(dimension), str(base))
+
+    def _factors(self, factors: list[Any]) -> Layout:
+        if not factors:
+            return Number("1")
+        if len(factors) == 1:
+            return self.layout(factors[0])
+        *before, last = factors
+        return side_by_side([*(self._as_factor(f, Binding.DOTTED) for f in before), self._as_factor(last)])
+
+    def _as_factor(self, expr: Any, most: Binding = Binding.OPEN) -> Layout:
+        """A factor beside others; what takes in all that follows may stand last without brackets."""
+        inner = self.layout(expr)
+        return Fenced(inner) if binding(inner) is Binding.MEASURED else within(inner, most)
+
+    def _as_written(self, expr: ex.Factors) -> Layout:
+        """Factors in the order given, with a dot where two would run together."""
+        first, *others = expr.args
+        behind = either_sign(expr)
+        if behind is not None:
+            return signed(PLUS_MINUS, self.layout(behind))
+        if isinstance(first, Expr) and first == -1 and others:
+            return signed(MINUS, self._as_written(ex.Factors(*others)))
+        whole = self.layout(first)
+        sign, leading = sign_apart(whole)
+        items = [within(leading, Binding.MEASURED if others else Binding.OPEN)]
+        for i, factor in enumerate(others, 1):
+            inner = self._as_factor(factor, Binding.OPEN if i == len(others) else Binding.DOTTED)
+            mark = between(whole if sign and i == 1 else items[-1], inner)
+            items += [mark] if mark else []
+            items.append(inner)
+        return signed(sign, row(*items)) if sign else row(*items)
+
+    def _power(self, expr: Pow) -> Layout:
+        base, exponent = expr.args
+        if exponent.is_Rational and exponent < 0:
+            return Fraction(Number("1"), self.layout(Pow(base, -exponent)))
+        if exponent == Rational(1, 2):
+            return RootSign(self.layout(base))
+        if isinstance(base, Function) and not isinstance(base, AppliedUndef) and exponent.is_Integer:
+            name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
+            return Applied(name, self._argument(base), Number(str(exponent)))
+        inner = self.layout(base)
+        return Raised(within(inner, Binding.ATOM), self.layout(exponent))
+
+    def _rational(self, expr: Rational) -> Layout:
+        if expr < 0:
+            return row(MINUS, self._rational(-expr))
+        if expr.q == 1:
+            return Number(str(expr.p))
+        return Fraction(Number(str(expr.p)), Number(str(expr.q)))
+
+    # --- names and functions ---
+
+    def _symbol(self, expr: Symbol) -> Layout:
+        return signed(PLUS_MINUS, Number("1")) if expr == ex.PLUS_MINUS else named(expr.name)
+
+    def _vector_or_tensor(self, expr: MatrixSymbol) -> Layout:
+        style = "vector" if expr.shape == (3, 1) else "tensor"
+        plain = named(expr.name)
+        return Name(plain.base, plain.subscript, plain.dots, style)
+
+    def _function(self, expr: Function) -> Layout:
+        if isinstance(expr, AppliedUndef):
+            return named(expr.func.__name__)
+        return Applied(FUNCTIONS.get(expr.func.__name__, expr.func.__name__), self._argument(expr))
+
+    def _argument(self, expr: Function) -> Layout:
+        if len(expr.args) > 1:
+            return self.list_of(expr.args)
+        inner = self.layout(expr.args[0])
+        return inner if isinstance(inner, Name) else Fenced(inner)
+
+    def _derivative(self, expr: Derivative) -> Layout:
+        name, order = named(expr.expr.func.__name__), int(expr.derivative_count)
+        return Name(name.base, name.subscript, order)
+
+    # --- vectors and tensors ---
+
+    def _matrix(self, value: Any) -> Layout:
+        if all(entry == 0 for entry in value):
+            return Name("0", style="vector" if value.shape[1] == 1 else "tensor")
+        rows, columns = value.shape
+        return Array(tuple(tuple(self.layout(value[i, j]) for j in range(columns)) for i in range(rows)))
+
+    def _matrix_product(self, expr: MatMul) -> Layout:
+        scalars = [arg for arg in expr.args if not ex.is_matrix(arg)]
+        others = [arg if scalars else present(arg) for arg in expr.args if ex.is_matrix(arg)]
+        minus, size = sign_and_size(Mul(*scalars)) if len(scalars) != 1 else sign_and_size(scalars[0])
+        items: list[Layout] = [self._as_factor(size, Binding.DOTTED)] if size != 1 else []
+        for i, other in enumerate(others, 1):
+            inner = self.layout(other)
+            if items or i < len(others):
+                inner = self._operand(inner, leads=not items, ends=len(others) == 1)
+            items.append(inner)
+        return signed(MINUS, row(*items)) if minus else row(*items)
+
+    def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
+        """A vector or tensor beside another; w x L may stand behind a number without brackets."""
+        if not leads and begins_with_number(inner):
+            return Fenced(inner)
+        return within(inner, Binding.OPEN if ends else Binding.PRODUCT)
+
+    def _between_vectors(self, mark: Mark, most: Binding) -> Callable[[Any], Layout]:
+        def laid_out(expr: Any) -> Layout:
+            left, right = (within(self.layout(present(arg)), most) for arg in expr.args)
+            return row(left, mark, right)
+
+        return laid_out
+
+    def _dot(self, expr: ex.Dot) -> Layout:
+        return self._between_vectors(INNER, Binding.DOTTED)(expr)
+
+    def _cross(self, expr: ex.Cross) -> Layout:
+        return self._between_vectors(CROSS, Binding.PRODUCT)(expr)
+
+    def _outer(self, expr: ex.Outer) -> Layout:
+        left, right = (self.layout(arg) for arg in expr.args)
+        return row(self._operand(left, leads=True, ends=False), self._operand(right, leads=False, ends=False))
+
+    def _norm(self, expr: ex.Norm) -> Layout:
+        return Fenced(self.layout(present(expr.args[0])), "|")
+
+    def _rate(self, expr: ex.CarriedRate | ex.BodyRate) -> Layout:
+        return self._differentiated("d", expr.args[0], Name("t"))
+
+    def _body_rate(self, expr: ex.BodyRate) -> Layout:
+        return Lowered(Fenced(self._rate(expr)), "body")
+
+    def _component(self, expr: ex.Component) -> Layout:
+        return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
+
+    def _partial(self, expr: ex.Partial) -> Layout:
+        return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
+
+    def _time_rate(self, expr: ex.TimeRate) -> Layout:
+        return self._differentiated("d", expr.args[0], Name("t"))
+
+    def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
+        """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer."""
+        inner = self.layout(what)
+        below = row(Word(sign), by)
+        if isinstance(inner, Name) or isinstance(what.base if isinstance(what, Pow) else what, ex.Norm):
+            return Fraction(row(Word(sign), inner), below)
+        behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
+        return row(Fraction(Word(sign), below), SPACE, behind)
+
+    def _slope(self, expr: ex.Slope) -> Layout:
+        """U'(x) is written dU/dx, and so on."""
+        f, x, order = expr.args
+        times = [] if order == 1 else [Number(str(order))]
+        d = Raised(Word("d"), times[0]) if times else Word("d")
+        by = Raised(self.layout(x), times[0]) if times else self.layout(x)
+        inner = self.layout(f)
+        if isinstance(inner, Name):
+            return Fraction(row(d, inner), row(Word("d"), by))
+        return row(Fraction(d, row(Word("d"), by)), SPACE, Fenced(inner))
+
+    def _at(self, expr: ex.At) -> Layout:
+        f, x, place = expr.args
+        return Evaluated(
+            within(self.layout(f), Binding.FACTOR), row(self.layout(x), Mark("equals"), self.layout(place))
+        )
+
+    def _relation(self, expr: ex.Relation) -> Layout:
+        left, right = (self.side(side) for side in expr.sides)
+        return row(left, Mark(expr.word), right)
+
+    def side(self, expr: Any) -> Layout:
+        """A side of an equation: a number common to its terms is not put before a bracket."""
+        return self._terms(self._ordered_terms(expr)) if isinstance(expr, Add) else self.layout(expr)
+
+    def _identity(self, expr: Identity) -> Layout:
+        return Name("1", style="tensor")
+
+    # --- integrals ---
+
+    def _integral(self, expr: Integral) -> Layout:
+        """One variable: the integrand before its differential. Several: all signs first, outermost first."""
+        limits = list(reversed(expr.limits))
+        signs = []
+        for x, lower, upper in limits:
+            signs.append((IntegralSign(self.layout(lower), self.layout(upper)), row(Word("d"), self.layout(x))))
+        if len(limits) == 1:
+            sign, differential = signs[0]
+            if expr.function == 1:
+                return row(sign, differential)
+            return row(sign, self._as_factor(expr.function), SPACE, differential)
+        items: list[Layout] = [item for sign in signs for item in sign]
+        return row(*items, *([SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
+
+    def _mass_integral(self, expr: ex.MassIntegral) -> Layout:
+        return row(IntegralSign(), self._as_factor(expr.args[0]), SPACE, Word("d"), Name("m"))
+
+    def _bracket(self, expr: ex.Bracket) -> Layout:
+        antiderivative, _, lower, upper = expr.args
+        above, below = fraction(antiderivative)
+        whole = self.layout(above) if below == 1 else Fraction(self.layout(above), self.layout(below))
+        return Limits(whole, self.layout(lower), self.layout(upper))
+
+    # --- as written ---
+
+    def _group(self, expr: ex.Group) -> Layout:
+        inner = self.layout(expr.args[0])
+        return inner if isinstance(inner, Name | Number) else Fenced(inner)
+
+    def _ratio(self, expr: ex.Ratio) -> Layout:
+        return Fraction(*(self.layout(arg) for arg in expr.args))
+
+    def _root(self, expr: ex.Root) -> Layout:
+        return RootSign(self.layout(expr.args[0]))
+
+    def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
+        number, unit, _ = expr.args
+        inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
+        if unit.name in {"degree", "deg"}:
+            return row(inner, Word(unit.name))
+        return row(inner, SPACE, Word(unit.name)) if unit.name else inner
+
+    def _rounded(self, expr: Rounded) -> Layout:
+        text = decimal_text(expr)
+        negative, text = text.startswith("-"), text.lstrip("-")
+        digits, _, power = text.partition("e")
+        items: list[Layout] = [MINUS] if negative else []
+        items.append(Number(digits))
+        if power:
+            ten = Raised(Number("10"), Number(power) if not power.startswith("-") else row(MINUS, Number(power[1:])))
+            items += [Mark("times"), ten]
+        return row(*items)
+
+    _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
+        (Rational, _rational),
+        (Rounded, _rounded),
+        (Symbol, _symbol),
+        (MatrixSymbol, _vector_or_tensor),
+        (Pi, lambda self, _: Name("pi")),
+        (Exp1, lambda self, _: Name("e")),
+        (Derivative, _derivative),
+        (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add, of which SymPy makes it a kind
+        (Add | ex.Terms, _sum),
+        (MatMul, _matrix_product),
+        (Mul, _product),
+        (Pow, _power),
+        (ex.Factors, _as_written),
+        (ex.Group, _group),
+        (ex.Ratio, _ratio),
+        (ex.Root, _root),
+        (ex.Bracket, _bracket),
+        (ex.Amount | ex.MatrixAmount, _amount),
+        (ex.Dot, _dot),
+        (ex.Cross, _cross),
+        (ex.Outer, _outer),
+        (ex.Norm, _norm),
+        (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
+        (ex.CarriedRate, _rate),
+        (ex.BodyRate, _body_rate),
+        (ex.Component, _component),
+        (ex.MassIntegral, _mass_integral),
+        (Integral, _integral),
+        (Identity, _identity),
+        (ex.Partial, _partial),
+        (ex.TimeRate, _time_rate),
+        (ex.Slope, _slope),
+        (ex.At, _at),
+        (ex.Truncated, lambda self, expr: self.layout(expr.args[0])),
+        (ex.Relation, _relation),
+    )

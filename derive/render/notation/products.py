@@ -1,0 +1,222 @@
+"""How a product or a sum is written: its sign, its number, its letters, and their order."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Any
+
+from sympy import Add, Expr, MatrixBase, Mul, Pow, Rational, factorint
+
+from derive.algebra import expressions as ex
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import scaled
+from derive.algebra.tidy import factored_matrix
+from derive.render.notation.layout import (
+    DOT,
+    MINUS,
+    SPACE,
+    Applied,
+    Array,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Name,
+    Number,
+    Raised,
+    Row,
+    Word,
+    begins_with_number,
+    first_of,
+    is_enclosed,
+    is_number,
+    last_of,
+    row,
+)
+
+
+def decimal(number: Rational) -> Layout:
+    """1.5, as it was written, not 3/2; a third stays a fraction."""
+    sign = (MINUS,) if number < 0 else ()
+    if set(factorint(number.q)) - {2, 5}:
+        return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
+    places = max(factorint(number.q).values(), default=0)
+    return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+
+
+def present(value: Any) -> Any:
+    """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
+    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
+        return value
+    if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
+        return value
+    factor, rest = factored_matrix(value)
+    return value if factor == 1 else scaled(factor, rest)
+
+
+def sign_and_size(term: Any) -> tuple[bool, Any]:
+    """Whether a term is printed with a minus sign, and the term without it."""
+    if isinstance(term, ex.Factors) and term.args[0] == -1:
+        return True, ex.Factors(*term.args[1:]) if len(term.args) > 2 else term.args[1]
+    if isinstance(term, Expr) and (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative:
+        return True, -term
+    return False, term
+
+
+def either_sign(term: Any) -> Any | None:
+    """What stands behind a plus-or-minus sign, if the term has one."""
+    factors = list(term.args) if isinstance(term, ex.Factors) else list(Mul.make_args(term))
+    if ex.PLUS_MINUS not in factors:
+        return None
+    factors.remove(ex.PLUS_MINUS)
+    return ex.Factors(*factors) if isinstance(term, ex.Factors) and len(factors) > 1 else Mul(*factors)
+
+
+def roots_last(terms: list[Any]) -> list[Any]:
+    """Of numbers with their units, the root of a sum stands behind the others, as it does with letters."""
+
+    def is_root(term: Any) -> bool:
+        return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
+
+    return sorted(terms, key=is_root) if any(term.has(ex.Amount) for term in terms) else terms
+
+
+def positive_first(terms: list[Any]) -> list[Any]:
+    """c^2 - a^2, not -a^2 + c^2."""
+    if terms and sign_and_size(terms[0])[0]:
+        first = next((term for term in terms if not sign_and_size(term)[0]), None)
+        if first is not None:
+            return [first, *(term for term in terms if term is not first)]
+    return terms
+
+
+def accelerations_first(terms: list[Any]) -> list[Any]:
+    """In an equation of motion the terms with accelerations lead, then those with one rate; others keep their order."""
+
+    def place(term: Any) -> int:
+        rates = [s for s in term.free_symbols if s.name.endswith("_dot")]
+        accelerates = any(s.name.endswith("_ddot") for s in term.free_symbols)
+        return (
+            0
+            if accelerates
+            else 1
+            if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates))
+            else 2
+        )
+
+    return sorted(terms, key=place)
+
+
+def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
+    """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
+    factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
+    numbers = [f for f in factors if f.is_number and not f.has(ex.Amount)]
+    rational = Mul(*(f for f in numbers if f.is_Rational))
+    numbers = [*([rational] if rational != 1 else []), *(f for f in numbers if not f.is_Rational)]
+    numbers.sort(key=lambda f: (0 if f.is_Rational else 1, str(f)))
+    return numbers, [f for f in factors if not f.is_number or f.has(ex.Amount)]
+
+
+def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], list[Expr]]:
+    """sqrt(14)/14 as 1/sqrt(14), sqrt(14)/7 as 2/sqrt(14), sqrt(14)/168 as 1/(12 sqrt(14)); sqrt(42)/28 stays."""
+    if len(below) != 1 or not below[0].is_Integer:
+        return above, below
+    root = next((f for f in above if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer), None)
+    if root is None:
+        return above, below
+    times = next((f for f in above if f.is_Integer), Rational(1))
+    left = times * root.base / below[0]
+    if left.p != times and not (left.q == 1 and times == 1):
+        return above, below
+    others = [f for f in above if f is not root and not f.is_Integer]
+    return [*([Rational(left.p)] if left.p != 1 else []), *others], [*([Rational(left.q)] if left.q != 1 else []), root]
+
+
+def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
+    """12 a^2 + 12 b^2 as 12 and a^2 + b^2; a sum with fractions in it was meant so."""
+    if not isinstance(factor, Add):
+        return (factor,)
+    content, rest = factor.primitive()
+    return (content, rest) if content.is_Integer else (factor,)
+
+
+def roots_together(expr: Expr) -> Expr | None:
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers within it as square roots.
+
+    Nothing for a single root, or for roots of numbers alone.
+    """
+    factors = Mul.make_args(expr)
+    roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
+    if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
+        return None
+    inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
+    return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
+
+
+def _is_fourth_root(factor: Pow) -> bool:
+    """2^(1/4), which under a square root is sqrt(2)."""
+    return bool(factor.base.is_Integer and factor.exp.is_Rational and factor.exp.q == 4)
+
+
+def rank_of_dimension(dimension: Dimension | None) -> int:
+    """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
+    if dimension is None or dimension.is_number:
+        return 4
+    if dimension.mass and dimension.length >= 0 and not dimension.time:
+        return 0  # a mass, a moment of inertia
+    if dimension.mass:
+        return 4
+    if dimension.length and dimension.time:
+        return 1
+    return 2 if dimension.length else 5
+
+
+def side_by_side(items: list[Layout]) -> Layout:
+    placed: list[Layout] = []
+    for item in items:
+        if placed and _needs_dot(placed[-1], item):
+            placed.append(DOT)
+        placed.append(item)
+    return row(*placed)
+
+
+def _needs_dot(before: Layout, item: Layout) -> bool:
+    numeric = begins_with_number(item) and not (is_enclosed(before) and is_enclosed(item))
+    return numeric or _would_be_argument(before, item)
+
+
+def _would_be_argument(before: Layout, item: Layout) -> bool:
+    """Whether a factor could be read as part of the argument of the function before it: cos x·a^n."""
+    last, first = last_of(before), first_of(item)
+    bare = isinstance(last, Applied) and not isinstance(last.argument, Fenced)
+    letter = first.base if isinstance(first, Raised) else first
+    return bare and (isinstance(letter, Fraction) or isinstance(letter, Name) and letter.style == "scalar")
+
+
+def between(before: Layout, after: Layout) -> Layout | None:
+    """What stands between two factors as written: nothing between different letters, a dot where they run together."""
+    if begins_with_number(after):
+        return DOT
+    if isinstance(first_of(after), Applied):
+        return SPACE
+    last = last_of(before)
+    if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
+        return SPACE
+    if _is_letter(before) and _is_letter(after):
+        return None if before != after else DOT
+    starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
+    return SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
+
+
+def _is_letter(layout: Layout) -> bool:
+    return isinstance(layout, Name) or isinstance(layout, Raised) and isinstance(layout.base, Name)
+
+
+def _ends_in_differential(layout: Layout) -> bool:
+    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
+
+
+def _begins_with_vector(layout: Layout) -> bool:
+    """A scalar product, before which no dot may stand."""
+    first = first_of(layout)
+    return isinstance(first, Array) or (isinstance(first, Name) and first.style != "scalar")

@@ -1,0 +1,264 @@
+"""Layout to plain text for a terminal: one line where it can be, a block of lines for vectors and tensors.
+
+How a line is meant to be read; `tests/printed/from_text.py` reads it so, and every printed line is compared:
+
+    a b, 2a      a product; it binds tighter than `·` and `×` between vectors, and those tighter than + and -
+    1/2 M a²/b   from left to right: half of M a², over b; behind the stroke stands one factor, a product in brackets
+    a·3b         a product of which a later factor begins with a number
+    a⃗·b⃗, a⃗ × b⃗  of vectors: all that stands on either side, up to the next sign
+    -a b         minus the whole product; a sign stands only where a sum begins, so never behind `·` or another sign
+    sin θ        of one letter; of anything longer in brackets, `sin(2θ)`; sin² θ is its square
+    √a           of one letter or number, else √(...)
+    a⃗, I⃡        a vector under an arrow, a tensor under a double one; `I` is a scalar, `1⃡` the unit tensor; a zero is 0
+    ∫(0..a) dx   an integral over all that follows in its product; `∫ f dm` is over a body
+    [F](0..a)    F between two limits; U|(x = 0) is U at a place; dL/dt and d/dt (...) are derivatives
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+
+from derive.render.notation.layout import (
+    GREEK,
+    Applied,
+    Array,
+    Evaluated,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Limits,
+    Lowered,
+    Mark,
+    Name,
+    Number,
+    Raised,
+    RootSign,
+    Row,
+    Word,
+    begins_with_number,
+    first_of,
+    last_of,
+)
+
+MARKS = {
+    "dot": "·",
+    "inner": "·",
+    "times": "×",
+    "cross": " × ",
+    "plus": " + ",
+    "minus": " - ",
+    "equals": " = ",
+    "approx": " ≈ ",
+    "unequal": " ≠ ",
+    "less": " < ",
+    "greater": " > ",
+    "at_most": " ≤ ",
+    "at_least": " ≥ ",
+    "plus_minus": " ± ",
+    "space": " ",
+    "comma": ", ",
+    "open": "(",
+    "close": ")",
+    "start": "",
+    "on": "    ",
+}
+SIGNS = {Mark("minus"): "-", Mark("plus_minus"): "±"}  # where a sum begins
+UNITS = {"degree": "°", "deg": "°", "partial": "∂"}
+ARROWS = {"vector": "\u20d7", "tensor": "\u20e1"}
+_RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
+
+
+def columns(text: str) -> int:
+    """How wide a text is: an arrow or a dot above a letter takes no room."""
+    return sum(not unicodedata.combining(character) for character in text)
+
+
+def to_the_right(text: str, width: int) -> str:
+    return " " * (width - columns(text)) + text
+
+
+@dataclass(frozen=True)
+class Box:
+    """Lines of equal width; `middle` is the one that a line of text continues."""
+
+    lines: tuple[str, ...]
+    middle: int = 0
+
+    @property
+    def width(self) -> int:
+        return columns(self.lines[0])
+
+    def beside(self, other: Box) -> Box:
+        above = max(self.middle, other.middle)
+        below = max(len(self.lines) - self.middle, len(other.lines) - other.middle)
+        left, right = (box._padded(above, below) for box in (self, other))
+        return Box(tuple(a + b for a, b in zip(left, right, strict=True)), above)
+
+    def _padded(self, above: int, below: int) -> list[str]:
+        blank = " " * self.width
+        missing_below = below - (len(self.lines) - self.middle)
+        return [blank] * (above - self.middle) + list(self.lines) + [blank] * missing_below
+
+
+def plain(layout: Layout) -> str:
+    """A layout as text, possibly of several lines."""
+    return "\n".join(line.rstrip() for line in box(layout).lines)
+
+
+def box(layout: Layout) -> Box:
+    match layout:
+        case Array(rows):
+            return _array(rows)
+        case Row(items):
+            return _row(items)
+        case Fenced(inside, kind):
+            inner = box(inside)
+            if len(inner.lines) > 1:
+                return _tall_fence(inner, kind)
+            return Box((f"({inner.lines[0]})" if kind == "(" else f"|{inner.lines[0]}|",))
+        case Lowered(base, word):
+            return box(base).beside(Box((f"_{word}",)))
+    return Box((_line(_on_one_line(layout)),))
+
+
+def _on_one_line(layout: Any) -> Any:
+    """The layout with every matrix row by row in brackets: under a root or a stroke there is no room for lines."""
+    if isinstance(layout, Array) and len(layout.rows[0]) > 1:
+        lines = [_in_brackets(line) for line in layout.rows]
+        return _in_brackets([_on_one_line(line) for line in lines])
+    if isinstance(layout, tuple):
+        return tuple(_on_one_line(item) for item in layout)
+    if not is_dataclass(layout) or isinstance(layout, type):
+        return layout
+    return replace(layout, **{part.name: _on_one_line(getattr(layout, part.name)) for part in fields(layout)})
+
+
+def _in_brackets(entries: Sequence[Layout]) -> Layout:
+    return Fenced(Row(tuple(item for entry in entries for item in (Mark("comma"), entry))[1:]))
+
+
+def _subscript(text: str) -> str:
+    """Letters run together; a word stands behind a comma."""
+    parts = text.split("_")
+    return GREEK.get(text, ("," if any(len(part) > 2 for part in parts) else "").join(parts))
+
+
+def _line(layout: Layout) -> str:
+    match layout:
+        case Number(digits):
+            return digits
+        case Name(base, subscript, dots, style):
+            unprimed = base.rstrip("'")
+            letter = GREEK.get(unprimed, unprimed) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
+            mark = ARROWS.get(style, "") if base != "0" else ""
+            return letter + mark + base[len(unprimed) :] + (f"_{_subscript(subscript)}" if subscript else "")
+        case Word(text):
+            return UNITS.get(text, text)
+        case Mark(kind):
+            return MARKS[kind]
+        case Fraction(above, below):
+            return f"{_tight(above, is_above=True)}/{_tight(below)}"
+        case Raised(base, power):
+            exponent = _line(power).replace(" ", "")
+            small = exponent.translate(_RAISED)
+            letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
+            return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+        case RootSign(inside):
+            inner = plain(inside)
+            return f"√{inner}" if isinstance(inside, Number | Name) else f"√({inner})"
+        case Limits(inside, lower, upper):
+            return f"[{plain(inside)}]({plain(lower)}..{plain(upper)})"
+        case Evaluated(inside, where):
+            return f"{plain(inside)}|({plain(where)})"
+        case IntegralSign(lower, upper):
+            return "∫ " if lower is None or upper is None else f"∫({plain(lower)}..{plain(upper)}) "
+        case Applied(name, argument, power):
+            raised = _line(power).translate(_RAISED) if power else ""
+            inner = plain(argument)
+            return f"{name}{raised}{inner if isinstance(argument, Fenced) else ' ' + inner}"
+    return plain(layout)
+
+
+def _tight(layout: Layout, *, is_above: bool = False) -> str:
+    """An operand of `/`: bracketed if it would be misread; a product may stand before the stroke as it is."""
+    text = plain(layout)
+    last = last_of(layout)
+    if isinstance(last, Applied) and not isinstance(last.argument, Fenced):
+        return f"({text})"  # sin x/2 could be the sine of x/2
+    simple = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied) or _is_differential(layout)
+    product = is_above and isinstance(layout, Row) and not any(isinstance(item, Mark) for item in layout.items)
+    return text if simple or product else f"({text})"
+
+
+def _row(items: tuple[Layout, ...]) -> Box:
+    result: Box | None = None
+    before: Layout | None = None
+    for i, item in enumerate(items):
+        leads = i == 0 or (isinstance(before, Mark) and before.kind not in ("plus", "minus", "space", "close"))
+        piece = Box((SIGNS[item],)) if leads and isinstance(item, Mark) and item in SIGNS else box(item)
+        if item == Mark("space") and 0 < i < len(items) - 1:
+            piece = Box((_gap(items[:i], items[i + 1]),))
+        elif result is not None and before is not None and _needs_space(before, item):
+            result = result.beside(Box((_gap(items[:i], item),)))
+        result = piece if result is None else result.beside(piece)
+        before = item
+    return result or Box(("",))
+
+
+def _gap(before: tuple[Layout, ...], item: Layout) -> str:
+    """Between two factors: a dot if the second begins with a figure, but not behind a differential."""
+    shown = box(item).lines
+    begins = len(shown) == 1 and shown[0][:1].isdigit() and not isinstance(first_of(item), Name)
+    behind_differential = len(before) > 1 and _is_sign_of_change(before[-2])
+    return "·" if begins and not behind_differential else " "
+
+
+def _needs_space(before: Layout, item: Layout) -> bool:
+    """`13/12 M a²`, but `2a` and `3(x + y)`."""
+    if isinstance(before, Mark | IntegralSign) or isinstance(item, Mark):
+        return False
+    if item in (Word("degree"), Word("deg")):
+        return False
+    if _is_sign_of_change(before):
+        return False
+    if isinstance(before, Number):
+        return isinstance(item, Word | Array) or begins_with_number(item)
+    return True
+
+
+def _is_sign_of_change(layout: Layout) -> bool:
+    """d, d^2 or a curly d."""
+    sign = layout.base if isinstance(layout, Raised) else layout
+    return sign in (Word("d"), Word("partial"))
+
+
+def _is_differential(layout: Layout) -> bool:
+    """d or dx, which need no brackets above or below a stroke."""
+    first = layout.items[0] if isinstance(layout, Row) else layout
+    return _is_sign_of_change(first)
+
+
+def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:
+    cells = [[plain(entry) for entry in line] for line in rows]
+    widths = [max(columns(line[j]) for line in cells) for j in range(len(cells[0]))]
+    lines = ["  ".join(to_the_right(text, width) for text, width in zip(line, widths, strict=True)) for line in cells]
+    if len(lines) == 1:
+        return Box((f"({lines[0]})",))
+    if len(rows[0]) == 1:  # a column: one line, as vectors are written in running text
+        return Box(("(" + ", ".join(line[0] for line in cells) + ")",))
+    left = ["⎡"] + ["⎢"] * (len(lines) - 2) + ["⎣"]
+    right = ["⎤"] + ["⎥"] * (len(lines) - 2) + ["⎦"]
+    return Box(tuple(a + line + b for a, line, b in zip(left, lines, right, strict=True)), len(lines) // 2)
+
+
+def _tall_fence(inner: Box, kind: str) -> Box:
+    n = len(inner.lines)
+    if kind != "(":
+        return Box(tuple(f"|{line}|" for line in inner.lines), inner.middle)
+    left = ["⎛"] + ["⎜"] * (n - 2) + ["⎝"]
+    right = ["⎞"] + ["⎟"] * (n - 2) + ["⎠"]
+    return Box(tuple(a + line + b for a, line, b in zip(left, inner.lines, right, strict=True)), inner.middle)

@@ -1,0 +1,88 @@
+"""A problem solved and printed in every format: what a worker hands to its parent, and what is kept between builds.
+
+It is plain text and numbers, and goes to JSON and back.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from typing import Any
+
+from derive.errors import Complaint, Place
+
+Files = tuple[tuple[str, bytes], ...]
+
+
+class Tex(str):
+    """TeX that may stand on a page as it is. Whatever else a template prints is text, and is escaped."""
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """One problem, solved and printed.
+
+    latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked
+    counts                  the numbers of how it was checked, see `Checks.counts`
+    """
+
+    id: str
+    title: str
+    points: str
+    latex: Tex
+    title_latex: Tex
+    sheet: Tex
+    checked: Tex
+    text: str
+    json: str
+    warnings: tuple[Complaint, ...]
+    inputs: tuple[str, ...]
+    grades: dict[str, int]
+    counts: dict[str, int]
+    agreed: bool
+    files: Files = ()
+
+    def to_data(self) -> dict[str, Any]:
+        files = [[name, base64.b64encode(content).decode()] for name, content in self.files]
+        return {**asdict(self), "files": files}
+
+    @classmethod
+    def from_data(cls, data: Any) -> Rendered | None:
+        """What `to_data` gave; nothing if the data are of any other shape."""
+        try:
+            return cls(
+                id=_text(data["id"]),
+                title=_text(data["title"]),
+                points=_text(data["points"]),
+                latex=Tex(_text(data["latex"])),
+                title_latex=Tex(_text(data["title_latex"])),
+                sheet=Tex(_text(data["sheet"])),
+                checked=Tex(_text(data["checked"])),
+                text=_text(data["text"]),
+                json=_text(data["json"]),
+                warnings=tuple(_complaint(warning) for warning in data["warnings"]),
+                inputs=tuple(_text(path) for path in data["inputs"]),
+                grades=_counts(data["grades"]),
+                counts=_counts(data["counts"]),
+                agreed=data["agreed"] is True,
+                files=tuple((_text(name), base64.b64decode(content)) for name, content in data["files"]),
+            )
+        except (KeyError, TypeError, ValueError):
+            return None
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(value)
+    return value
+
+
+def _counts(value: Any) -> dict[str, int]:
+    return {_text(name): int(count) for name, count in dict(value).items()}
+
+
+def _complaint(data: Mapping[str, Any]) -> Complaint:
+    known = {field.name for field in fields(Complaint)}
+    place = data["place"] and Place(**data["place"])
+    return Complaint(**{**{name: data[name] for name in known}, "place": place, "notes": tuple(data["notes"])})

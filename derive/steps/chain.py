@@ -1,0 +1,157 @@
+"""The lines of a step: what their names stand for, and the evidence that each follows from the one before.
+
+Here too a second route is compared with the result, by the same decision of what is equal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, diff, preorder_traversal
+
+from derive.algebra.equality import Evidence, Grade, Verdict, equal
+from derive.algebra.expressions import Relation, Truncated, bound, component_names, explicit
+from derive.algebra.normal_form import vanishes
+from derive.errors import Complaint, Unverified
+from derive.steps.step import NUMBERS, Form, Level, Quantity, Route
+
+BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
+
+
+def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
+    """A form that looks just like the one before it says nothing; the lower level of the two is kept.
+
+    Nor does one that is only the symbol of the step, unless there is no other.
+    """
+    kept: list[Form] = []
+    for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
+        if kept and kept[-1].expr == form.expr and form.because != "rounded":
+            level = min(kept[-1].level, form.level, key=list(Level).index)
+            kept[-1] = replace(kept[-1], level=level)
+        else:
+            kept.append(form)
+    return kept
+
+
+def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
+    """What the names in a formula stand for: a vector's name brings its components' names along."""
+    values: dict[Any, Any] = {}
+    for quantity in quantities:
+        if quantity.symbol is None:
+            continue
+        values[quantity.symbol] = quantity.value
+        if isinstance(quantity.symbol, MatrixSymbol) and quantity.symbol.shape == (3, 1):
+            names = component_names(quantity.symbol.name)
+            values.update(zip(names, list(quantity.value), strict=True))
+        elif isinstance(quantity.symbol, MatrixBase):  # several things established together, such as I_1, I_2, I_3
+            values.update(zip(quantity.symbol, quantity.value, strict=True))
+    # A name may not stand for something that holds that very name (a general omega has components omega_x, ...).
+    return {name: value for name, value in values.items() if name != value}
+
+
+def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
+    """The left side, where it is an expression and no mere name, equals the first line."""
+    is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
+    if is_name or isinstance(first.expr, Relation):
+        return []
+    left, right = (bound(explicit(bound(each, bindings)), bindings) for each in (symbol, first.expr))
+    verdict = equal(left, right)
+    if not verdict:
+        raise refused(key, f"its left side {symbol} is not its first line", left, right, verdict)
+    return [Evidence("line 1 equals the left side", verdict.grade, verdict.detail)]
+
+
+def check_last_line(
+    key: str, chain: Sequence[Form], result: Any, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
+) -> None:
+    """What is handed on is what the last line says, whether or not it is written out once more."""
+    last = next(
+        form for form in reversed(chain) if form.because not in NUMBERS and not isinstance(form.expr, Truncated)
+    )
+    shown = explicit(bound(last.expr, bindings))
+    if last.expr == result or bound(shown, motion) == bound(explicit(result), motion):
+        return
+    verdict = equal(bound(shown, motion), bound(result, motion), [explicit(bound(f, bindings)) for f in last.nonzero])
+    if not verdict:
+        raise refused(key, "what it hands on is not its last line", shown, result, verdict)
+
+
+def evidence_of_routes(key: str, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
+    return [route_evidence(key, claim, route(result)) for claim, route in routes.items()]
+
+
+def names_in(exprs: Sequence[Any], bindings: Mapping[Any, Any]) -> tuple[tuple[Any, Any], ...]:
+    """Those names, with their values, that occur in any of the expressions."""
+    parts = {part for expr in exprs if expr is not None for part in preorder_traversal(expr)}
+    return tuple((name, value) for name, value in bindings.items() if name in parts)
+
+
+def line_evidence(
+    key: str, chain: Sequence[Form], i: int, bindings: Mapping[Any, Any], motion: Mapping[Symbol, Expr]
+) -> Evidence:
+    form, before = chain[i], chain[i - 1]
+    if form.because in NUMBERS:  # each number of a result is compared with the result, not with the number before it
+        before = next(other for other in reversed(chain[:i]) if other.because not in NUMBERS)
+    left, right = (explicit(bound(each.expr, bindings)) for each in (before, form))
+    claim = f"line {i + 1} equals line {i}"
+    if form.because == "rounded":
+        return _rounding_evidence(key, claim, left, form.expr)
+    if isinstance(form.expr, Truncated):
+        return _series_evidence(key, claim, left, form.expr)
+    if form.because == "motion":
+        claim = f"{claim} {BY_MOTION}"
+        left, right = bound(left, motion), bound(right, motion)
+    verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
+    if not verdict:
+        raise refused(key, f"line {i + 1} ({form.because}) does not follow from line {i}", left, right, verdict)
+    return Evidence(claim, verdict.grade, verdict.detail)
+
+
+def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
+    """A series that breaks off has, at its place, the value and the derivatives of the whole up to its order, and no
+    term beyond it."""
+    polynomial, x, place, order = series.args
+    if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
+        raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
+    rest = whole - explicit(polynomial)
+    for n in range(int(order) + 1):
+        if not vanishes(diff(rest, x, n).subs(x, place)):
+            raise Unverified(Complaint("unverified", f"`{key}`: the series is wrong at order {n} in {x}"))
+    return Evidence(claim, Grade.APPROXIMATION, f"to order {order} in {x}")
+
+
+def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:
+    """A rounded value may differ by half a unit of its last place, and by no more."""
+    from derive.algebra.rounding import off_by_more_than_half_a_unit
+
+    offender = off_by_more_than_half_a_unit(exact, rounded)
+    if offender:
+        raise Unverified(Complaint("unverified", f"`{key}`: {offender[0]} is not {offender[1]} rounded"))
+    return Evidence(claim, Grade.APPROXIMATION, "within half a unit of the last place")
+
+
+def route_evidence(key: str, claim: str, found: tuple[Any, Any] | Verdict) -> Evidence:
+    """A route gives two values to compare, or has compared them itself, as one in numbers does."""
+    if isinstance(found, Verdict):
+        left = right = None
+        verdict = found
+    else:
+        left, right = (explicit(value) for value in found)
+        verdict = equal(left, right)
+    if not verdict:
+        raise refused(key, f"its second route `{claim}` disagrees", left, right, verdict)
+    return Evidence(claim, verdict.grade, verdict.detail)
+
+
+def refused(key: str, what: str, left: Any, right: Any, verdict: Verdict) -> Unverified:
+    notes = [f"by the law     {short(left)}", f"otherwise      {short(right)}"]
+    at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
+    notes.append(f"they differ: {verdict.detail}" + (f" at {at}" if at else ""))
+    return Unverified(Complaint("unverified", f"`{key}`: {what}", notes=tuple(notes)))
+
+
+def short(value: Any) -> str:
+    text = str(value)
+    return text if len(text) <= 300 else text[:300] + " ..."

@@ -1,0 +1,228 @@
+"""The one door through which steps are made.
+
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and it refuses unless
+
+    (a) each line of the chain equals the line before it, the first the left side where that is an expression, and the
+        last is the value that is handed on;
+    (b) every second, physical route to the result agrees with it;
+    (c) what the inputs are about fits together, and the word that chooses the sentence is true of the result.
+
+A verb states its law once, as a function. `establish` calls it with the *names* of its inputs, which gives the
+formula, and with their *values*, which gives the substitution; the tidy value of that is the result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any
+
+from sympy import Expr, MatrixBase, Symbol
+from sympy.core.symbol import Str
+
+from derive.algebra.equality import Evidence, Grade, equal
+from derive.algebra.expressions import Relation, bound, explicit
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected, Unverified
+from derive.steps import record
+from derive.steps.chain import (
+    bindings_of,
+    check_last_line,
+    evidence_of_routes,
+    left_side_evidence,
+    line_evidence,
+    names_in,
+    refused,
+    short,
+    without_repeats,
+)
+from derive.steps.outcomes import GENERIC, Facts, holds, told_rightly
+from derive.steps.record import coordinates_in
+from derive.steps.step import Form, Law, Level, Quantity, Route, Step, is_zero, same_value, value_behind
+from derive.steps.subject import NOTHING, Subject, united, with_name
+
+
+def establish(
+    rule: str,
+    symbol: Any,
+    law: Law,
+    inputs: Mapping[str, Any],
+    *,
+    key: str | None = None,
+    before: Sequence[Form] = (),
+    between: Sequence[Form] = (),
+    after: Sequence[Form] = (),
+    routes: Mapping[str, Route] | None = None,
+    outcome: Callable[[Any], str] | str = "generic",
+    kind: str | None = None,
+    definition: bool = False,
+    put_in: Level | None = Level.STANDARD,
+    show_result: bool = True,
+    law_shown: Level = Level.BRIEF,
+    parents: Sequence[Quantity] = (),
+    context: Mapping[str, Any] | None = None,
+    words: Mapping[str, str] | None = None,
+    coordinates: Mapping[Symbol, str] | None = None,
+    stands_for: Sequence[str] = (),
+    arranged: Callable[[Any], Any] = tidied,
+    motion: Mapping[Symbol, Expr] | None = None,
+    about: Subject | Callable[[Any], Subject] = NOTHING,
+    differ: Collection[str] = (),
+    means: Mapping[Any, Any] | None = None,
+    case_of: Quantity | None = None,
+    judged_by: Mapping[str, Any] | None = None,
+    told: Mapping[str, tuple[Any, Any]] | None = None,
+    points_to: Mapping[str, Quantity] | None = None,
+) -> Quantity:
+    """Make a step, or refuse.
+
+    rule      which phrase and which source, `topic.verb`
+    symbol    what the page calls the result
+    law       a function of the inputs, in their order; it is called with names and with values
+    inputs    role -> Quantity, or plain SymPy value
+    before    forms that come ahead of the law, `between` the law and the result, `after` the result
+    routes    claim -> function of the result, giving two values that must be equal
+    outcome   a word, or a function of the result that gives one; it selects the phrase
+    words     name -> key of a term that phrases put into words ("about": "corner")
+    stands_for   keys that answers may ask for although in this case there is only this step
+    arranged  how the result is written; it changes no value
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
+    about     what the result is about, beyond what the inputs are about; or a function of the result that says it
+    differ    in what the inputs may be about different things
+    means     what names on the left side stand for, where that is an expression with names that the law does not have
+    case_of   the general quantity of the same symbol that this is a particular case of
+    told      role -> a formula that only the sentence has, with the same by another way
+    points_to role -> a parent that the sentence names, by its letter or its number
+    judged_by what else the outcome is judged by, besides the result and the inputs
+    put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
+    Raises `Unverified`, naming the step, when a line or a route disagrees.
+    """
+    key = key or rule.rpartition(".")[2]
+    quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
+    _check_names(key, list(quantities.values()))
+    together = united(key, [(q.key, q.subject) for q in quantities.values()], differ, same_value)
+    body = together.body or (about.body if isinstance(about, Subject) else None)
+    plain_symbol, called = symbol, getattr(body, "called", "")
+    if called:
+        key, symbol = with_name(called, key, symbol)
+        words = {"part": called, **(words or {})}
+    given = [value_behind(q) for q in inputs.values()]
+    names = [q.symbol if isinstance(q, Quantity) else q for q in inputs.values()]
+
+    formula, substituted = law(*names), law(*given)
+    bindings = bindings_of([*quantities.values(), *parents])
+    result = arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **(motion or {})}))
+    _check_letter(key, symbol, result, means or {})
+    check_can_hold(key, result)
+    chain = without_repeats(
+        [
+            *before,
+            Form(formula, "law", law_shown),
+            *([Form(substituted, "put_in", put_in)] if put_in else []),
+            *between,
+            *([Form(result, "motion" if motion else "result")] if show_result else []),
+            *after,
+        ],
+        symbol,
+    )
+    evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **(means or {})})
+    evidence += [line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
+    check_last_line(key, chain, result, bindings, motion or {})
+    evidence += evidence_of_routes(key, result, routes or {})
+    _check_told(key, told or {})
+    if not routes:
+        evidence.append(_unsupported(key, rule, definition))
+    subject = together.with_more(about(result) if callable(about) else about)
+    chosen = outcome(result) if callable(outcome) else outcome
+    values = {**dict(zip(inputs, given, strict=True)), **_as_told(told or {}), **(judged_by or {})}
+    facts = Facts(result, values, quantities, plain_symbol, subject, words or {})
+    _check_outcome(key, rule, chosen, facts, may_be_zero=callable(outcome))
+    step = Step(
+        key=key,
+        rule=rule,
+        symbol=symbol,
+        chain=tuple(chain),
+        inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
+        roles=tuple((role, _called(q)) for role, q in {**inputs, **_as_told(told or {}), **(points_to or {})}.items()),
+        outcome=chosen,
+        evidence=tuple(evidence),
+        kind=kind,
+        words=tuple((words or {}).items()),
+        coordinates=tuple({**coordinates_in(result), **(coordinates or {})}.items()),
+        stands_for=tuple(stands_for),
+        names=names_in([symbol, *(form.expr for form in chain)], bindings),
+        motion=tuple((motion or {}).items()),
+    )
+    quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {}, subject)
+    record.add(quantity, case_of)
+    return quantity
+
+
+def _as_told(told: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
+    return {role: formula for role, (formula, _) in told.items()}
+
+
+def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
+    """A formula that stands in a sentence is compared as a line is."""
+    for role, (formula, otherwise) in told.items():
+        verdict = equal(formula, otherwise)
+        if not verdict:
+            raise refused(key, f"what its sentence says of `{role}` is not so", formula, otherwise, verdict)
+
+
+def _called(value: Any) -> Any:
+    """What a phrase calls an input: its symbol, or the key of a relation, which has none."""
+    if isinstance(value, Quantity):
+        return Str(value.key) if value.symbol is None else value.symbol
+    return value
+
+
+def _check_outcome(key: str, rule: str, outcome: str, facts: Facts, may_be_zero: bool) -> None:
+    """The word that chooses the sentence must be true of the result.
+
+    Whatever the rule: "zero" needs a result that vanishes, and one that vanishes is not `generic` where that was asked.
+    """
+    vanishing = is_zero(facts.result)
+    fits = vanishing if outcome == "zero" else not (outcome == GENERIC and may_be_zero and vanishing)
+    if not fits or not holds(rule, outcome, facts):
+        message = f"`{key}`: the outcome `{outcome}` does not fit the result {short(facts.result)}"
+        raise Unverified(Complaint("unverified", message))
+    if not told_rightly(rule, outcome, facts):
+        message = f"`{key}`: what its sentence tells of {', '.join(facts.inputs)} does not fit the result"
+        raise Unverified(Complaint("unverified", message))
+
+
+def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
+    """Two different things of one name cannot stand in one formula."""
+    named: dict[Any, Quantity] = {}
+    for quantity in quantities:
+        if quantity.symbol is None:
+            continue
+        other = named.setdefault(quantity.symbol, quantity)
+        if other.step != quantity.step:
+            message = f"`{key}` needs `{other.key}` and `{quantity.key}`, but both are called {quantity.symbol}"
+            raise Rejected(Complaint("letter-clash", message, help='give one of their verbs `symbol="..."`'))
+
+
+def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) -> None:
+    """A letter that already means something in the result cannot also be its name."""
+    letters = {symbol} if isinstance(symbol, Symbol) else set(means)
+    if isinstance(symbol, MatrixBase) and len(set(symbol)) < len(symbol):
+        raise Unverified(Complaint("unverified", f"`{key}`: two of {', '.join(map(str, symbol))} have one name"))
+    taken = {str(letter) for letter in letters} & {str(other) for other in result.free_symbols}
+    if taken:
+        name = min(taken)
+        message = f"`{key}` is called {name}, but {name} already stands for something that is given"
+        raise Rejected(Complaint("letter-clash", message, help='use another letter, or give the verb `symbol="..."`'))
+
+
+def check_can_hold(key: str, result: Any) -> None:
+    """Nothing is less than itself, more, or different."""
+    if isinstance(result, Relation) and result.mark in {"<", ">", "!="} and result.left == result.right:
+        raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
+
+
+def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
+    """A verb has a second route or says that it only gives something a name."""
+    if not definition:
+        raise Unverified(Complaint("no-second-route", f"`{key}` has no second route and is not a definition"))
+    return Evidence("definition", Grade.DEFINITION, rule)

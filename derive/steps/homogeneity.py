@@ -1,0 +1,159 @@
+"""The dimension of an expression, and the check that every line of a derivation is homogeneous.
+
+Only the declared symbols need a dimension: a step gives its own symbol the dimension of its result, and a variable
+of integration has that of its limits. `None` stands for what fits anything: zero, and numbers with units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from sympy import (
+    Abs,
+    Add,
+    Basic,
+    Function,
+    Identity,
+    Integral,
+    MatAdd,
+    MatMul,
+    MatrixBase,
+    MatrixSymbol,
+    Mul,
+    Pow,
+    Symbol,
+)
+
+from derive.algebra import expressions as ex
+from derive.algebra.dimensions import (
+    NUMBER,
+    Dimension,
+    Inhomogeneous,
+    common,
+    dimension_of_kind,
+    exponents,
+    kind_with_article,
+    power,
+    product,
+)
+from derive.algebra.equality import Grade
+from derive.algebra.mass_integral import dimensions_of_variables
+from derive.algebra.node import DimensionOf, Node
+from derive.errors import Complaint
+from derive.steps.step import Step
+
+Table = dict[Any, Dimension | None]
+
+
+def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
+    """The dimension of an expression; raises `Inhomogeneous` with the offending term, KeyError for an unknown name."""
+
+    def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
+        return dimension_of(part, {**table, **variables} if variables else table)
+
+    if isinstance(expr, MatrixBase):
+        return common(list(expr), of)
+    if isinstance(expr, Symbol | MatrixSymbol):
+        return table[expr]
+    if expr in table:  # such names as cos(theta) and |tau|
+        return table[expr]
+    if isinstance(expr, Identity):
+        return NUMBER
+    if getattr(expr, "is_number", False):
+        return None if ex.explicit(expr) == 0 else NUMBER
+    if isinstance(expr, Node):
+        return expr.dimension(of)
+    if isinstance(expr, Add | MatAdd):
+        return common(expr.args, of)
+    if isinstance(expr, Mul | MatMul):
+        return product(of(arg) for arg in expr.args)
+    if isinstance(expr, Pow):
+        return power(of(expr.base), Fraction(expr.exp.p, expr.exp.q))
+    if isinstance(expr, Abs):
+        return of(expr.args[0])
+    if isinstance(expr, Integral):
+        inner = dimensions_of_variables(expr.limits, of)
+        return product([of(expr.function, inner), *(inner[x] for x, *_ in expr.limits)])
+    if isinstance(expr, Function):
+        return _of_numbers(expr, of)
+    raise TypeError(f"no rule for the dimension of {type(expr).__name__}")
+
+
+def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
+    for arg in expr.args:
+        dimension = of(arg)
+        if dimension not in (None, NUMBER):
+            raise Inhomogeneous(arg, dimension, expr.func.__name__ + "(...)", NUMBER)
+    return NUMBER
+
+
+def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[Step]) -> tuple[Table, list[Complaint]]:
+    """Every name's dimension, step by step, and a complaint for each line that is not homogeneous."""
+    table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
+    complaints: list[Complaint] = []
+    for step in steps:
+        table.update(_moving_names(step))
+        local = {**table, **_opened_names(step, table)}
+        try:
+            dimension = _of_chain(step, local)
+        except Inhomogeneous as fault:
+            complaints.append(_complaint(step, str(fault)))
+            dimension = dimension_of_kind(step.kind) if step.kind else None
+        if step.kind and dimension is not None and dimension != dimension_of_kind(step.kind):
+            wanted = f"{kind_with_article(step.kind)} must have {exponents(dimension_of_kind(step.kind))}"
+            complaints.append(_complaint(step, f"its dimension is {exponents(dimension)}, but {wanted}"))
+        table.update(local)
+        table.update(_names_of(step, dimension))
+    return table, complaints
+
+
+def _moving_names(step: Step) -> Table:
+    """The coordinates that a step brings in, and their rates."""
+    time = dimension_of_kind("time")
+    return {
+        (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n for q, kind in step.coordinates for n in range(4)
+    }
+
+
+def _opened_names(step: Step, table: Table) -> Table:
+    """Names that a definition brings in, such as the components of any angular velocity, have its kind's dimension."""
+    if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
+        return {}
+    free: set[Basic] = set().union(*(form.expr.free_symbols - _integrated(form.expr) for form in step.chain))
+    return {name: dimension_of_kind(step.kind) for name in free if name not in table}
+
+
+def _integrated(expr: Any) -> set[Basic]:
+    """The variables of integration of an integral over the mass, which are no names of its own."""
+    return {x for whole in expr.atoms(ex.MassIntegral) for x, *_ in whole.args[5:]}
+
+
+def _of_chain(step: Step, table: Table) -> Dimension | None:
+    """The common dimension of all lines of a step."""
+    first: tuple[Any, Dimension] | None = None
+    for form in step.chain:
+        dimension = dimension_of(form.expr, table)
+        if dimension is None or isinstance(form.expr, ex.Relation):  # a relation may be divided by what it pleases
+            continue
+        if first is None:
+            first = (form.expr, dimension)
+        elif dimension != first[1]:
+            raise Inhomogeneous(form.expr, dimension, *first)
+    return first[1] if first else None
+
+
+def _names_of(step: Step, dimension: Dimension | None) -> Table:
+    if dimension is None and step.kind:
+        dimension = dimension_of_kind(step.kind)
+    names: Table = {} if step.symbol is None else {step.symbol: dimension}
+    if isinstance(step.symbol, MatrixSymbol) and step.symbol.shape == (3, 1):
+        names.update(dict.fromkeys(ex.component_names(step.symbol.name), dimension))
+    if isinstance(step.symbol, MatrixBase):
+        names.update(dict.fromkeys(step.symbol, dimension))
+    return names
+
+
+def _complaint(step: Step, message: str) -> Complaint:
+    return Complaint("dimension", f"`{step.key}`: {message}")

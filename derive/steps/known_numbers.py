@@ -1,0 +1,48 @@
+"""The numbers behind the letters of a problem, for the few verbs that must know what the case is.
+
+A derivation stays symbolic; but whether a top spins fast enough is a question about numbers. While a script runs, the
+numbers that its problem gives are known here, and `sign_known` takes them where the letters alone do not decide.
+"""
+
+from __future__ import annotations
+
+from math import prod
+
+from sympy import Expr, Mul
+
+from derive.algebra.expressions import bound, explicit
+from derive.algebra.normal_form import vanishes
+from derive.algebra.tidy import tidied
+from derive.steps.record import current_run
+
+DIGITS = 30
+
+
+def with_numbers(expr: Expr) -> Expr:
+    """The expression with the numbers behind its letters, as far as there are any."""
+    run = current_run.get()
+    return explicit(bound(explicit(expr), run.numbers if run else {}))
+
+
+def sign_known(expr: Expr) -> int | None:
+    """The sign of an expression, by its letters or else by their numbers: 1, -1, 0; None where neither decides it."""
+    factors = [_sign_of_factor(factor) for factor in Mul.make_args(tidied(expr))]
+    if 0 in factors:
+        return 0
+    return None if None in factors else prod(sign for sign in factors if sign)
+
+
+def _sign_of_factor(factor: Expr) -> int | None:
+    if vanishes(factor):
+        return 0
+    if factor.is_positive:
+        return 1
+    if factor.is_negative:
+        return -1
+    value = with_numbers(factor)
+    if value.free_symbols or not value.is_real:
+        return None
+    if vanishes(value):
+        return 0
+    approximate = value.evalf(DIGITS)
+    return 1 if approximate > 0 else -1

@@ -1,0 +1,222 @@
+"""The last step of an answer: numbers put in, and the value rounded once, with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Rational, Symbol, preorder_traversal, sign
+
+from derive.algebra.expressions import Amount, Factors, MatrixAmount, Ratio, Relation, Root, bound, explicit, scaled
+from derive.algebra.normal_form import vanishes
+from derive.algebra.rounding import rounded_form
+from derive.algebra.samples import value_at
+from derive.algebra.tidy import factored_matrix, tidied
+from derive.steps.establish import establish
+from derive.steps.step import Form, Level, Quantity
+
+DIGITS = 20  # in which an exact value and the one taken anew agree
+HALF = Rational(1, 2)
+FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # the marks under which a condition is so
+SHORT = 9  # numbers; a formula with more of them is not written out again
+
+
+def value_of(
+    answer: Quantity,
+    amounts: Mapping[Symbol, Amount],
+    unit: str,
+    factor: Expr,
+    figures: int,
+    key: str | None = None,
+    more: Sequence[tuple[str, Expr]] = (),
+) -> Quantity | None:
+    """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left, or if the
+    numbers make it imaginary, as the frequency of what does not oscillate.
+
+    answer    any quantity; of a relation that has one letter on its left side, the right side
+    amounts   symbol -> its number with a unit
+    unit      as text, and `factor`, what one of it is in the SI
+    more      other units in which it is given too, each with its factor
+    Second route: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
+    Outcomes: measured (numbers were put in), exact.
+    Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
+    """
+    value, within = _valued(answer.value)
+    letters = _free(value)
+    if not letters <= set(amounts) or value == 0:
+        return None
+    if not letters and all(entry.is_Integer for entry in _entries(value)):
+        return None
+    numbers = {letter: amounts[letter] for letter in letters}
+    if isinstance(value, MatrixBase):
+        common, rest = factored_matrix(value)
+        substituted = bound(rest, numbers) if common == 1 else scaled(bound(common, numbers), bound(rest, numbers))
+    else:
+        substituted = bound(_under_one_root(value), numbers)
+    exact = explicit(substituted)
+    if any(entry.is_real is False for entry in _entries(exact)):
+        return None
+
+    def floats(result: Any) -> tuple[Any, Any]:
+        if isinstance(answer.value, Relation):  # a number changes neither the letter nor the mark
+            asked, found = (getattr(each, "args", ())[:2] for each in (answer.value, result))
+            if asked != found:
+                return Integer(1), Integer(0)
+        return _by_floats(value, letters, amounts, _valued(explicit(result))[0])
+
+    shown = [_with_unit(exact, *each, figures) for each in ((unit, factor), *more)]
+    return establish(
+        "numbers.value",
+        answer.symbol,
+        lambda: within(substituted),
+        {},
+        routes={"floats": floats},
+        outcome="measured" if letters else "exact",
+        judged_by={"letters": letters},
+        about=answer.subject,
+        case_of=answer,
+        key=key or f"{answer.key}_value",
+        kind=answer.step.kind,
+        put_in=None,
+        show_result=False,
+        law_shown=Level.BRIEF if _amounts_in(substituted) <= SHORT else Level.FULL,
+        after=[Form(within(each), "value" if explicit(each) == exact else "rounded") for each in shown],
+        parents=[answer],
+        arranged=tidied if within is _as_it_is else explicit,
+        means={letter: explicit(amount) for letter, amount in numbers.items()},
+    )
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
+    """What of a result takes a number, and how the number stands in the result: R > a/2 has one on its right."""
+    if not isinstance(value, Relation):
+        return value, _as_it_is
+    if isinstance(value.left, Symbol) and not value.right.has(value.left):
+        return value.right, lambda number: Relation(value.left, value.mark, number)
+    return Integer(0), _as_it_is
+
+
+def _under_one_root(value: Expr) -> Expr:
+    """sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), into which numbers go once."""
+    roots = [f.as_base_exp() for f in Mul.make_args(value)]
+    above = [base for base, power in roots if power == HALF]
+    below = [base for base, power in roots if power == -HALF]
+    if len(above) + len(below) < 2:
+        return value
+    others = [base**power for base, power in roots if abs(power) != HALF]
+    over = Factors(*above) if above else Integer(1)
+    inside = Ratio(over, Factors(*below)) if below else over
+    return Factors(*others, Root(inside)) if others else Root(inside)
+
+
+def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
+    """Whether a condition is so for the numbers, 20 cm > 2.5 cm; nothing if letters are left.
+
+    condition   an inequality or an equation between what is given, as `positive_where` and `isotropic_where` yield
+    amounts     symbol -> its number with a unit
+    Second route: both sides, and the sign of their difference, as for `value_of`.
+    Outcomes: fulfilled, not_fulfilled.
+    Source: as `value_of`.
+    """
+    relation = condition.value
+    if not isinstance(relation, Relation) or relation.mark not in FULFILLED:
+        return None
+    letters = _free(relation)
+    if not letters or not letters <= set(amounts):
+        return None
+    numbers = {letter: amounts[letter] for letter in letters}
+    left, right = (bound(side, numbers) for side in relation.sides)
+    difference = explicit(left) - explicit(right)
+    mark = "=" if vanishes(difference) else ">" if difference.is_positive else "<"
+
+    def anew(found: Relation) -> tuple[Any, Any]:
+        at = {letter: explicit(number) for letter, number in numbers.items()}
+        marked = {">": 1, "=": 0, "<": -1}.get(found.mark, 2)
+        shown = [rounded_form(value_at(explicit(side), {}), DIGITS) for side in found.sides]
+        taken = [rounded_form(value_at(side, at), DIGITS) for side in relation.sides]
+        apart = sign(value_at(relation.residual, at))
+        return ImmutableDenseMatrix([marked, *shown]), ImmutableDenseMatrix([apart, *taken])
+
+    return establish(
+        "numbers.comparison",
+        None,
+        lambda _: Relation(left, mark, right),
+        {"condition": relation},
+        routes={"floats": anew},
+        outcome="fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled",
+        key=key or f"{condition.key}_value",
+        put_in=None,
+        show_result=False,
+        parents=[condition],
+        arranged=explicit,
+    )
+
+
+def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
+    """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded.
+
+    answer    a scalar with letters; nothing is yielded where it holds a sum, beside which no number stands apart, nor
+              where the number is rational
+    figures   significant figures
+    Second route: what is left of the result without its letters, as for `value_of`.
+    Outcomes: exact.
+    Source: as `value_of`.
+    """
+    if isinstance(answer.value, MatrixBase | Relation) or not answer.value.free_symbols or answer.value.has(Add):
+        return None
+    number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
+    if number.is_Rational:
+        return None
+    return establish(
+        "numbers.value",
+        answer.symbol,
+        lambda: answer.value,
+        {},
+        routes={"floats": lambda result: _by_floats(number, set(), {}, result / letters)},
+        outcome="exact",
+        judged_by={"letters": ()},
+        about=answer.subject,
+        case_of=answer,
+        key=f"{answer.key}_value",
+        kind=answer.step.kind,
+        after=[Form(Factors(rounded_form(number, figures), letters), "rounded")],
+        parents=[answer],
+    )
+
+
+def _amounts_in(expr: Any) -> int:
+    return sum(isinstance(node, Amount) for node in preorder_traversal(expr))
+
+
+def _entries(value: Any) -> list[Expr]:
+    return list(value) if isinstance(value, MatrixBase) else [value]
+
+
+def _free(value: Any) -> set[Symbol]:
+    return {symbol for symbol in value.free_symbols if isinstance(symbol, Symbol)}
+
+
+def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
+    rounded = rounded_form(exact / factor, figures)
+    if isinstance(exact, MatrixBase):
+        return MatrixAmount(rounded, unit, factor) if unit else rounded
+    return Amount(rounded, unit, factor) if unit and rounded != 0 else rounded
+
+
+def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
+    """The largest relative error of the exact entries, their values being taken from the letters' numbers anew."""
+    numbers = {letter: explicit(amounts[letter]) for letter in letters}
+    errors = [_error(value_at(v, numbers), e) for v, e in zip(_entries(value), _entries(exact), strict=True)]
+    return max(errors), Integer(0)
+
+
+def _error(number: Expr, exact: Expr) -> Expr:
+    """The relative error of an exact number, 0 if it is in the last digits."""
+    if number == 0:
+        return Integer(0) if vanishes(exact) else Integer(1)
+    error = abs(exact.evalf(5 * DIGITS) / number - 1)  # SymPy keeps no digits in reserve for what stands in a function
+    return Integer(0) if error < Rational(1, 10 ** (DIGITS - 5)) else Rational(error.evalf(6))

@@ -1,0 +1,88 @@
+"""Outcomes: the words that choose a step's sentence, each with the predicate that must hold for it.
+
+A verb says how it came out, "zero", "unstable", "slow", and the page's sentence is chosen by that word. Here stands,
+apart from the code that chose it, what has to be true of the result for the word to be right. `establish` asks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from derive.steps.subject import NOTHING, Mixed, Subject
+
+GENERIC = "generic"  # the word where nothing is to be chosen
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What an outcome is judged by.
+
+    result      what was established
+    inputs      role -> value
+    quantities  role -> the quantity that the value came from, where one did
+    symbol      what the page calls the result
+    subject     what the result is about
+    words       the terms that the phrase has
+    """
+
+    result: Any
+    inputs: Mapping[str, Any] = field(default_factory=dict)
+    quantities: Mapping[str, Any] = field(default_factory=dict)
+    symbol: Any = None
+    subject: Subject = NOTHING
+    words: Mapping[str, str] = field(default_factory=dict)
+
+
+Predicate = Callable[[Facts], bool]
+
+_PREDICATES: dict[str, dict[str, Predicate]] = {}
+_TOLD: dict[str, Callable[[Facts, str], bool]] = {}
+
+
+def outcomes_of(rule: str, predicates: Mapping[str, Predicate]) -> None:
+    """Say which outcomes a rule has, and what must hold for each."""
+    _PREDICATES[rule] = dict(predicates)
+
+
+def told_by(rule: str, predicate: Callable[[Facts, str], bool]) -> None:
+    """Say what must hold of the roles and formulas that the sentences of a rule tell, by facts and outcome."""
+    _TOLD[rule] = predicate
+
+
+def told_rightly(rule: str, outcome: str, facts: Facts) -> bool:
+    """Whether what the sentence tells besides its chain is true: the point and axis that it names, roles, formulas."""
+    named = _names_its_point(facts) and _names_its_axis(facts)
+    return named and (rule not in _TOLD or bool(_TOLD[rule](facts, outcome)))
+
+
+def _names_its_point(facts: Facts) -> bool:
+    """Whether the point that is named is the one that the result is about, where that is known."""
+    known = getattr(facts.subject.point, "name", None)
+    named = {facts.words[word] for word in ("about", "point") if word in facts.words}
+    return not isinstance(known, str) or isinstance(facts.subject.point, Mixed) or named <= {known}
+
+
+def _names_its_axis(facts: Facts) -> bool:
+    """Whether the axis that is named is the one that the result is about, where that is known."""
+    axis = facts.subject.axis
+    named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
+    return not isinstance(axis, str) or named <= {axis}
+
+
+def holds(rule: str, outcome: str, facts: Facts) -> bool:
+    """Whether the outcome is one that the rule has, and is true.
+
+    A rule of which nothing was said has only the outcome that chooses nothing.
+    """
+    predicates = _PREDICATES.get(rule)
+    if predicates is None:
+        return outcome == GENERIC
+    predicate = predicates.get(outcome)
+    return predicate is not None and bool(predicate(facts))
+
+
+def known_outcomes() -> dict[str, tuple[str, ...]]:
+    """The outcomes of every rule that has a choice."""
+    return {rule: tuple(predicates) for rule, predicates in _PREDICATES.items()}

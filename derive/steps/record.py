@@ -1,0 +1,131 @@
+"""What one run of a script has established, which coordinates it has named, and what therefore moves.
+
+One letter is one quantity in a run, and what contains a coordinate, a rate or the time is known to change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from typing import Any
+
+from sympy import Expr, MatrixSymbol, Symbol
+
+from derive.algebra.expressions import TIME, Relation, component_names, explicit, rate
+from derive.errors import Complaint, Place, Rejected
+from derive.steps.step import Quantity, same_value, value_behind
+
+
+@dataclass
+class Run:
+    """What is known while a script runs, and what it leaves.
+
+    established   every quantity, in order
+    coordinates   those that it has named, with their kinds
+    assumed       conditions that its letters leave open
+    drawings      what is to be seen
+    numbers       behind the letters of its problem, as given
+    places        where each given was written
+    """
+
+    established: list[Quantity] = field(default_factory=list)
+    coordinates: dict[Symbol, str] = field(default_factory=dict)
+    assumed: list[Relation] = field(default_factory=list)
+    drawings: list[Any] = field(default_factory=list)
+    numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
+    places: Mapping[str, Place] = field(default_factory=dict)
+
+
+current_run: ContextVar[Run | None] = ContextVar("run", default=None)
+
+
+@contextmanager
+def recorded(run: Run | None = None) -> Iterator[Run]:
+    """The record of what is done within, so that the page can name what it does not show and what it assumes."""
+    run = run or Run()
+    token = current_run.set(run)
+    try:
+        yield run
+    finally:
+        current_run.reset(token)
+
+
+def coordinate_named(symbol: Symbol, kind: str) -> None:
+    """A script has named a coordinate: from now on whatever contains it is known to move."""
+    run = current_run.get()
+    if run is not None:
+        run.coordinates[symbol] = kind
+
+
+def assume(condition: Relation) -> None:
+    """A condition that the letters leave open: the page says that it is taken to hold."""
+    run = current_run.get()
+    if run is not None and condition not in run.assumed:
+        run.assumed.append(condition)
+
+
+def coordinates_in(result: Any) -> dict[Symbol, str]:
+    """The coordinates of the run that a result contains, themselves or by a rate."""
+    run = current_run.get()
+    if run is None or not run.coordinates:
+        return {}
+    present = result.free_symbols
+    return {q: kind for q, kind in run.coordinates.items() if present & {q, *(rate(q, n) for n in (1, 2, 3))}}
+
+
+def add(quantity: Quantity, case_of: Quantity | None) -> None:
+    """Put a quantity on the record of the run, if there is one; its letter must be free, or mean what it meant."""
+    run = current_run.get()
+    known = {**quantity.coordinates, **(run.coordinates if run else {})}
+    _check_one_meaning(quantity, case_of, known, run.established if run else quantity.parents)
+    if run is not None:
+        run.established.append(quantity)
+
+
+def _check_one_meaning(
+    quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
+) -> None:
+    """One letter is one quantity in a script: another value under a letter that is taken must be a case of it.
+
+    What a coordinate or its rate becomes in one motion goes by the letter of that coordinate.
+    """
+    symbol = quantity.symbol
+    moving = {s for q in coordinates for s in (q, rate(q), rate(q, 2))}
+    if not isinstance(symbol, Symbol | MatrixSymbol) or symbol in moving:
+        return
+    for other in others:
+        if other.symbol != symbol or other.step == quantity.step or same_value(other.value, quantity.value):
+            continue
+        if _is_open(other) or _is_open(quantity):
+            continue
+        if case_of is not None and (other is case_of or other.step == case_of.step or other.key in case_of.step.inputs):
+            continue
+        message = f"`{other.key}` and `{quantity.key}` are both called {symbol}, but they are different things"
+        raise Rejected(Complaint("letter-clash", message, help='give one of their verbs `symbol="..."`'))
+
+
+def _is_open(quantity: Quantity) -> bool:
+    """A vector of which nothing is known but the names of its components: any other of its letter is a case of it."""
+    symbol, value = quantity.symbol, quantity.value
+    return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
+
+
+def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
+    """What makes a value change: the time itself, a coordinate or a rate; None if nothing does."""
+    letters = explicit(value).free_symbols
+    moving = [TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
+    return next((s for s in moving if s in letters), None)
+
+
+def require_constant(verb: str, role: str, given: Any, help: str | None = None) -> None:
+    """Refuse what changes in the course of time, where a law is one for constants."""
+    known = given.coordinates if isinstance(given, Quantity) else {}
+    run = current_run.get()
+    moving = changes(value_behind(given), {**known, **(run.coordinates if run else {})})
+    if moving is not None:
+        what = "the time t" if moving == TIME else moving.name
+        name = f"`{given.key}`" if isinstance(given, Quantity) else f"{value_behind(given)}"
+        message = f"`{verb}` needs a constant {role}, but {name} depends on {what}"
+        raise Rejected(Complaint("changes", message, help=help))

@@ -1,0 +1,251 @@
+"""A verified step, the value it yields, and the small questions that every verb asks of values.
+
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import Any, NoReturn
+
+from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol, nan
+
+from derive.algebra.dimensions import kind_with_article
+from derive.algebra.equality import LEAST_SURE_FIRST, Evidence, Grade, Verdict
+from derive.algebra.expressions import AXES, Relation, component_names, explicit
+from derive.algebra.normal_form import vanishes
+from derive.errors import Complaint, Rejected, Unverified
+from derive.steps.subject import NOTHING, Subject
+
+
+class Level(StrEnum):
+    """How much algebra a reader wants; a form is shown at its own level and at every higher one."""
+
+    BRIEF = "brief"
+    STANDARD = "standard"
+    FULL = "full"
+
+    def shows(self, other: Level) -> bool:
+        order = list(Level)
+        return order.index(other) <= order.index(self)
+
+
+NUMBERS = ("value", "rounded")  # why a form stands at the end of a chain: the number in a unit, exact or rounded
+
+
+@dataclass(frozen=True)
+class Form:
+    """One line of a chain: an expression and why it equals the line before it.
+
+    `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal.
+    A form may be a `Relation`; then it says the same as the relation before it, once both are divided by `nonzero`
+    factors: those that do not vanish in the case considered, or in an inequality are positive.
+    """
+
+    expr: Any
+    because: str
+    level: Level = Level.BRIEF
+    nonzero: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True)
+class Step:
+    """What was established: the symbol, the chain that leads to its value, and how we know.
+
+    The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
+    that the step brings in, with their kinds. `stands_for` are keys of steps that there would be in another case: two
+    roots where there is only one. `names` are those in its lines that came from earlier steps, with the values put in
+    for them; `motion` is what the equations of motion make of the rates, for a line that holds by them.
+    """
+
+    key: str
+    rule: str
+    symbol: Any
+    chain: tuple[Form, ...]
+    inputs: tuple[str, ...]
+    roles: tuple[tuple[str, Any], ...]
+    outcome: str
+    evidence: tuple[Evidence, ...]
+    kind: str | None = None
+    words: tuple[tuple[str, str], ...] = ()
+    coordinates: tuple[tuple[Symbol, str], ...] = ()
+    stands_for: tuple[str, ...] = ()
+    names: tuple[tuple[Any, Any], ...] = ()
+    motion: tuple[tuple[Symbol, Any], ...] = ()
+
+    @property
+    def result(self) -> Any:
+        return self.chain[-1].expr
+
+    @property
+    def grade(self) -> Grade:
+        """As sure as the least sure of its lines, all of which must hold, and as the surest of its second routes."""
+        lines = [e.grade for e in self.evidence if e.is_of_line]
+        routes = [e.grade for e in self.evidence if not e.is_of_line]
+        surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
+        return min([*lines, *surest], key=LEAST_SURE_FIRST.index)
+
+
+_FACTS = {
+    "angles": "is not in Euler's angles",
+    "bound": "has no bound",
+    "body": "belongs to no body",
+    "about": "is about no point",
+    "coordinate": "is not an equation of one coordinate",
+    "lagrangian": "does not come from a Lagrangian",
+    "matter": "has no mass points and forces behind it",
+    "quadratic": "is not the roots of a quadratic equation",
+    "tensor": "is not the principal moments of a tensor",
+    "top": "does not belong to a top",
+    "through": "is not an angular velocity",
+}
+
+
+class _HandedOn(dict[str, Any]):
+    """What a quantity hands on to the verbs that need it; what it has not is a fault of the script, not of ours."""
+
+    def __init__(self, key: str, facts: Mapping[str, Any]):
+        super().__init__(facts)
+        self.key = key
+
+    def __missing__(self, name: str) -> NoReturn:
+        why = _FACTS.get(name, "is not of the kind that is needed here")
+        raise Rejected(Complaint("wrong-argument", f"`{self.key}` {why}"))
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """A value that knows the step that made it, the steps that step rests on, and what it is about.
+
+    Arithmetic on a quantity would lose its history, so it is refused; `let` is the verb for that.
+    """
+
+    value: Any
+    step: Step
+    parents: tuple[Quantity, ...] = ()
+    context: Mapping[str, Any] = field(default_factory=dict)
+    subject: Subject = NOTHING
+
+    @property
+    def symbol(self) -> Any:
+        return self.step.symbol
+
+    @property
+    def key(self) -> str:
+        return self.step.key
+
+    @property
+    def coordinates(self) -> dict[Symbol, str]:
+        """The coordinates that it may depend on, with their kinds: its own and those of what it rests on."""
+        own = dict(self.step.coordinates)
+        return {**own, **{q: kind for parent in self.parents for q, kind in parent.coordinates.items()}}
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "context", _HandedOn(self.step.key, self.context))
+
+    def ancestors(self) -> Iterator[Quantity]:
+        """Every quantity that it rests on, itself first."""
+        seen: set[int] = set()
+        waiting = [self]
+        while waiting:
+            quantity = waiting.pop()
+            if id(quantity) not in seen:
+                seen.add(id(quantity))
+                yield quantity
+                waiting += quantity.parents
+
+    def rests_on(self, other: Quantity) -> bool:
+        return any(ancestor.step == other.step for ancestor in self.ancestors())
+
+    def __repr__(self) -> str:
+        return f"Quantity({self.key}: {self.symbol} = {self.value})"
+
+    def _no_arithmetic(self, *_: Any) -> NoReturn:
+        raise Unverified(
+            Complaint(
+                "plain-arithmetic",
+                f"arithmetic on `{self.key}` would lose the steps behind it",
+                help=f'write it as a step: let("name", lambda x: ..., {self.key})',
+            )
+        )
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _no_arithmetic
+    __truediv__ = __rtruediv__ = __pow__ = __rpow__ = __neg__ = __matmul__ = _no_arithmetic
+
+
+def lettered(quantity: Quantity) -> Quantity:
+    """The quantity known by its letter alone: what rests on it keeps the letter, until values are put in."""
+    return replace(quantity, value=quantity.symbol, parents=(quantity,))
+
+
+def only_equation(relation: Any) -> Any:
+    """The relation, where it is an equation; what is undefined, and equal to nothing, where it is none."""
+    return relation if isinstance(relation, Relation) and relation.mark == "=" else Relation(nan, "=", nan)
+
+
+Law = Callable[..., Any]
+
+
+Route = Callable[[Any], tuple[Any, Any] | Verdict]
+
+
+def compared_with(other: Callable[[], Any]) -> Route:
+    """The plainest second route: another way to the same value."""
+    found: list[Any] = []
+
+    def both(result: Any) -> tuple[Any, Any]:
+        if not found:
+            found.append(other())
+        return result, found[0]
+
+    return both
+
+
+def same_value(one: Any, other: Any) -> bool:
+    """Whether two values that a subject has are equal: lengths, masses, places."""
+    try:
+        if isinstance(one, tuple) and isinstance(other, tuple):
+            return len(one) == len(other) and all(same_value(a, b) for a, b in zip(one, other, strict=True))
+        if isinstance(one, Basic | MatrixBase) and isinstance(other, Basic | MatrixBase):
+            return is_zero(one - other)
+    except (TypeError, ShapeError):
+        return False
+    return False
+
+
+def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
+    """Refuse a quantity of another kind: arguments in the wrong order, a tensor for a vector."""
+    if isinstance(quantity, Quantity) and quantity.step.kind == kind:
+        return
+    got = (
+        f"`{quantity.key}` is {kind_with_article(quantity.step.kind or 'number')}"
+        if isinstance(quantity, Quantity)
+        else f"it is {type(quantity).__name__}"
+    )
+    wanted = kind_with_article(kind)
+    raise Rejected(Complaint("wrong-argument", f"`{verb}` needs {wanted} as its `{role}`, but {got}"))
+
+
+def value_behind(given: Any) -> Any:
+    """The value of a quantity; anything else is its own value."""
+    return given.value if isinstance(given, Quantity) else given
+
+
+def scalar_component(quantity: Quantity, i: int) -> Symbol:
+    """The name of a vector quantity's component: c -> c_x."""
+    return component_names(quantity.symbol.name)[i]
+
+
+def entry_name(name: str, i: int, j: int) -> Symbol:
+    """The name of a tensor's entry: J_xy."""
+    return Symbol(f"{name}_{AXES[i]}{AXES[j]}", real=True)
+
+
+def is_zero(value: Any) -> bool:
+    value = explicit(value)
+    if isinstance(value, Relation):
+        return False
+    entries: list[Expr] = list(value) if hasattr(value, "shape") else [value]
+    return all(vanishes(entry) for entry in entries)

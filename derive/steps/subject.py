@@ -1,0 +1,139 @@
+"""What a value is about: the body, the point, the axes, the rotation and the place in space that it belongs to.
+
+A moment of inertia is that of one body about one point; an angular momentum belongs to one rotation. Every quantity
+carries its subject, and `establish` brings those of its inputs together: a law that is given two bodies, two points or
+two rotations is refused, unless it is a law about just that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, fields
+from enum import Enum
+from typing import Any
+
+from sympy import Basic, MatrixSymbol, Symbol
+
+from derive.errors import Complaint, Rejected
+
+
+class Mixed(Enum):
+    """What a value is about that was made of values about different things: it agrees with nothing."""
+
+    SEVERAL = "several"
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What is known of what a value is about; `None` where it is about nothing in particular.
+
+    body      the body, as a script made it
+    mass      the mass that it has, where no body says so, kg
+    point     the point that moments, momenta and torques are about
+    axes      the axes along which components are: those of the body unless it is said
+    axis      for a moment about one axis: which of the axes it is parallel to
+    rotation  the angular velocity, as components
+    place     where in space the centre of mass is, as components in m
+    """
+
+    body: Any = None
+    mass: Any = None
+    point: Any = None
+    axes: Any = None
+    axis: Any = None
+    rotation: Any = None
+    place: Any = None
+
+    def with_more(self, other: Subject) -> Subject:
+        """What the other says, and what only this one says."""
+        both = zip(self._all, other._all, strict=True)
+        return Subject(*(theirs if theirs is not None else ours for ours, theirs in both))
+
+    @property
+    def _all(self) -> tuple[Any, ...]:
+        return tuple(getattr(self, each.name) for each in fields(self))
+
+
+NOTHING = Subject()
+EVERYTHING = frozenset(each.name for each in fields(Subject))
+
+_TOGETHER = {
+    "body": "must belong to one body",
+    "mass": "must belong to one mass",
+    "point": "must be about one point",
+    "axes": "must be along the same axes",
+    "rotation": "must belong to one rotation",
+    "place": "must belong to one motion of the centre of mass",
+}
+
+
+def united(
+    key: str, named: Sequence[tuple[str, Subject]], differ: Collection[str], same: Callable[[Any, Any], bool]
+) -> Subject:
+    """What the inputs of one law are about together.
+
+    key     the step, for the message
+    named   the key of each input, and what it is about
+    differ  in what the inputs may be about different things; the outcome is `SEVERAL` where they are
+    same    whether two values are equal
+    Errors: two inputs are about different things.
+    """
+    found: dict[str, Any] = {}
+    for field in (each.name for each in fields(Subject)):
+        first: tuple[str, Any] | None = None
+        for name, subject in named:
+            value = getattr(subject, field)
+            if value is None:
+                continue
+            if first is None:
+                first = name, value
+            elif not _agree(first[1], value, same):
+                if field not in differ and field != "axis":  # two moments of one body have two axes
+                    raise _apart(key, field, first, (name, value))
+                first = name, Mixed.SEVERAL
+        if first is not None:
+            found[field] = first[1]
+    return Subject(**found)
+
+
+def _agree(one: Any, other: Any, same: Callable[[Any, Any], bool]) -> bool:
+    if isinstance(one, Mixed) or isinstance(other, Mixed):
+        return False
+    if getattr(one, "called", "") != getattr(other, "called", ""):
+        return False  # two bodies of one shape are two bodies
+    return bool(one is other or one == other or same(one, other))
+
+
+def with_name(called: str, key: str, symbol: Any) -> tuple[str, Any]:
+    """The key and the letter of what belongs to a body that has a name: `upper_rod_density`, rho_upper."""
+    prefix = called.replace(" ", "_")
+    if not key.startswith(f"{prefix}_"):
+        key = f"{prefix}_{key}"
+    index = f"_{prefix.partition('_')[0]}"
+    if isinstance(symbol, Symbol) and not symbol.name.endswith(index):
+        symbol = Symbol(symbol.name + index, **symbol.assumptions0)
+    elif isinstance(symbol, MatrixSymbol) and not symbol.name.endswith(index):
+        symbol = MatrixSymbol(symbol.name + index, *symbol.shape)
+    return key, symbol
+
+
+def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -> Rejected:
+    message = f"`{key}`: `{one[0]}` and `{other[0]}` {_TOGETHER[field]}"
+    told = [called(value) for _, value in (one, other)]
+    if told[0] != told[1] and all(told):
+        message += f", but they have {told[0]} and {told[1]}"
+    return Rejected(Complaint("different-subjects", message))
+
+
+def called(value: Any) -> str:
+    """What a message calls a body, a point, an axis or a value."""
+    if isinstance(value, Mixed):
+        return "several"
+    name = getattr(value, "called", "") or getattr(value, "name", None)
+    if isinstance(name, str) and not isinstance(value, Basic):
+        article = "" if name.startswith(("a ", "an ")) else "the "
+        return f"{article}{name.replace('_', ' ')}"
+    if isinstance(value, str):
+        return value
+    text = str(value) if getattr(value, "free_symbols", None) is not None else ""
+    return text if len(text) <= 60 else ""

@@ -1,0 +1,129 @@
+"""The tidy form of a result changes no value, and is what a person would write."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from sympy import Expr, I, Integer, Matrix, Rational, acos, cos, pi, sin, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Dot, column
+from derive.algebra.tidy import common_factor, factored_matrix, size_and_rest, tidied
+
+x, y = symbols("x y", real=True)
+a, b, M, omega = symbols("a b M omega", positive=True)
+
+TIDY = [
+    (7 / sqrt(14), sqrt(14) / 2),
+    (1 / (sqrt(2) + sqrt(3)), sqrt(3) - sqrt(2)),
+    (sqrt(397 * M**2 * a**4 / 14), M * a**2 * sqrt(5558) / 14),
+    (sqrt(a**2 * b**3), a * b * sqrt(b)),
+    (sqrt(a**2 + 2 * a * b + b**2), a + b),
+    (sqrt(4 * a**2 + 4 * b**2), 2 * sqrt(a**2 + b**2)),
+    (1 / sqrt(a**2 + b**2), 1 / sqrt(a**2 + b**2)),
+    ((x**2 - 1) / (x - 1), x + 1),
+    (Rational(13, 24) * x + Rational(10, 24) * y, (13 * x + 10 * y) / 24),
+    (M * a**2 / 3 - M * a**2 / 4, M * a**2 / 12),
+    (sqrt(x**2 * a), sqrt(a) * abs(x)),
+    (sqrt(-x * a**2), a * sqrt(-x)),
+    (sqrt(5) - sqrt(20) + sqrt(5), Integer(0)),
+    (acos(7 / sqrt(14) / 2), acos(sqrt(14) / 4)),
+    (acos((x**2 - 1) / (x - 1) / 9), acos((x + 1) / 9)),
+    (Dot(column(1, 2, 3), column(a, a, a)), 6 * a),
+    (Integer(3), Integer(3)),
+    (pi / 2, pi / 2),
+    (x, x),
+]
+
+
+@pytest.mark.parametrize(("value", "tidy"), TIDY, ids=lambda value: str(value))
+def test_a_result_is_tidied_as_a_person_would(value: Expr, tidy: Expr) -> None:
+    assert tidied(value) == tidy
+
+
+@pytest.mark.parametrize("value", [tidy for _, tidy in TIDY], ids=str)
+def test_what_is_tidy_stays_as_it_is(value: Expr) -> None:
+    assert tidied(value) == value
+
+
+def test_a_matrix_is_tidied_entry_by_entry() -> None:
+    assert tidied(Matrix([7 / sqrt(14), (x**2 - 1) / (x - 1)])) == Matrix([sqrt(14) / 2, x + 1])
+
+
+def test_a_zero_among_roots_is_found() -> None:
+    assert tidied(sqrt(a**2 + 2 * a * b + b**2) * sqrt(2) - sqrt(2) * a - sqrt(2) * b) == 0
+
+
+@pytest.mark.parametrize(
+    ("entries", "common", "rest"),
+    [
+        ([13 * M * a**2 / 12, 5 * M * a**2 / 6, 5 * M * a**2 / 12], M * a**2 / 12, [13, 10, 5]),
+        (
+            [a * omega / sqrt(14), 2 * a * omega / sqrt(14), 3 * a * omega / sqrt(14)],
+            sqrt(14) * a * omega / 14,
+            [1, 2, 3],
+        ),
+        ([-a, -2 * a, Integer(0)], -a, [1, 2, 0]),
+        ([-a, 2 * a, Integer(0)], a, [-1, 2, 0]),
+        ([a * (x + y), b * (x + y)], x + y, [a, b]),
+        ([a, b, x], Integer(1), [a, b, x]),
+        ([Integer(0), Integer(0)], Integer(1), [0, 0]),
+        ([a / 6, a / 4], a / 12, [2, 3]),
+    ],
+)
+def test_the_common_factor_is_drawn_out(entries: list[Expr], common: Expr, rest: list[Any]) -> None:
+    assert common_factor(entries) == common
+    assert factored_matrix(Matrix(entries)) == (common, Matrix(rest))
+
+
+def test_the_size_of_a_common_factor_is_never_negative() -> None:
+    assert size_and_rest(Matrix([-a, -2 * a])) == (a, Matrix([1, 2]))
+    assert size_and_rest(Matrix([-3, -6])) == (3, Matrix([1, 2]))
+    assert size_and_rest(Matrix([x * a, x * b])) == (abs(x), Matrix([a, b]))
+
+
+numbers = st.one_of(
+    st.integers(-9, 9).map(Integer),
+    st.fractions(min_value=-9, max_value=9, max_denominator=9).map(lambda f: Rational(f.numerator, f.denominator)),
+    st.integers(2, 30).map(sqrt),
+)
+atoms = st.one_of(numbers, st.sampled_from([x, y, a, b, sin(x), cos(y)]))
+expressions = st.recursive(
+    atoms,
+    lambda inner: st.one_of(
+        st.tuples(inner, inner).map(lambda p: p[0] + p[1]),
+        st.tuples(inner, inner).map(lambda p: p[0] * p[1]),
+        st.tuples(inner, inner).map(lambda p: p[0] / p[1] if p[1] != 0 else p[0]),
+        inner.map(lambda e: sqrt(e**2 + a**2)),
+        inner.map(lambda e: sqrt(a * e) if e.is_nonnegative else e**2),
+    ),
+    max_leaves=6,
+)
+bounded = settings(max_examples=40, deadline=None, derandomize=True)
+
+
+@bounded
+@given(expressions)
+def test_tidying_changes_no_value(expr: Expr) -> None:
+    assume(expr.is_finite is not False and not expr.has(I))
+    assert equal(tidied(expr), expr)
+
+
+@bounded
+@given(expressions)
+def test_tidying_twice_changes_no_value_either(expr: Expr) -> None:
+    assume(expr.is_finite is not False and not expr.has(I))
+    assert equal(tidied(tidied(expr)), expr)
+
+
+@bounded
+@given(st.lists(expressions, min_size=2, max_size=3))
+def test_a_common_factor_times_the_rest_is_the_vector(entries: list[Expr]) -> None:
+    assume(all(entry.is_finite is not False for entry in entries))
+    common, rest = factored_matrix(Matrix(entries))
+    assert equal(common * rest, Matrix(entries))
+    size, others = size_and_rest(Matrix(entries))
+    assert equal(size**2 * others.dot(others), Matrix(entries).dot(Matrix(entries)))

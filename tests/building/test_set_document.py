@@ -1,0 +1,310 @@
+"""The documents of a set: contents, pages, bookmarks, references by number, the students' sheet, how it was checked."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pypdf import PdfReader
+
+from derive.building import manifest
+from derive.building import tex as engine_runs
+from derive.building.set_document import COLUMNS, problem_document, set_document, sheet_document
+from derive.building.solution import rendered
+from derive.building.tex import chosen_engine, typeset
+from derive.course import problem
+from derive.course.problem import problem_set
+from derive.errors import Rejected
+from derive.render.rendered import Rendered
+from tests.building.test_pages import squeezed
+from tests.courses import course_in, rendered_once
+
+HEADING = "course: Physics 311\ntitle: Homework 9\ndate: Fall 2015\ninstructor: E. Noether\n"
+REFERENCE = """
+- problem: block
+  symbols: {a: length, M: mass, omega: angular speed}
+  given: {sides: [a, 2*a, 3*a], mass: M, axis: diagonal, rate: omega}
+  entries:
+    - {part: 2, answer: kinetic_energy_about_axis, states: 7/24*M*a**2*omega**2}
+    - {part: 3, answer: angle_between, states: 22.64, in: degree, to: 4, erratum: {why: 22 for 21, right: 21.64}}
+    - part: 1
+      answer: centre_of_mass
+      states: [1/2*a, a, 5/2*a]
+      erratum: {why: the last entry has 5 for 3, right: [1/2*a, a, 3/2*a]}
+"""
+
+
+def set_of(root: Path, *problems: str) -> None:
+    listed = "".join(f"  - {name}\n" for name in problems)
+    (root / "problems" / "hw9" / "set.yaml").write_text(f"{HEADING}problems:\n{listed}", encoding="utf-8")
+
+
+def also(root: Path, name: str, edits: dict[str, str]) -> None:
+    """A second problem beside the block, from the same script."""
+    folder = root / "problems" / "hw9"
+    text = (folder / "block.yaml").read_text(encoding="utf-8")
+    for old, new in edits.items():
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    edits = {"It turns at": "As <<problem cube>> it turns at", "magnitude]": "magnitude, angle_between]"}
+    root = course_in(tmp_path_factory.mktemp("course"), edits)
+    cube = {"[a, 2*a, 3*a]": "[a, a, a]", "title: A block": "title: A cube", "As <<problem cube>> it": "It"}
+    also(root, "cube", cube)
+    (root / "problems" / "hw9" / "reference.yaml").write_text(REFERENCE, encoding="utf-8")
+    set_of(root, "cube", "block")
+    return root
+
+
+@pytest.fixture(scope="module")
+def solved(course: Path) -> list[Rendered]:
+    return [rendered_once(course, problem_id) for problem_id in problem_set(course, "hw9").problems]
+
+
+@pytest.fixture(scope="module")
+def solutions(course: Path, solved: list[Rendered]) -> PdfReader:
+    target = course / "solutions.pdf"
+    typeset(
+        set_document(course, problem_set(course, "hw9"), solved), target, chosen_engine(None), aux=course / "kept.aux"
+    )
+    return PdfReader(target)
+
+
+def page_of(reader: PdfReader, name: str) -> int:
+    """The page, from 1, on which a named destination is."""
+    return int(reader.get_destination_page_number(reader.named_destinations[name])) + 1  # type: ignore[arg-type]
+
+
+def outline(entries: list[Any]) -> list[Any]:
+    return [outline(entry) if isinstance(entry, list) else entry.title for entry in entries]
+
+
+# --- the document with the solutions ---
+
+
+def test_the_contents_give_the_pages_on_which_the_problems_begin(solutions: PdfReader) -> None:
+    cover = re.sub(r"[ .]+", " ", solutions.pages[0].extract_text())
+    for number, name, title in ((1, "hw9.cube", "A cube turning"), (2, "hw9.block", "A block turning")):
+        assert re.search(rf"{number} {title} about a long diagonal 10 {page_of(solutions, name)}\n", cover)
+    assert re.search(rf"How this was checked {page_of(solutions, 'checked')}\n", cover)
+    assert re.search(r"Total 20\n", cover)
+    assert "E Noether" in cover
+
+
+def test_each_problem_after_the_first_begins_on_a_fresh_page(solutions: PdfReader) -> None:
+    assert page_of(solutions, "hw9.cube") == 1
+    assert page_of(solutions, "hw9.cube.a") == 1
+    block = page_of(solutions, "hw9.block")
+    above = solutions.pages[block - 1].extract_text().partition("A uniform block")[0]
+    assert "(27)" not in above
+    assert page_of(solutions, "checked") == len(solutions.pages)
+
+
+def test_the_head_of_a_page_names_its_problem(solutions: PdfReader) -> None:
+    heads = [page.extract_text().splitlines()[0] for page in solutions.pages]
+    block = page_of(solutions, "hw9.block")
+    assert all("Homework 9" in head for head in heads)
+    assert "A cube turning" in heads[block - 2]
+    assert "A block turning" in heads[block - 1]
+    assert "How this was checked" in heads[-1]
+
+
+def test_bookmarks_name_problems_and_parts(solutions: PdfReader) -> None:
+    cube, parts, *_, last = outline(solutions.outline)
+    assert cube == "1. A cube turning about a long diagonal"
+    assert parts[0] == "(a) Find the inertia tensor about the centre."
+    assert parts[2] == "(c) Find the angle between ω⃗ and the angular momentum L⃗."
+    assert last == "How this was checked"
+
+
+def test_every_link_leads_somewhere_in_the_document(solutions: PdfReader) -> None:
+    links = [a.get_object() for page in solutions.pages for a in page.get("/Annots", [])]
+    targets = {str(link["/A"]["/D"]) for link in links if "/A" in link and "/D" in link["/A"]}
+    assert {"hw9.cube", "hw9.block", "checked"} <= targets
+    assert targets <= set(solutions.named_destinations)
+
+
+def test_kept_page_numbers_save_a_run_and_change_nothing(
+    course: Path, solved: list[Rendered], solutions: PdfReader, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs: list[str] = []
+    run = engine_runs.subprocess.run
+    monkeypatch.setattr(engine_runs.subprocess, "run", lambda *a, **k: runs.append("run") or run(*a, **k))
+    tex, engine = set_document(course, problem_set(course, "hw9"), solved), chosen_engine(None)
+    assert not typeset(tex, course / "solutions.pdf", engine, aux=course / "kept.aux"), "the same pages"
+    assert len(runs) == 1
+    (course / "kept.aux").write_text("\\undefined\n")
+    assert not typeset(tex, course / "solutions.pdf", engine, aux=course / "kept.aux"), "damage is no obstacle"
+
+
+def test_one_problem_alone_needs_one_run_and_has_its_bookmarks(
+    course: Path, solved: list[Rendered], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs: list[str] = []
+    run = engine_runs.subprocess.run
+    monkeypatch.setattr(engine_runs.subprocess, "run", lambda *a, **k: runs.append("run") or run(*a, **k))
+    target = course / "block.pdf"
+    typeset(problem_document(course, solved[1], problem_set(course, "hw9")), target, chosen_engine(None))
+    assert len(runs) == 1
+    assert outline(PdfReader(target).outline)[0] == "2. A block turning about a long diagonal"
+
+
+# --- how it was checked ---
+
+
+def test_the_last_page_counts_steps_lines_routes_and_references(solved: list[Rendered]) -> None:
+    counts = solved[1].counts
+    assert set(counts) == set(COLUMNS)
+    assert (counts["agree"], counts["agree_to_figures"], counts["errata"]) == (1, 0, 2)
+    assert sum(counts[f"steps_{grade}"] for grade in ("proved", "sampled", "approximation", "definition")) == 30
+    assert counts["steps_definition"] == 3
+    assert counts["routes"] == counts["routes_proved"] > 25
+
+
+def test_errata_are_told_with_what_is_printed_and_what_is_right(solved: list[Rendered]) -> None:
+    told = solved[1].checked
+    assert r"\theta = 22.64\mathrm{{}^\circ}" in told
+    assert r"\theta = 21.64\mathrm{{}^\circ}" in told
+    assert "22 for 21" in told
+    assert r"printed $\bm{r}_{C} = (\tfrac{1}{2}\,a,\ a,\ \tfrac{5}{2}\,a)$, right $\bm{r}_{C}" in told
+    assert solved[0].counts["errata"] == 0
+    assert "source document" not in solved[0].checked
+
+
+def test_second_routes_are_told_by_result(solved: list[Rendered]) -> None:
+    assert r"\mbox{$J_{xx}$} and 5 more: equivalent particles, without an integral" in solved[1].checked
+
+
+def test_kept_steps_tell_the_same_errata(course: Path, solved: list[Rendered]) -> None:
+    kept = course / "kept.json"
+    assert rendered(course, "hw9/block", None, kept) == solved[1]
+    assert rendered(course, "hw9/block", None, kept) == solved[1]
+
+
+# --- the students' sheet ---
+
+
+def test_the_sheet_has_the_questions_and_nothing_that_is_derived(course: Path, solved: list[Rendered]) -> None:
+    target = course / "problems.pdf"
+    tex = sheet_document(course, problem_set(course, "hw9"), solved)
+    typeset(tex, target, chosen_engine(None))
+    text = squeezed(target)
+    for question in ("Findtheinertiatensoraboutthecentre", "1Acubeturning", "2Ablockturning", "10points", "3points"):
+        assert question in text
+    for leaked in ("2779", "21.64", "0.2315", "proved", "principal", "density", "Howthiswaschecked"):
+        assert leaked not in text
+    assert "(1)" not in text, "no equation is numbered"
+    assert len(PdfReader(target).pages) == 1
+
+
+def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path: Path) -> None:
+    root = course_in(tmp_path, {"What torque must": "With <<spin>> from <<eq spin>>, what torque must"})
+    solution = rendered_once(root, "hw9/block")
+    assert r"from \hyperlink{hw9.block.21}{(21)}, what torque" in solution.latex
+    assert r"from part (b), what torque" in solution.sheet
+    assert "With ω⃗ from (21), what torque" in solution.text
+
+
+def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    assert rendered_once(root, "hw9/block", "brief").sheet == rendered_once(root, "hw9/block", "full").sheet
+
+
+# --- references ---
+
+
+def test_another_problem_is_referred_to_by_its_number_in_the_set(course: Path, solved: list[Rendered]) -> None:
+    assert "As Problem 1 it turns" in " ".join(solved[1].text.split())
+    assert r"As \problemlink{hw9.cube}{Problem 1} it turns" in solved[1].latex
+    assert "problems/hw9/set.yaml" in solved[1].inputs, "another order is another number"
+    assert "problems/hw9/set.yaml" not in solved[0].inputs
+
+
+def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]) -> None:
+    assert "Part (c) has already given θ, equation (25)." in solved[1].text
+
+
+@pytest.mark.parametrize(
+    ("edit", "message", "help_line"),
+    [
+        ("<<eq torqe>>", "no step on this page is called `torqe`", "did you mean `torque`?"),
+        (
+            "<<eq mass>>",
+            "no step on this page is called `mass`",
+            "use the key of a step that the answers rest on",
+        ),
+        (
+            "<<eq spin>>",
+            "the equation of `spin` is hidden, so it has no number",
+            "change `spin: hidden` under `show`, or write `<<spin>>`",
+        ),
+        ("<<problem blok>>", "there is no problem `blok` in this set", "did you mean `block`?"),
+        (
+            "<<part a>>",
+            "`<<part a>>` is not a mention",
+            "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`",
+        ),
+    ],
+)
+def test_a_reference_to_what_is_not_there_is_told(tmp_path: Path, edit: str, message: str, help_line: str) -> None:
+    root = course_in(tmp_path, {"It turns at": f"{edit} It turns at"})
+    with open(root / "problems" / "hw9" / "block.yaml", "a", encoding="utf-8") as file:
+        file.write("show: {spin: hidden}\n")
+    with pytest.raises(Rejected) as caught:
+        rendered_once(root, "hw9/block")
+    (complaint,) = caught.value.complaints
+    assert (complaint.message, complaint.help) == (message, help_line)
+
+
+def test_a_title_refers_to_no_equation(tmp_path: Path) -> None:
+    with pytest.raises(Rejected, match="a title cannot refer to an equation or to a problem"):
+        rendered_once(course_in(tmp_path, {"title: A block": "title: By <<eq torque>> a block"}), "hw9/block")
+
+
+# --- the list of problems ---
+
+
+def test_a_set_may_have_one_problem_without_points(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    text = (root / "problems" / "hw9" / "block.yaml").read_text(encoding="utf-8")
+    (root / "problems" / "hw9" / "block.yaml").write_text(re.sub(r" *points: \d+\n", "", text), encoding="utf-8")
+    solution = rendered_once(root, "hw9/block")
+    assert "Total" not in set_document(root, problem_set(root, "hw9"), [solution])
+    assert "points" not in sheet_document(root, problem_set(root, "hw9"), [solution]).partition(r"\begin{document}")[2]
+
+
+@pytest.mark.parametrize(
+    ("listed", "message"),
+    [
+        (("block", "block"), "`block` is listed twice"),
+        (("blok",), "there is no problem `blok` in this set"),
+        (("hw8/top",), "`hw8/top` is a problem of another set"),
+        (("solutions",), "a problem cannot be called `solutions`, for a document of the set has that name"),
+    ],
+)
+def test_a_problem_that_cannot_be_listed_is_told(tmp_path: Path, listed: tuple[str, ...], message: str) -> None:
+    root = course_in(tmp_path)
+    (root / "problems" / "hw8").mkdir()
+    shutil.copy(root / "problems" / "hw9" / "block.yaml", root / "problems" / "hw8" / "top.yaml")
+    set_of(root, *listed)
+    with pytest.raises(Rejected) as caught:
+        problem_set(root, "hw9")
+    assert [c.message for c in caught.value.complaints] == [message]
+
+
+def test_an_empty_set_is_told_to_be_empty(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    (root / "problems" / "hw9" / "set.yaml").write_text(f"{HEADING}problems: []\n", encoding="utf-8")
+    with pytest.raises(Rejected, match="`problems` must be a list of names, but it is empty"):
+        problem_set(root, "hw9")
+
+
+def test_no_problem_takes_the_name_of_a_document() -> None:
+    assert problem.DOCUMENTS == manifest.DOCUMENTS

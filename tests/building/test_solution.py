@@ -1,0 +1,76 @@
+"""The number of an answer has its unit: that of its kind, or else of its dimension."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from derive.building.solution import Rendered, rendered
+from derive.errors import Complaint, Rejected
+from tests.courses import ROOT
+
+SCRIPT = '''"""Numbers of a pendulum that are only named."""
+
+from sympy import pi, sqrt
+
+from derive.given import Acceleration, Length
+from derive.mechanics import let
+
+
+def solve(length: Length, gravity: Acceleration):
+    return (
+        let("period", lambda: 2 * pi * sqrt(length / gravity), symbol="T_0"),
+        let("swinging", lambda: sqrt(gravity / length), symbol="w_0"),
+        let("odd", lambda: sqrt(length) * gravity, symbol="q"),
+        let("share", lambda: (length + 2 * length) / (5 * length), symbol="s"),
+        let("square", lambda: length**2 * gravity**2, symbol="Q"),
+    )
+'''
+PROBLEM = """title: A pendulum
+solve: pendulum.py
+given: {length: 1 m, gravity: 9.8 m/s^2}
+statement: A pendulum.
+parts:
+  - ask: What are they?
+    answer: [period, swinging, odd, share, square]
+"""
+
+
+def solved(folder: Path, form: str = "") -> Rendered:
+    problems = folder / "problems" / "set"
+    problems.mkdir(parents=True)
+    (folder / "templates").symlink_to(ROOT / "templates")
+    (problems / "pendulum.py").write_text(SCRIPT, encoding="utf-8")
+    (problems / "pendulum.yaml").write_text(PROBLEM + form, encoding="utf-8")
+    return rendered(folder, "set/pendulum")
+
+
+def refused(folder: Path, form: str) -> Complaint:
+    with pytest.raises(Rejected) as caught:
+        solved(folder, f"    form: {form}\n")
+    (complaint,) = caught.value.complaints
+    return complaint
+
+
+def test_a_number_that_is_only_named_has_the_unit_of_its_dimension(tmp_path: Path) -> None:
+    solution = solved(tmp_path)
+    units = {key: answer["number"]["unit"] for key, answer in json.loads(solution.json)["answers"].items()}
+    assert units == {"period": "s", "swinging": "1/s", "odd": "m^(3/2)/s^2", "share": "", "square": "m^4/s^4"}
+    assert r"\mathrm{m^{3/2}/s^{2}}" in solution.latex
+
+
+@pytest.mark.parametrize("unit", ["rad/s", "rpm", "Hz"])
+def test_a_number_that_is_only_named_is_in_no_unit_that_only_a_kind_has(unit: str, tmp_path: Path) -> None:
+    complaint = refused(tmp_path, f"{{swinging: {{unit: {unit}}}}}")
+    assert complaint.code == "wrong-unit"
+    assert complaint.message == f"`swinging` has no kind, so nothing says that it is measured in `{unit}`"
+    assert complaint.help == "give it a `kind=` in the script"
+
+
+def test_a_unit_of_another_dimension_is_told_where_it_is_written(tmp_path: Path) -> None:
+    complaint = refused(tmp_path, "{share: {unit: [m]}, period: {unit: s}}")
+    assert complaint.message == "`share` is a number, which is not measured in `m`"
+    assert complaint.place
+    assert complaint.place.text[complaint.place.column - 1 :].startswith("m]")

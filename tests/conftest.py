@@ -1,0 +1,23 @@
+"""The key that seals what is kept belongs to the tests: nothing is written to the folders of whoever runs them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+import pytest
+
+import derive  # noqa: F401  before SymPy is imported, whose cache it sets
+
+
+@pytest.fixture(autouse=True, scope="session")
+def own_key(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """One for all workers, so that each can take the derivations that another has kept."""
+    before = os.environ.get("XDG_STATE_HOME")
+    own = tmp_path_factory.getbasetemp()
+    os.environ["XDG_STATE_HOME"] = str((own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "state")
+    yield
+    if before is None:
+        del os.environ["XDG_STATE_HOME"]
+    else:
+        os.environ["XDG_STATE_HOME"] = before

@@ -1,0 +1,44 @@
+"""A course in a temporary folder: the repository's own problems, edited as an instructor would edit them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from derive.building.solution import rendered
+from derive.building.stored import key_of
+from derive.course.problem import load_problem
+from derive.render.rendered import Rendered
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# The problems as their tests know them, apart from problems/hw9, so that an instructor's edit breaks no test.
+PINNED = ROOT / "tests" / "problems"
+
+
+def course_in(
+    folder: Path,
+    edits: Mapping[str, str] | None = None,
+    script: Mapping[str, str] | None = None,
+    problem: str = "block",
+) -> Path:
+    """A course with one pinned problem, each edit a piece of its text that occurs once."""
+    problems = folder / "problems" / "hw9"
+    problems.mkdir(parents=True)
+    (folder / "templates").symlink_to(ROOT / "templates")
+    heading = (PINNED / "set.yaml").read_text(encoding="utf-8")
+    (problems / "set.yaml").write_text(heading.replace("- block", f"- {problem}"), encoding="utf-8")
+    for name, changes in ((f"{problem}.yaml", edits), (f"{problem}.py", script)):
+        text = (PINNED / name).read_text(encoding="utf-8")
+        for old, new in (changes or {}).items():
+            assert text.count(old) == 1, f"{old!r} occurs {text.count(old)} times in {name}"
+            text = text.replace(old, new)
+        (problems / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+def rendered_once(root: Path, problem_id: str, detail: str | None = None, draws: bool = False) -> Rendered:
+    """The problem in every format, like `rendered`; a derivation that some test has made already is not made again."""
+    key = key_of(load_problem(root, problem_id))
+    return rendered(root, problem_id, detail, Path(os.environ["XDG_STATE_HOME"]) / "derivations" / key, draws)

@@ -1,0 +1,137 @@
+"""What a change of the code is tried on: the pinned problems and their variants, solved and printed as text."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from derive.building.solution import _answered_by, _derived
+from derive.course.problem import Problem, load_problem
+from derive.page.document import document_of
+from derive.page.wording import phrases
+from derive.render.formats.text_page import page_text
+from derive.render.notation.notation import Notation
+from derive.steps.derivation import Derivation
+from derive.steps.step import Level, Step
+from tests.courses import PINNED, ROOT, course_in
+from tests.test_transcripts import PAGES
+
+WORDS = phrases(ROOT / "templates")
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The steps and the numbers of a run; two that are equal print the same page."""
+
+    derivation: Derivation
+    values: dict[str, Step]
+    problem: Problem
+    drawings: Sequence[Any]
+
+    @property
+    def steps(self) -> tuple[object, ...]:
+        return self.derivation, tuple(self.values.items())
+
+    @property
+    def by_key(self) -> dict[str, Step]:
+        return {step.key: step for step in self.derivation.steps}
+
+    @property
+    def page(self) -> str:
+        """The whole page as text, in full detail."""
+        problem = _answered_by(self.problem, self.derivation.steps)
+        document, faults = document_of(problem, self.derivation, self.values, WORDS, Level.FULL, drawings=self.drawings)
+        if faults:
+            raise ValueError(faults)
+        return page_text(document, WORDS, Notation(document.dimensions))
+
+
+@dataclass(frozen=True)
+class Run:
+    """A pinned problem with edits of its text and of its script, as `course_in` makes them."""
+
+    name: str
+    edits: tuple[tuple[str, str], ...] = ()
+    script: tuple[tuple[str, str], ...] = ()
+
+    @cached_property
+    def problem(self) -> Problem:
+        name = self.name.partition("-")[0]
+        with tempfile.TemporaryDirectory() as folder:
+            course = course_in(Path(folder), dict(self.edits), dict(self.script), problem=name)
+            return load_problem(course, f"hw9/{name}")
+
+    def solved(self) -> Solved:
+        derivation, values, _, run = _derived(self.problem)
+        return Solved(derivation, values, self.problem, run.drawings)
+
+
+def _of_transcripts() -> dict[str, Run]:
+    """One run for each set of edits that some transcript has."""
+    found: dict[tuple[str, tuple[tuple[str, str], ...]], Run] = {}
+    for name, (edits, _) in PAGES.items():
+        found.setdefault((name.partition("-")[0], tuple(edits.items())), Run(name, tuple(edits.items())))
+    return {run.name: run for run in found.values()}
+
+
+def _body(name: str, made: str, start: str, axes: Sequence[int] = (), edits: Sequence[tuple[str, str]] = ()) -> Run:
+    """The problem of one body with another body, its tensor taken about a point and moved to the centre and back."""
+    script = [
+        ("mechanics.Ball(radius, mass)", f"mechanics.{made}"),
+        ('start, about = "centre"', f'start, about = "{start}"'),
+    ]
+    answers = "first_tensor, about_x, squared_gyration"
+    if start != "centre":
+        more = ["inertia_tensor", "principal_moments", *(f"principal_axis_{k}" for k in axes), "moved_tensor"]
+        edits = [*edits, (f"answer: [{answers}]", f"answer: [{answers}, {', '.join(more)}]")]
+    return Run(f"body-{name}", tuple(edits), tuple(script))
+
+
+NUMBERS = (("radius: R", "radius: 4 cm"), ("height: h", "height: 10 cm"), ("mass: M", "mass: 300 g"))
+SKEW = (
+    ("moved = mechanics.moved_to(J, mechanics.centre_of_mass(body, origin=start))", "moved = J"),
+    (
+        'back = mechanics.moved_from_centre(moved, mechanics.centre_of_mass(body, origin=start), symbol="J\'")',
+        "back = J",
+    ),
+)
+BODIES = (
+    Run("body"),
+    _body("cylinder", "Cylinder(radius, height, mass)", "base", (1, 3)),
+    _body("disc", "Disc(radius, mass)", "rim"),
+    _body("hoop", "Hoop(radius, mass)", "rim", (), NUMBERS),
+    _body("rod", "Rod(height, mass)", "end", (), NUMBERS),
+    _body("plate", "Plate((radius, height), mass)", "corner", (1, 2, 3)),
+    _body("cuboid", "Cuboid((radius, radius, height), mass)", "corner", (1, 3)),
+    Run(
+        "body-skew",
+        (("answer: [first_tensor", "answer: [principal_moments, principal_axis_1, principal_axis_3, first_tensor"),),
+        (
+            ("mechanics.Ball(radius, mass)", "mechanics.Plate((2 * radius, 3 * radius), mass)"),
+            ('start, about = "centre"', 'start, about = "corner"'),
+            *SKEW,
+        ),
+    ),
+)
+TOP = (PINNED / "top.yaml").read_text(encoding="utf-8")
+RATES = Run(  # the top without its last part, in a third of the time
+    "top-rates",
+    (
+        (TOP[TOP.index("  - ask: >\n      Set going upright") : TOP.index("wording:")], ""),
+        (TOP[TOP.index("  force_phi: >-") : TOP.index("show:")], ""),
+        ("show: {potential_here: result}", ""),
+        ("points: 10", "points: 7"),
+    ),
+    (("    upright = upright_rate(", "    return rates, condition, slow, fast\n    upright = upright_rate("),),
+)
+CHEAP = ("block", "cone", "euler")  # these first: what they refuse need not be tried on others
+_found = _of_transcripts()
+RUNS: dict[str, Run] = {
+    **{name: run for name, run in _found.items() if name.startswith(CHEAP)},
+    **{run.name: run for run in (*BODIES, RATES)},
+    **_found,
+}

@@ -1,0 +1,175 @@
+"""Words are filled with verified things only, and every step has the words it needs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from sympy import Integer, Symbol
+
+from derive.algebra.dimensions import dimension_of_kind
+from derive.course.prose import Mention
+from derive.errors import Place, Rejected
+from derive.page.wording import (
+    AXIS_NAMES,
+    Chain,
+    DimensionMark,
+    Math,
+    Text,
+    Unit,
+    filled,
+    joined,
+    names_of_step,
+    phrases,
+    told,
+)
+from derive.steps.step import Quantity
+from tests.courses import ROOT
+from tests.mechanics.block import a, b, c, known_block, omega
+
+WORDS = phrases(ROOT / "templates")
+ONE, NIL = Integer(1), Integer(0)
+VARIANTS: list[dict[str, Any]] = [
+    {},
+    {"sides": (a, a, a)},
+    {"sides": (a, a, 2 * a)},
+    {"axis": "z"},
+    {"axis": (ONE, ONE, NIL)},
+    {"rate": -omega},
+    {"sides": (a, b, c)},
+]
+
+
+def every_step() -> list[Quantity]:
+    return [quantity for variant in VARIANTS for quantity in known_block(**variant).values()]
+
+
+# --- filling ---
+
+
+def test_a_phrase_is_text_and_the_nodes_of_its_names() -> None:
+    nodes = filled("The size is <<size>>, <<chain>>", {"size": Math(a), "chain": Chain()})
+    assert nodes == (Text("The size is "), Math(a), Text(", "), Chain())
+
+
+def test_a_name_may_stand_for_several_nodes() -> None:
+    several = (Text("the axis along "), Math(a))
+    assert filled("about <<axis>>", {"axis": several}) == (Text("about "), *several)
+
+
+def test_blank_ends_of_a_phrase_are_taken_off() -> None:
+    assert filled("  so <<chain>> \n", {"chain": Chain()}) == (Text("so "), Chain())
+
+
+@pytest.mark.parametrize("template", ["<<unheard_of>>", "a <<torque.x>>", "<% if unheard_of %>x<% endif %>"])
+def test_a_name_that_nothing_established_is_an_error(template: str) -> None:
+    with pytest.raises(Rejected) as refusal:
+        filled(template, {"torque": Math(a)})
+    assert refusal.value.complaints[0].code == "undefined-name"
+
+
+@pytest.mark.parametrize("template", ["<<", "<% if %>", "<<torque", "<<torque +>>"])
+def test_a_phrase_that_cannot_be_read_is_an_error(template: str) -> None:
+    with pytest.raises(Rejected) as refusal:
+        filled(template, {"torque": Math(a)})
+    assert refusal.value.complaints[0].code == "bad-phrase"
+
+
+@pytest.mark.parametrize("text", ["100% & $5 {x} \\input", "a < b", "{{ torque }} {% raw %}", "#1"])
+def test_characters_that_mean_something_elsewhere_are_only_text(text: str) -> None:
+    assert filled(text, {}) == (Text(text),)
+
+
+@pytest.mark.parametrize("template", ["<< ''.__class__ >>", "<< chain.__class__.__mro__ >>", "<< names.__globals__ >>"])
+def test_a_phrase_cannot_reach_into_the_program(template: str) -> None:
+    with pytest.raises(Rejected):
+        filled(template, {"names": filled})
+
+
+def test_a_mention_in_prose_becomes_what_it_names() -> None:
+    missing: list[str] = []
+    pieces = ["turns at\n  ", Mention("rate", Place("x.yaml", 1)), " about it"]
+    nodes = told(pieces, {"rate": Math(omega)}, lambda name, place: missing.append(name))
+    assert nodes == (Text("turns at "), Math(omega), Text(" about it"))
+    assert missing == []
+
+
+def test_an_unknown_mention_is_reported_with_its_place_and_left_out() -> None:
+    missing: list[tuple[str, Place]] = []
+    place = Place("x.yaml", 3, 7)
+    nodes = told(["a ", Mention("rat", place)], {"rate": Math(omega)}, lambda *fault: missing.append(fault))
+    assert nodes == (Text("a "),)
+    assert missing == [("rat", place)]
+
+
+@pytest.mark.parametrize(
+    ("count", "text"), [(0, ""), (1, "x"), (2, "x and x"), (3, "x, x and x"), (4, "x, x, x and x")]
+)
+def test_items_are_joined_as_in_english(count: int, text: str) -> None:
+    nodes = joined([Text("x")] * count)
+    assert "".join(node.text for node in nodes if isinstance(node, Text)) == text
+
+
+# --- the words of every step ---
+
+
+def test_every_step_of_every_variant_has_its_sentence() -> None:
+    for quantity in every_step():
+        names = names_of_step(quantity.step, WORDS, dimension_of_kind(quantity.step.kind or "number"))
+        page = {name: Math(Symbol(name)) for name in known_block()} | {"angular_velocity": Math(a)}
+        nodes = filled(WORDS.phrase(quantity.step), {**page, **names})
+        assert sum(isinstance(node, Chain) for node in nodes) == 1
+
+
+def test_every_second_route_has_its_words() -> None:
+    for quantity in every_step():
+        for evidence in quantity.step.evidence:
+            if not evidence.claim.startswith("line ") and evidence.claim != "definition":
+                assert WORDS.route(quantity.step, evidence.claim), f"{quantity.step.rule}: {evidence.claim}"
+
+
+def test_every_grade_has_its_words() -> None:
+    for quantity in every_step():
+        assert all(WORDS.grades[evidence.grade] for evidence in quantity.step.evidence)
+
+
+def test_every_word_of_a_step_has_its_term() -> None:
+    words = {word for quantity in every_step() for _, word in quantity.step.words}
+    assert words <= set(WORDS.terms)
+    assert {"corner", "centre", "diagonal"} <= words
+
+
+def test_an_outcome_without_a_phrase_is_an_error_that_names_both() -> None:
+    odd = replace(known_block()["torque"].step, outcome="sideways")
+    with pytest.raises(Rejected, match=r"`torque`: no phrase for `rotation\.torque` with the outcome `sideways`"):
+        WORDS.phrase(odd)
+
+
+def test_the_words_of_the_torque_change_when_it_vanishes() -> None:
+    said = {WORDS.phrase(known_block(**variant)["torque"].step) for variant in VARIANTS[:2]}
+    assert len(said) == 2
+
+
+def test_a_reason_of_the_rule_beats_the_general_one() -> None:
+    step = known_block()["corner_tensor_xx"].step
+    own, general = (WORDS.reason(s, "separate", "law") for s in (step, known_block()["spin"].step))
+    assert own and own != general
+
+
+def test_a_line_without_a_reason_has_none() -> None:
+    assert WORDS.reason(known_block()["spin"].step, "unheard_of", "law") == ""
+
+
+def test_a_step_offers_its_roles_its_unit_and_its_dimension() -> None:
+    step = known_block()["torque"].step
+    names = names_of_step(step, WORDS, dimension_of_kind("torque"))
+    assert names["omega"] == Math(known_block()["spin"].symbol)
+    assert names["momentum"] == Math(known_block()["angular_momentum"].symbol)
+    assert names["unit"] == Unit("N m")
+    assert names["dimension"] == DimensionMark(dimension_of_kind("torque"))
+    assert names["x"] == AXIS_NAMES["x"]
+
+
+def test_a_number_offers_no_unit() -> None:
+    assert "unit" not in names_of_step(known_block()["cosine"].step, WORDS, None)

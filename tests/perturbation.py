@@ -1,0 +1,183 @@
+"""Every result of a run, changed a little: some second route must refuse it.
+
+`python -m tests.perturbation` does so for all results of all runs; the suite for a sample.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+from unittest.mock import patch
+
+from sympy import Add, Expr, ImmutableDenseMatrix, MatrixBase, Rational
+
+import derive.steps.chain
+import derive.steps.establish
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, explicit
+from derive.errors import DeriveError
+from derive.steps.step import Route
+from tests.mutation.runs import RUNS, Run
+
+MARKS = ("=", "<", ">", "<=", ">=", "!=")
+SCALE, SHARE = Rational(7, 3), Rational(3, 11)
+
+# (rule, what is changed) -> why no route need refuse it
+EXCEPTIONS = {
+    ("principal.axis", "sign"): "an axis has a direction and no sign: e and -e are the same axis",
+    ("principal.axis", "sign of an entry"): "the same, or any axis across that of a round body, which is as good",
+    ("principal.axis", "order"): "where all moments are equal every axis is as good; elsewhere a route refuses",
+    ("principal.principal_moments", "order"): "which moment of a tensor that is not diagonal is the first is a name",
+}
+
+
+@dataclass(frozen=True)
+class Established:
+    """A result and the second routes to it."""
+
+    run: str
+    rule: str
+    key: str
+    result: Any
+    routes: Mapping[str, Route]
+
+    def refuses(self, other: Any) -> bool:
+        """Whether some route objects to another result, or the door, since it can never hold."""
+        try:
+            derive.steps.establish.check_can_hold(self.key, other)
+        except DeriveError:
+            return True
+        for claim, route in self.routes.items():
+            try:
+                derive.steps.chain.route_evidence(self.key, claim, route(other))
+            except DeriveError:
+                return True
+        return False
+
+    def is_exception(self, what: str) -> bool:
+        return (self.rule, what) in EXCEPTIONS
+
+
+def established_in(run: Run) -> list[Established]:
+    """Every result of a run that has second routes, those of its numbers too."""
+    found: list[Established] = []
+    evidence_of = derive.steps.establish.evidence_of_routes
+
+    def noted(key: str, result: Any, routes: Mapping[str, Route]) -> Any:
+        rule = sys._getframe(1).f_locals["rule"]  # that of `establish`, which asks
+        if routes:
+            found.append(Established(run.name, rule, key, result, dict(routes)))
+        return evidence_of(key, result, routes)
+
+    with patch.object(derive.steps.establish, "evidence_of_routes", noted):
+        run.solved()
+    return found
+
+
+@dataclass(frozen=True)
+class Perturbed:
+    """A result that is changed, and what is changed of it."""
+
+    of: Established
+    what: str
+    result: Any
+
+    @property
+    def survives(self) -> bool:
+        return not self.of.refuses(self.result) and not self.of.is_exception(self.what)
+
+    def __str__(self) -> str:
+        return f"{self.of.run}: {self.of.key} ({self.of.rule}), {self.what}: {self.of.result} -> {self.result}"
+
+
+def sample(found: Sequence[Established], size: int, seed: int) -> list[Perturbed]:
+    """A fair draw among all changes of all results, half of it among the marks of relations."""
+    drawn = random.Random(seed)
+    every = [Perturbed(established, *each) for established in found for each in perturbations(established.result)]
+    marks = [each for each in every if each.what == "mark"]
+    others = [each for each in every if each.what != "mark"]
+    return [*drawn.sample(marks, size // 2), *drawn.sample(others, size - size // 2)]
+
+
+def perturbations(result: Any) -> Iterator[tuple[str, Any]]:
+    """What is changed, and the changed result."""
+    for what, other in _perturbed(result):
+        same = isinstance(result, Relation) and equal(result, other)  # w = 0 says what 2 w = 0 says
+        if other != result and not same:
+            yield what, other
+
+
+def _perturbed(result: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(result, Relation):
+        yield from _of_relation(result)
+    elif isinstance(result, MatrixBase):
+        yield from _of_entries(result)
+    else:
+        yield "plus", result + _share(result)
+        yield "minus", result - _share(result)
+        yield "sign", -result
+        yield "scale", SCALE * result
+        terms = Add.make_args(result.expand()) if isinstance(result, Expr) else ()
+        for term in terms[:4] if len(terms) > 1 else ():
+            yield "dropped", result - term
+
+
+def _of_relation(relation: Relation) -> Iterator[tuple[str, Any]]:
+    left, mark, right = relation.left, relation.mark, relation.right
+    for other in MARKS:
+        yield "mark", Relation(left, other, right)
+    yield "left", Relation(left + _share(left), mark, right)
+    yield "left", Relation(left - _share(left), mark, right)
+    yield "right", Relation(left, mark, right + (_share(right) if right != 0 else _share(left)))
+    if right != 0:
+        yield "sign", Relation(left, mark, -right)
+        yield "right", Relation(left, mark, SCALE * right)
+    if mark not in {"=", "!="}:
+        yield "sides", Relation(right, mark, left)
+
+
+def _of_entries(result: Any) -> Iterator[tuple[str, Any]]:
+    entries: Sequence[Any] = list(result)
+
+    def made(changed: Sequence[Any]) -> Any:
+        return ImmutableDenseMatrix(result.rows, result.cols, list(changed))
+
+    for i, entry in enumerate(entries):
+        yield "entry", made([*entries[:i], entry + _share(entry), *entries[i + 1 :]])
+        if entry != 0:
+            yield "sign of an entry", made([*entries[:i], -entry, *entries[i + 1 :]])
+    yield "sign", made([-entry for entry in entries])
+    yield "scale", made([SCALE * entry for entry in entries])
+    yield "order", made(entries[::-1])
+    yield "order", made([*entries[1:], entries[0]])
+
+
+def _share(value: Any) -> Any:
+    """A share of the first term, so that what is added is of the same kind."""
+    return next((SHARE * term for term in Add.make_args(explicit(value)) if term != 0), SHARE)
+
+
+def main() -> int:
+    """Every perturbation of every run; those that no route refuses are told."""
+    os.nice(5)
+    counts: Counter[str] = Counter()
+    for name in sys.argv[1:] or RUNS:
+        for established in established_in(RUNS[name]):
+            sort = "relation" if isinstance(established.result, Relation) else "value"
+            for each in (Perturbed(established, *other) for other in perturbations(established.result)):
+                refused = established.refuses(each.result)
+                verdict = "refused" if refused else "excepted" if established.is_exception(each.what) else "survived"
+                counts[f"{sort}s {verdict}"] += 1
+                if verdict == "survived":
+                    print(each)
+        print(f"after {name}: " + ", ".join(f"{count} {what}" for what, count in sorted(counts.items())), flush=True)
+    return int(any("survived" in what for what in counts))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,27 @@
+"""A second route can refuse: whatever result is changed a little, a route to it objects."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.mutation.runs import RUNS
+from tests.perturbation import EXCEPTIONS, Established, established_in, sample
+
+# Every problem, with numbers where they bring steps of their own, and bodies that no problem shows.
+SOLVED = ("block", "cone", "euler", "slab-numbers", "top-rates", "body-hoop")
+SIZE, SEED = 120, 2026
+
+
+@pytest.fixture(scope="module")
+def found() -> list[Established]:
+    return [established for name in SOLVED for established in established_in(RUNS[name])]
+
+
+def test_no_changed_result_passes_its_second_routes(found: list[Established]) -> None:
+    assert [str(each) for each in sample(found, SIZE, SEED) if each.survives] == []
+
+
+def test_values_relations_and_numbers_are_all_tried(found: list[Established]) -> None:
+    rules = {each.rule for each in found}
+    assert {"numbers.value", "numbers.comparison", "bodies.density", "rotation.torque", "tops.turning_rate"} <= rules
+    assert {"principal.axis"} <= rules & {rule for rule, _ in EXCEPTIONS}

@@ -1,0 +1,152 @@
+"""The environment in `.venv`: made, repaired, or left as it is. Run by `make`, with the standard library only.
+
+A stamp in `.venv` tells `make` that the environment fits `pyproject.toml` and `constraints.txt`: `.runtime` for what
+derives and typesets, `.tests` for the linters and the test suite besides. A mark stands there while packages are being
+installed; if it is found, that installation was cut short and the environment is made anew.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / ".venv"
+PYTHON = VENV / "bin" / "python"
+UNFINISHED = VENV / ".unfinished"
+OLDEST = (3, 11)
+
+
+class Stopped(Exception):
+    """The environment cannot be made; the message is one line with its mend."""
+
+
+@contextmanager
+def alone() -> Iterator[None]:
+    """Only one at a time: a second `make` waits here, then finds the work done."""
+    lock = os.open(ROOT / ".venv.lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            print("waiting for another make, which is setting up .venv", flush=True)
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(lock)
+
+
+def fingerprint() -> str:
+    """Changes with anything that the environment is made from."""
+    sources = [ROOT / "pyproject.toml", ROOT / "constraints.txt", Path(__file__)]
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
+
+
+def works(uv: str | None) -> bool:
+    """Whether the Python in `.venv` runs, is new enough, and can install packages."""
+    installer = bool(uv) or "importlib.util.find_spec('pip')"
+    probe = f"import sys, importlib.util; sys.exit(sys.version_info < {OLDEST} or not {installer})"
+    try:
+        return subprocess.run([PYTHON, "-I", "-c", probe], capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
+def has_venv() -> bool:
+    """Whether this Python can do without uv; Debian splits these modules off."""
+    return bool(importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip"))
+
+
+def check_tools(uv: str | None) -> None:
+    name = Path(sys.executable).name or "python3"
+    if sys.version_info < OLDEST:
+        this = sys.version.split()[0]
+        raise Stopped(
+            f"error[python]: derive needs Python 3.11 or later, and this is {this}: install a newer one, or uv"
+        )
+    if not uv and not has_venv():
+        mend = f"`apt install {name}-venv`, or install uv, then `make` again"
+        raise Stopped(f"error[venv]: {name} has no working venv module: {mend}")
+
+
+def run(command: list[str], failed: str) -> None:
+    """Run quietly; of what a failing installer says, show the few lines that tell why, without addresses."""
+    done = subprocess.run(
+        command, cwd=ROOT, env={**os.environ, **PINS}, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+    if done.returncode:
+        lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
+        reasons = [line for line in lines if re.match(r"(?i)error|fatal|.*no space left|×", line)] or lines
+        reason = re.sub(r"\w+://\S+", "(address)", "; ".join(reasons[-2:]) or f"exit code {done.returncode}")
+        raise Stopped(f"error[install]: {failed}: {reason}")
+
+
+WANTED = {
+    ".runtime": ("SymPy and the TeX engine (once, about 60 MB)", "."),
+    ".tests": ("SymPy, the TeX engine and the test tools (once, about 100 MB)", ".[test]"),
+}
+
+# Both the packages and what builds the editable install keep to the pinned versions.
+PINS = dict.fromkeys(
+    ["PIP_CONSTRAINT", "PIP_BUILD_CONSTRAINT", "UV_CONSTRAINT", "UV_BUILD_CONSTRAINT"], "constraints.txt"
+)
+
+
+def install(stamp: str, uv: str | None) -> None:
+    if UNFINISHED.exists() or not works(uv):
+        print(f"making .venv with Python {sys.version.split()[0]}", flush=True)
+        shutil.rmtree(VENV, ignore_errors=True)
+        venv = [uv, "venv", "--quiet", "--python", sys.executable] if uv else [sys.executable, "-I", "-m", "venv"]
+        run([*venv, str(VENV)], "cannot make .venv")
+    UNFINISHED.touch()
+    what, package = WANTED[stamp]
+    print(f"installing {what}", flush=True)
+    pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else [str(PYTHON), "-I", "-m", "pip", "install"]
+    run([*pip, "--quiet", "--editable", package], "cannot install the packages, run `make` again to retry")
+    UNFINISHED.unlink()
+
+
+def set_up(stamp: str) -> None:
+    wanted = fingerprint()
+    uv = shutil.which("uv")
+    check_tools(uv)
+    with alone():
+        mark = VENV / stamp
+        if not (mark.is_file() and mark.read_text() == wanted and works(uv)) or UNFINISHED.exists():
+            try:
+                install(stamp, uv)
+            except Stopped as stopped:
+                if not uv or not has_venv():
+                    raise
+                print(f"{stopped}\ntrying pip instead of uv", flush=True)  # it may know a way that uv was not told
+                install(stamp, None)
+        for name in {stamp, ".runtime"}:
+            (VENV / name).write_text(wanted)
+
+
+def main() -> int:
+    try:
+        set_up(sys.argv[1])
+    except Stopped as stopped:
+        print(stopped, file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"error[cannot-write]: cannot set up .venv: {error.strerror}: {error.filename}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted; the next make carries on", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
