@@ -198,8 +198,10 @@ def _value(
     """The number of an answer: in the unit and to the figures that the part asks for."""
     form = part.form_of(answer.key)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
-        if form.places and answer.coordinates and (answer.key in part.forms or len(part.answers) == 1):
-            message = f"`{answer.key}` is a relation between things that move: no number of it could have a unit"
+        # An inequality may well be solved for a letter once other values are given: its unit waits for that.
+        never = answer.value.mark == "=" and answer.coordinates
+        if form.places and never and (answer.key in part.forms or len(part.answers) == 1):
+            message = f"`{answer.key}` is an equation between things that move: no number of it could have a unit"
             raise Rejected(Complaint("wrong-unit", message, form.places[0], help="leave its `unit` out"))
         return None
     kind, dimension = _kind_of(problem, answer, dimensions)

@@ -9,7 +9,7 @@ import pytest
 
 from derive.building.solution import Rendered, rendered
 from derive.errors import Complaint, Rejected
-from tests.courses import ROOT
+from tests.courses import ROOT, course_in, rendered_once
 
 SCRIPT = '''"""Numbers of a pendulum that are only named."""
 
@@ -74,3 +74,15 @@ def test_a_unit_of_another_dimension_is_told_where_it_is_written(tmp_path: Path)
     assert complaint.message == "`share` is a number, which is not measured in `m`"
     assert complaint.place
     assert complaint.place.text[complaint.place.column - 1 :].startswith("m]")
+
+
+def test_an_equation_of_motion_has_no_unit(tmp_path: Path) -> None:
+    course_in(tmp_path, {"    answer: [equation_of_motion, frequency]\n": UNIT_OF_THE_EQUATION}, problem="slab")
+    with pytest.raises(Rejected, match="is an equation between things that move"):
+        rendered_once(tmp_path, "hw9/slab")
+
+
+UNIT_OF_THE_EQUATION = """\
+    answer: [equation_of_motion, frequency]
+    form: {equation_of_motion: {unit: [m/s^2]}}
+"""
