@@ -161,6 +161,7 @@ def _step_to_data(step: Step) -> dict[str, Any]:
         "stands_for": step.stands_for,
         "names": [[encoded(name), encoded(value)] for name, value in step.names],
         "motion": [[encoded(rate), encoded(value)] for rate, value in step.motion],
+        "law_at": step.law_at,
     }
 
 
@@ -187,4 +188,5 @@ def _step_from_data(data: dict[str, Any]) -> Step:
         stands_for=tuple(data["stands_for"]),
         names=tuple((decoded(name), decoded(value)) for name, value in data["names"]),
         motion=tuple((decoded(rate), decoded(value)) for rate, value in data["motion"]),
+        law_at=data["law_at"],
     )

@@ -13,12 +13,16 @@ formula, and with their *values*, which gives the substitution; the tidy value o
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Collection, Mapping, Sequence
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from sympy import Expr, MatrixBase, Symbol
 from sympy.core.symbol import Str
 
+from derive import FOLDER
 from derive.algebra.equality import Evidence, Grade, equal
 from derive.algebra.expressions import Relation, bound, explicit
 from derive.algebra.tidy import tidied
@@ -151,10 +155,17 @@ def establish(
         stands_for=tuple(stands_for),
         names=names_in([symbol, *(form.expr for form in chain)], bindings),
         motion=tuple((motion or {}).items()),
+        law_at=_place_of_verb(sys._getframe(1)),
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {}, subject)
     record.add(quantity, case_of)
     return quantity
+
+
+def _place_of_verb(frame: FrameType) -> str:
+    """Where a verb hands over its law, by the path in this package; empty for a verb from elsewhere."""
+    file = Path(frame.f_code.co_filename)
+    return f"{file.relative_to(FOLDER).as_posix()}:{frame.f_lineno}" if file.is_relative_to(FOLDER) else ""
 
 
 def _as_told(told: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:

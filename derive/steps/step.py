@@ -57,7 +57,8 @@ class Step:
     The symbol of a step that yields a relation is None: the page refers to it by its number. `coordinates` are those
     that the step brings in, with their kinds. `stands_for` are keys of steps that there would be in another case: two
     roots where there is only one. `names` are those in its lines that came from earlier steps, with the values put in
-    for them; `motion` is what the equations of motion make of the rates, for a line that holds by them.
+    for them; `motion` is what the equations of motion make of the rates, for a line that holds by them. `law_at` is
+    where the law stands in the code, as `mechanics/rotation/vectors.py:120`.
     """
 
     key: str
@@ -74,6 +75,7 @@ class Step:
     stands_for: tuple[str, ...] = ()
     names: tuple[tuple[Any, Any], ...] = ()
     motion: tuple[tuple[Symbol, Any], ...] = ()
+    law_at: str = field(default="", compare=False)
 
     @property
     def result(self) -> Any:
