@@ -66,18 +66,22 @@ class Grade(StrEnum):
 LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
 
 
+class Compared(StrEnum):
+    """What a piece of evidence is about: two lines of a chain, a second route, or nothing but what a name means."""
+
+    LINES = "lines"
+    ROUTE = "route"
+    NOTHING = "nothing"
+
+
 @dataclass(frozen=True)
 class Evidence:
-    """One claim about a step, how it was decided, and what is needed to look again."""
+    """One claim about a step, what was compared for it, how it was decided, and what is needed to look again."""
 
     claim: str
+    compared: Compared
     grade: Grade
     detail: str = ""
-
-    @property
-    def is_of_line(self) -> bool:
-        """Whether it compares two lines of a chain; else it is of a second route, or of a definition."""
-        return self.claim.startswith("line ")
 
 
 @dataclass(frozen=True)

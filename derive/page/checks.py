@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from derive.algebra.equality import Evidence, Grade
+from derive.algebra.equality import Compared, Evidence, Grade
 from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
 from derive.page.wording import Node, Phrases, filled
@@ -76,8 +76,8 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
     """What was done for these steps, and how the source document compares."""
     steps = list(steps)
     evidence = [(step, e) for step in steps for e in step.evidence]
-    lines = [e for _, e in evidence if e.is_of_line]
-    routes = [(step, e) for step, e in evidence if not e.is_of_line and e.grade is not Grade.DEFINITION]
+    lines = [e for _, e in evidence if e.compared is Compared.LINES]
+    routes = [(step, e) for step, e in evidence if e.compared is Compared.ROUTE]
     outcomes = [told.outcome for told in compared]
     return Checks(
         steps=Counter(step.grade for step in steps),

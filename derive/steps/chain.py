@@ -11,7 +11,7 @@ from typing import Any
 
 from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, diff, preorder_traversal
 
-from derive.algebra.equality import Evidence, Grade, Verdict, equal
+from derive.algebra.equality import Compared, Evidence, Grade, Verdict, equal
 from derive.algebra.expressions import Relation, Truncated, bound, component_names, explicit
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Unverified
@@ -60,7 +60,7 @@ def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any
     verdict = equal(left, right)
     if not verdict:
         raise refused(key, f"its left side {symbol} is not its first line", left, right, verdict)
-    return [Evidence("line 1 equals the left side", verdict.grade, verdict.detail)]
+    return [Evidence("line 1 equals the left side", Compared.LINES, verdict.grade, verdict.detail)]
 
 
 def check_last_line(
@@ -106,7 +106,7 @@ def line_evidence(
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:
         raise refused(key, f"line {i + 1} ({form.because}) does not follow from line {i}", left, right, verdict)
-    return Evidence(claim, verdict.grade, verdict.detail)
+    return Evidence(claim, Compared.LINES, verdict.grade, verdict.detail)
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
@@ -119,7 +119,7 @@ def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
     for n in range(int(order) + 1):
         if not vanishes(diff(rest, x, n).subs(x, place)):
             raise Unverified(Complaint("unverified", f"`{key}`: the series is wrong at order {n} in {x}"))
-    return Evidence(claim, Grade.APPROXIMATION, f"to order {order} in {x}")
+    return Evidence(claim, Compared.LINES, Grade.APPROXIMATION, f"to order {order} in {x}")
 
 
 def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Evidence:
@@ -129,7 +129,7 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
     offender = off_by_more_than_half_a_unit(exact, rounded)
     if offender:
         raise Unverified(Complaint("unverified", f"`{key}`: {offender[0]} is not {offender[1]} rounded"))
-    return Evidence(claim, Grade.APPROXIMATION, "within half a unit of the last place")
+    return Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "within half a unit of the last place")
 
 
 def route_evidence(key: str, claim: str, found: tuple[Any, Any] | Verdict) -> Evidence:
@@ -142,7 +142,7 @@ def route_evidence(key: str, claim: str, found: tuple[Any, Any] | Verdict) -> Ev
         verdict = equal(left, right)
     if not verdict:
         raise refused(key, f"its second route `{claim}` disagrees", left, right, verdict)
-    return Evidence(claim, verdict.grade, verdict.detail)
+    return Evidence(claim, Compared.ROUTE, verdict.grade, verdict.detail)
 
 
 def refused(key: str, what: str, left: Any, right: Any, verdict: Verdict) -> Unverified:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.algebra.encoding import decoded, encoded
-from derive.algebra.equality import Evidence, Grade
+from derive.algebra.equality import Compared, Evidence, Grade
 from derive.algebra.expressions import Relation
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.record import Run
@@ -154,7 +154,7 @@ def _step_to_data(step: Step) -> dict[str, Any]:
         "inputs": step.inputs,
         "roles": [[role, encoded(symbol)] for role, symbol in step.roles],
         "outcome": step.outcome,
-        "evidence": [[e.claim, e.grade, e.detail] for e in step.evidence],
+        "evidence": [[e.claim, e.compared, e.grade, e.detail] for e in step.evidence],
         "kind": step.kind,
         "words": step.words,
         "coordinates": [[encoded(q), kind] for q, kind in step.coordinates],
@@ -181,7 +181,7 @@ def _step_from_data(data: dict[str, Any]) -> Step:
         inputs=tuple(data["inputs"]),
         roles=tuple((role, decoded(symbol)) for role, symbol in data["roles"]),
         outcome=data["outcome"],
-        evidence=tuple(Evidence(claim, Grade(grade), detail) for claim, grade, detail in data["evidence"]),
+        evidence=tuple(Evidence(claim, Compared(of), Grade(grade), detail) for claim, of, grade, detail in data["evidence"]),
         kind=data["kind"],
         words=tuple((name, key) for name, key in data["words"]),
         coordinates=tuple((decoded(q), kind) for q, kind in data["coordinates"]),

@@ -23,7 +23,7 @@ from sympy import Expr, MatrixBase, Symbol
 from sympy.core.symbol import Str
 
 from derive import FOLDER
-from derive.algebra.equality import Evidence, Grade, equal
+from derive.algebra.equality import Compared, Evidence, Grade, equal
 from derive.algebra.expressions import Relation, bound, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
@@ -236,4 +236,4 @@ def _unsupported(key: str, rule: str, definition: bool) -> Evidence:
     """A verb has a second route or says that it only gives something a name."""
     if not definition:
         raise Unverified(Complaint("no-second-route", f"`{key}` has no second route and is not a definition"))
-    return Evidence("definition", Grade.DEFINITION, rule)
+    return Evidence("definition", Compared.NOTHING, Grade.DEFINITION, rule)

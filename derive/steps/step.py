@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol, nan
 
 from derive.algebra.dimensions import kind_with_article
-from derive.algebra.equality import LEAST_SURE_FIRST, Evidence, Grade, Verdict
+from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade, Verdict
 from derive.algebra.expressions import AXES, Relation, component_names, explicit
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
@@ -84,8 +84,8 @@ class Step:
     @property
     def grade(self) -> Grade:
         """As sure as the least sure of its lines, all of which must hold, and as the surest of its second routes."""
-        lines = [e.grade for e in self.evidence if e.is_of_line]
-        routes = [e.grade for e in self.evidence if not e.is_of_line]
+        lines = [e.grade for e in self.evidence if e.compared is Compared.LINES]
+        routes = [e.grade for e in self.evidence if e.compared is not Compared.LINES]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
         return min([*lines, *surest], key=LEAST_SURE_FIRST.index)
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from sympy import Expr, Integer, Matrix, MatrixSymbol, Rational, Symbol, cos, sin, symbols
 
-from derive.algebra.equality import Grade
+from derive.algebra.equality import Compared, Grade
 from derive.algebra.expressions import Dot, Truncated, column, scalar, vector
 from derive.algebra.rounding import Rounded
 from derive.errors import Unverified
@@ -74,7 +74,7 @@ def test_a_line_that_does_not_follow_is_refused_wherever_it_stands(place: str) -
 
 def test_a_line_that_follows_is_kept_with_its_evidence() -> None:
     s = sum_of_squares(between=[Form(a**2 + 2 * a * b + b**2 - 2 * a * b, "expanded", Level.FULL)])
-    assert len([e for e in s.step.evidence if e.claim.startswith("line ")]) == len(s.step.chain) - 1
+    assert len([e for e in s.step.evidence if e.compared is Compared.LINES]) == len(s.step.chain) - 1
     assert {e.grade for e in s.step.evidence} == {Grade.PROVED}
 
 
