@@ -181,7 +181,9 @@ def _step_from_data(data: dict[str, Any]) -> Step:
         inputs=tuple(data["inputs"]),
         roles=tuple((role, decoded(symbol)) for role, symbol in data["roles"]),
         outcome=data["outcome"],
-        evidence=tuple(Evidence(claim, Compared(of), Grade(grade), detail) for claim, of, grade, detail in data["evidence"]),
+        evidence=tuple(
+            Evidence(claim, Compared(of), Grade(grade), detail) for claim, of, grade, detail in data["evidence"]
+        ),
         kind=data["kind"],
         words=tuple((name, key) for name, key in data["words"]),
         coordinates=tuple((decoded(q), kind) for q, kind in data["coordinates"]),

@@ -15,14 +15,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Collection, Mapping, Sequence
-from pathlib import Path
 from types import FrameType
 from typing import Any
 
 from sympy import Expr, MatrixBase, Symbol
 from sympy.core.symbol import Str
 
-from derive import FOLDER
 from derive.algebra.equality import Compared, Evidence, Grade, equal
 from derive.algebra.expressions import Relation, bound, explicit
 from derive.algebra.tidy import tidied
@@ -41,7 +39,7 @@ from derive.steps.chain import (
 )
 from derive.steps.outcomes import GENERIC, Facts, holds, told_rightly
 from derive.steps.record import coordinates_in
-from derive.steps.step import Form, Law, Level, Quantity, Route, Step, is_zero, same_value, value_behind
+from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
 
 
@@ -63,7 +61,7 @@ def establish(
     show_result: bool = True,
     law_shown: Level = Level.BRIEF,
     parents: Sequence[Quantity] = (),
-    context: Mapping[str, Any] | None = None,
+    facts: Sequence[Fact] = (),
     words: Mapping[str, str] | None = None,
     coordinates: Mapping[Symbol, str] | None = None,
     stands_for: Sequence[str] = (),
@@ -96,6 +94,7 @@ def establish(
     case_of   the general quantity of the same symbol that this is a particular case of
     told      role -> a formula that only the sentence has, with the same by another way
     points_to role -> a parent that the sentence names, by its letter or its number
+    facts     what the quantity hands on besides its value
     judged_by what else the outcome is judged by, besides the result and the inputs
     put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
     Raises `Unverified`, naming the step, when a line or a route disagrees.
@@ -138,8 +137,8 @@ def establish(
     subject = together.with_more(about(result) if callable(about) else about)
     chosen = outcome(result) if callable(outcome) else outcome
     values = {**dict(zip(inputs, given, strict=True)), **_as_told(told or {}), **(judged_by or {})}
-    facts = Facts(result, values, quantities, plain_symbol, subject, words or {})
-    _check_outcome(key, rule, chosen, facts, may_be_zero=callable(outcome))
+    judged = Facts(result, values, quantities, plain_symbol, subject, words or {})
+    _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
     step = Step(
         key=key,
         rule=rule,
@@ -157,15 +156,15 @@ def establish(
         motion=tuple((motion or {}).items()),
         law_at=_place_of_verb(sys._getframe(1)),
     )
-    quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), context or {}, subject)
+    quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
     record.add(quantity, case_of)
     return quantity
 
 
 def _place_of_verb(frame: FrameType) -> str:
-    """Where a verb hands over its law, by the path in this package; empty for a verb from elsewhere."""
-    file = Path(frame.f_code.co_filename)
-    return f"{file.relative_to(FOLDER).as_posix()}:{frame.f_lineno}" if file.is_relative_to(FOLDER) else ""
+    """Where a verb hands over its law; empty for a verb from elsewhere."""
+    module = str(frame.f_globals["__name__"])
+    return f"{module.replace('.', '/')}.py:{frame.f_lineno}" if module.partition(".")[0] == "derive" else ""
 
 
 def _as_told(told: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:

@@ -5,10 +5,10 @@ A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.ste
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any, NoReturn
+from typing import Any, ClassVar, NoReturn, TypeVar
 
 from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol, nan
 
@@ -58,7 +58,7 @@ class Step:
     that the step brings in, with their kinds. `stands_for` are keys of steps that there would be in another case: two
     roots where there is only one. `names` are those in its lines that came from earlier steps, with the values put in
     for them; `motion` is what the equations of motion make of the rates, for a line that holds by them. `law_at` is
-    where the law stands in the code, as `mechanics/rotation/vectors.py:120`.
+    where the law stands in the code, as `derive/mechanics/rotation/vectors.py:120`.
     """
 
     key: str
@@ -90,31 +90,17 @@ class Step:
         return min([*lines, *surest], key=LEAST_SURE_FIRST.index)
 
 
-_FACTS = {
-    "angles": "is not in Euler's angles",
-    "bound": "has no bound",
-    "body": "belongs to no body",
-    "about": "is about no point",
-    "coordinate": "is not an equation of one coordinate",
-    "lagrangian": "does not come from a Lagrangian",
-    "matter": "has no mass points and forces behind it",
-    "quadratic": "is not the roots of a quadratic equation",
-    "tensor": "is not the principal moments of a tensor",
-    "top": "does not belong to a top",
-    "through": "is not an angular velocity",
-}
+class Fact:
+    """What a quantity hands on, besides its value, to the verbs that need it.
+
+    Each kind of fact is a frozen dataclass beside the verb that hands it on; `missing` is what a message says of a
+    quantity that has none.
+    """
+
+    missing: ClassVar[str] = "is not of the kind that is needed here"
 
 
-class _HandedOn(dict[str, Any]):
-    """What a quantity hands on to the verbs that need it; what it has not is a fault of the script, not of ours."""
-
-    def __init__(self, key: str, facts: Mapping[str, Any]):
-        super().__init__(facts)
-        self.key = key
-
-    def __missing__(self, name: str) -> NoReturn:
-        why = _FACTS.get(name, "is not of the kind that is needed here")
-        raise Rejected(Complaint("wrong-argument", f"`{self.key}` {why}"))
+F = TypeVar("F", bound=Fact)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +113,7 @@ class Quantity:
     value: Any
     step: Step
     parents: tuple[Quantity, ...] = ()
-    context: Mapping[str, Any] = field(default_factory=dict)
+    facts: tuple[Fact, ...] = ()
     subject: Subject = NOTHING
 
     @property
@@ -144,8 +130,16 @@ class Quantity:
         own = dict(self.step.coordinates)
         return {**own, **{q: kind for parent in self.parents for q, kind in parent.coordinates.items()}}
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "context", _HandedOn(self.step.key, self.context))
+    def fact(self, kind: type[F]) -> F | None:
+        """What it hands on of that kind, if anything."""
+        return next((fact for fact in self.facts if isinstance(fact, kind)), None)
+
+    def needed(self, kind: type[F]) -> F:
+        """What it hands on of that kind; a quantity that has none is refused as a fault of the script."""
+        found = self.fact(kind)
+        if found is None:
+            raise Rejected(Complaint("wrong-argument", f"`{self.key}` {kind.missing}"))
+        return found
 
     def ancestors(self) -> Iterator[Quantity]:
         """Every quantity that it rests on, itself first."""

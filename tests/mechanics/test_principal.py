@@ -21,6 +21,7 @@ from derive.mechanics import (
     principal_moments,
 )
 from derive.mechanics.bodies.body import Body
+from derive.mechanics.rotation.principal import PrincipalOf
 from tests.mechanics.round_bodies import M, R, a, h
 
 b, c = symbols("b c", positive=True)
@@ -43,7 +44,10 @@ def moments_of(body: Body, about: str = "centre") -> Any:
 def test_axes_are_put_back_and_make_a_right_handed_frame(body: Body, about: str, outcome: str) -> None:
     moments = moments_of(body, about)
     assert moments.step.outcome == outcome
-    tensor, frame = moments.context["tensor"].value, Matrix.hstack(*(Matrix(e.value) for e in principal_axes(moments)))
+    tensor, frame = (
+        moments.needed(PrincipalOf).tensor.value,
+        Matrix.hstack(*(Matrix(e.value) for e in principal_axes(moments))),
+    )
     assert (frame.T * frame - eye(3)).applyfunc(simplify) == zeros(3)
     assert simplify(frame.det()) == 1
     assert (tensor * frame - frame * Matrix.diag(*moments.value)).applyfunc(simplify) == zeros(3)

@@ -64,7 +64,7 @@ ONE_FOR_ANOTHER = {
     "symbol": "value",
 }
 ONE_FOR_ANOTHER |= {other: one for one, other in ONE_FOR_ANOTHER.items()}
-DROPPED = {"differ", "about", "means", "case_of", "judged_by", "motion", "nonzero", "words", "context", "between"}
+DROPPED = {"differ", "about", "means", "case_of", "judged_by", "motion", "nonzero", "words", "facts", "between"}
 
 
 @dataclass

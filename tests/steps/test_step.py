@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
@@ -11,11 +12,12 @@ from sympy import Expr, Integer, Matrix, MatrixSymbol, Rational, Symbol, cos, si
 from derive.algebra.equality import Compared, Grade
 from derive.algebra.expressions import Dot, Truncated, column, scalar, vector
 from derive.algebra.rounding import Rounded
-from derive.errors import Unverified
+from derive.errors import Rejected, Unverified
+from derive.mechanics import let
 from derive.steps.establish import establish
 from derive.steps.outcomes import _PREDICATES, outcomes_of
 from derive.steps.record import recorded
-from derive.steps.step import Form, Level, Quantity, compared_with, entry_name, is_zero, scalar_component
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, entry_name, is_zero, scalar_component
 
 a, b, x = symbols("a b x", positive=True)
 
@@ -269,3 +271,25 @@ def test_an_outcome_that_belies_the_result_is_refused(outcome: str, zero: bool) 
     )
     assert complaint.code == "unverified"
     assert outcome in complaint.message
+
+
+@dataclass(frozen=True)
+class Weighed(Fact):
+    missing = "was never weighed"
+    scale: str
+
+
+def test_a_quantity_hands_on_what_verbs_need_of_it_by_its_kind() -> None:
+    s = sum_of_squares(facts=[Weighed("kitchen")])
+    assert s.needed(Weighed) == s.fact(Weighed) == Weighed("kitchen")
+
+
+def test_what_a_quantity_does_not_hand_on_is_a_fault_of_the_script() -> None:
+    assert sum_of_squares().fact(Weighed) is None
+    with pytest.raises(Rejected, match="`sum_of_squares` was never weighed"):
+        sum_of_squares().needed(Weighed)
+
+
+def test_a_step_knows_the_line_at_which_a_verb_of_the_package_hands_over_its_law() -> None:
+    assert sum_of_squares().step.law_at == ""  # this file is none of the package
+    assert let("s", lambda: a + b).step.law_at.startswith("derive/mechanics/equations/values.py:")

@@ -20,6 +20,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import Factors, Ratio, column, component_names, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
@@ -306,7 +307,7 @@ def centre_of_mass(
         between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis],
         kind="length",
         put_in=Level.FULL,
-        context={"point": body.middle, "from": start},
+        facts=[CountedFrom(start)],
         words={"start": start.name},
         key=key,
         about=Subject(body=body, point=start),

@@ -8,6 +8,7 @@ are wanted for which the equations, added up, hold them alike.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, gcd_list
@@ -17,11 +18,19 @@ from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, bound
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.trajectory import followed
+from derive.mechanics.rotation.vectors import RateByParticles
 from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_rate
 from derive.steps.establish import establish
-from derive.steps.step import Form, Level, Quantity, compared_with
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 
 HIGHEST = 2  # the order of the rates that equations of motion determine
+
+
+@dataclass(frozen=True)
+class Acting(Fact):
+    """The torque on a body in its equations of motion, column (3), N m."""
+
+    torque: Any
 
 
 def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
@@ -41,8 +50,8 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     motion = highest_rates(equations, moving)
     own_rate = explicit(TimeRate(quantity.value, *moving))
     common, factors = _multipliers(own_rate, equations, list(motion))
-    matter, in_any_axes = quantity.context.get("rate"), quantity.context.get("any_axes")
-    torque = next((equation.context["torque"] for equation in equations if "torque" in equation.context), None)
+    of_body = quantity.fact(RateByParticles)
+    acting = next((torque for equation in equations if (torque := equation.fact(Acting))), None)
     products = _products(quantity, equations, factors, motion)
     known = [_sum(quantity, products, motion)] if len(products) > 1 else products
 
@@ -58,8 +67,8 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
         routes={
             "functions_of_time": compared_with(lambda: bound(in_time, motion)),
             "sum": compared_with(lambda: in_time - taken_off),
-            **({"matter": lambda value: (value + taken_off, matter())} if matter else {}),
-            **({"any_axes": lambda value: (value, in_any_axes(torque))} if in_any_axes and torque is not None else {}),
+            **({"matter": lambda value: (value + taken_off, of_body.rate())} if of_body else {}),
+            **({"any_axes": lambda value: (value, of_body.in_any_axes(acting.torque))} if of_body and acting else {}),
             "followed": lambda value: followed(quantity.value, value, motion),
         },
         outcome=lambda value: "conserved" if value == 0 else "changes",

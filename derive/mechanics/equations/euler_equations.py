@@ -6,12 +6,12 @@ acceleration is that of a place in a turning body, and no tensor is used.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, diag
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Symbol, diag
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_products
@@ -35,11 +35,13 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.equations.conservation import highest_rates
+from derive.mechanics.equations.conservation import Acting, highest_rates
+from derive.mechanics.rotation.vectors import RateByParticles, Through
 from derive.steps.establish import establish
 from derive.steps.record import require_constant
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
 
 NO_TORQUE = (Integer(0), Integer(0), Integer(0))
@@ -89,6 +91,23 @@ class RigidBody:
         return sum(others, first)
 
 
+@dataclass(frozen=True)
+class RateOfMomentum(Fact):
+    """The rate of an angular momentum: by the particles of the body, and the components of omega that change."""
+
+    missing = "is not the rate of an angular momentum"
+    by_particles: Callable[[], Any]
+    moving: tuple[Symbol, ...]
+
+
+@dataclass(frozen=True)
+class MotionOfBody(Fact):
+    """What the equations of motion make of the angular accelerations."""
+
+    missing = "does not come from equations of motion"
+    motion: Mapping[Symbol, Expr]
+
+
 def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
     """Inertia tensor in principal axes, I = diag(I_x, I_y, I_z), in kg m^2: a definition.
 
@@ -104,7 +123,7 @@ def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_ten
         outcome=_symmetry(body),
         definition=True,
         kind="moment of inertia",
-        context={"body": body, "about": body.point},
+        facts=[OfBody(body), AboutPoint(body.point)],
         words={"about": body.about},
         key=key,
         about=Subject(body=body, point=body.point),
@@ -134,7 +153,7 @@ def changing_angular_velocity(
         definition=True,
         kind="angular speed",
         coordinates=dict.fromkeys(names, "angular speed"),
-        context={"through": through},
+        facts=[Through(through)],
         key=key,
         about=Subject(rotation=column(*names)),
     )
@@ -157,9 +176,9 @@ def rate_in_space(
     require_kind("rate_in_space", "momentum", momentum, "angular momentum")
     require_kind("rate_in_space", "omega", omega, "angular speed")
     moving = list(omega.coordinates)
-    motion = in_body.context["motion"] if in_body else {}
+    motion = in_body.needed(MotionOfBody).motion if in_body else {}
     L, w = momentum, omega
-    turned, matter = CarriedRate(L.value, w.value, *moving), L.context["rate"]
+    turned, matter = CarriedRate(L.value, w.value, *moving), L.needed(RateByParticles).rate
 
     def law(momentum: Any, omega: Any, seen: Any = None) -> Any:
         return MatAdd(BodyRate(momentum, *moving) if seen is None else seen, Cross(omega, momentum))
@@ -190,9 +209,9 @@ def rate_in_space(
         },
         outcome=lambda value: _constancy(value, in_body),
         kind="torque",
-        words={"about": L.context["about"]},
+        words={"about": L.needed(AboutPoint).point.name},
         means=motion,
-        context={"rate": matter, "moving": moving},
+        facts=[RateOfMomentum(matter, tuple(moving))],
         key=key,
     )
 
@@ -232,7 +251,8 @@ def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE)
 
 def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> Quantity:
     """One component of dL/dt = N."""
-    moving = rate.context["moving"]
+    of = rate.needed(RateOfMomentum)
+    moving = of.moving
     acting = torque[i]
     return establish(
         "free_rotation.euler_equation",
@@ -242,13 +262,13 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         put_in=None,
         arranged=lambda value: Relation(by_products(explicit(value.left), moving), "=", value.right),
         law_shown=Level.FULL,
-        routes={"matter": lambda value: (value, Relation(explicit(rate.context["rate"]())[i], "=", acting))},
+        routes={"matter": lambda value: (value, Relation(explicit(of.by_particles())[i], "=", acting))},
         outcome=_coupling(rate.value, moving, i, torque),
         words={"axis": AXES[i]},
         judged_by={"torque": column(*torque), "rate": rate.value, "moving": list(moving)},
         kind="torque",
         key=f"euler_{AXES[i]}",
-        context={"torque": column(*torque)},
+        facts=[Acting(column(*torque))],
     )
 
 
@@ -300,6 +320,6 @@ def rate_in_body(
         means=motion,
         kind="torque",
         parents=list(equations),
-        context={"motion": motion},
+        facts=[MotionOfBody(motion)],
         key=key,
     )

@@ -58,7 +58,6 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
         outcome="conditional" if has_root else "squared",
         words={"strictly": "not_negative" if or_zero else "positive"},
         key=key,
-        context={"of": of},
         arranged=lambda _: Relation(alone, turned, bound),
     )
 
@@ -75,7 +74,6 @@ def _of_known_sign(of: Quantity, value: Expr, key: str) -> Quantity:
         routes={"sign": lambda found: (found.residual, of_the_size(value, found.mark))},
         outcome=outcome,
         key=key,
-        context={"of": of},
         arranged=explicit,
     )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, exp, prime, sqrt
 
 from derive.algebra.collect import spread
@@ -9,10 +11,19 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import T
+from derive.mechanics.systems.coordinates import OfCoordinate, T
+from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import establish
 from derive.steps.record import require_constant
-from derive.steps.step import Quantity, compared_with
+from derive.steps.step import Fact, Quantity, compared_with
+
+
+@dataclass(frozen=True)
+class SquareOf(Fact):
+    """The letter of what this is the square of."""
+
+    missing = "is not the square of a frequency"
+    letter: str
 
 
 def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearised") -> Quantity:
@@ -25,7 +36,7 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
     Errors: the value is no equilibrium; another coordinate occurs in the equation.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
-    q, place = equation.context["coordinate"].symbol, at if at is not None else Integer(0)
+    q, place = equation.needed(OfCoordinate).coordinate.symbol, at if at is not None else Integer(0)
     others = [c for c in equation.coordinates if c != q and equation.value.left.has(c, rate(c), rate(c, 2))]
     if others:
         message = f"`linearised` needs an equation of {q.name} alone, but `{equation.key}` also has {others[0].name}"
@@ -40,7 +51,7 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
     first = diff(moved, small).subs(small, 0)
 
     def of_second_order() -> Relation:
-        energies = explicit(equation.context["lagrangian"].value)
+        energies = explicit(equation.needed(FromLagrangian).lagrangian.value)
         at_rest = {q: place, rate(q): Integer(0)}
         mass, stiffness = energies.diff(rate(q), 2).subs(at_rest), -energies.diff(q, 2).subs(at_rest)
         return Relation(mass * rate(q, 2) + stiffness * q, "=", 0)
@@ -56,7 +67,7 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
         judged_by={"place": place},
         key=key,
         parents=[equation],
-        context={"coordinate": equation.context["coordinate"]},
+        facts=[equation.needed(OfCoordinate)],
         arranged=explicit,
     )
 
@@ -74,7 +85,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
-    q = linear.context["coordinate"].symbol
+    q = linear.needed(OfCoordinate).coordinate.symbol
     left = linear.value.left
     stiffness, mass = spread(diff(left, q)), spread(diff(left, rate(q, 2)))
     damping = diff(left, rate(q))
@@ -103,7 +114,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         kind="squared angular speed",
         parents=[linear],
         points_to={"linear": linear},
-        context={"name": symbol},
+        facts=[SquareOf(symbol)],
         means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
     )
 
@@ -126,7 +137,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     """
     outcome = sign_of(squared.value)
     grows = outcome == "unstable"
-    name = symbol or ("kappa" if grows else squared.context["name"])
+    name = symbol or ("kappa" if grows else squared.needed(SquareOf).letter)
     trial = Symbol("w", positive=True)
 
     def satisfies(found: Expr) -> tuple[Expr, Expr]:

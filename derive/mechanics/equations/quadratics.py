@@ -17,7 +17,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.steps.establish import establish
 from derive.steps.known_numbers import sign_known
-from derive.steps.step import Quantity
+from derive.steps.step import Fact, Quantity
 
 FOUR = Integer(4)
 
@@ -52,6 +52,17 @@ def coefficients_of(equation: Quantity, x: Symbol) -> Quadratic:
     return Quadratic(*(turn * each for each in (*missing, *polynomial.all_coeffs())))
 
 
+@dataclass(frozen=True)
+class Roots(Fact):
+    """The quadratic equation that roots are those of: in letters, with values put in, its unknown, these values."""
+
+    missing = "is not the roots of a quadratic equation"
+    general: Quadratic
+    quadratic: Quadratic
+    unknown: Symbol
+    values: tuple[Quantity, ...]
+
+
 def _put_in(values: Sequence[Quantity]) -> dict[Any, Any]:
     return {q.symbol: q.value for q in values}
 
@@ -65,8 +76,8 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     Errors: the equation is linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
-    general, here = roots.context["general"], roots.context["quadratic"]
-    values, x = roots.context["values"], roots.context["unknown"]
+    of = roots.needed(Roots)
+    general, here, values, x = of.general, of.quadratic, of.values, of.unknown
     if here.a == 0:
         raise Rejected(Complaint("not-quadratic", f"`{roots.key}` has the root of a linear equation"))
 
@@ -142,7 +153,7 @@ def roots_of(
         told={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
         arranged=lambda found: tidied(found) if linear else _arranged(here, found),
         key=key,
-        context={"general": general, "quadratic": here, "unknown": x, "values": values},
+        facts=[Roots(general, here, x, values)],
         stands_for=one_stands_for if linear else (),
         kind=kind,
     )

@@ -10,7 +10,7 @@ from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size
-from derive.mechanics.rotation.principal import lone_moment
+from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
 from derive.steps.establish import establish
 from derive.steps.step import Form, Level, Quantity, is_zero
 
@@ -142,7 +142,7 @@ def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, An
     if found.mark != "=":
         return nan, nan
     letter, bound = found.sides
-    there = ImmutableDenseMatrix(moments.context["tensor"].value.subs(letter, bound))
+    there = ImmutableDenseMatrix(moments.needed(PrincipalOf).tensor.value.subs(letter, bound))
     return there, moments.value[one].subs(letter, bound) * ImmutableDenseMatrix.eye(3)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial, nan, series
 
 from derive.algebra.collect import spread_or_by_terms
@@ -12,9 +14,18 @@ from derive.mechanics.equations.oscillations import sign_of
 from derive.mechanics.systems.coordinates import only_coordinate
 from derive.steps.establish import establish
 from derive.steps.record import require_constant
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
 HIGHEST = 8  # where a potential is level to this order, nothing is decided
+
+
+@dataclass(frozen=True)
+class DerivativeOf(Fact):
+    """The potential energy that a slope or curvature is one of, and the coordinate that it was differentiated by."""
+
+    missing = "is not the derivative of a potential energy"
+    potential: Quantity
+    coordinate: Symbol
 
 
 def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quantity:
@@ -40,7 +51,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quanti
         outcome=named if order < 3 else "higher",
         key=key or f"{potential.key}_{named}",
         arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
-        context={"potential": potential, "coordinate": q},
+        facts=[DerivativeOf(potential, q)],
     )
 
 
@@ -64,7 +75,8 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
     Errors: U' does not vanish there.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
-    q, potential = curvature.context["coordinate"], curvature.context["potential"]
+    of = curvature.needed(DerivativeOf)
+    q, potential = of.coordinate, of.potential
     place = at if at is not None else Integer(0)
     _check_lasts("curvature_at", potential, q)
     _check_level(potential.value, q, place, potential)

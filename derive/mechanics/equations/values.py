@@ -24,7 +24,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.tidy import size_and_rest
 from derive.errors import Complaint, Rejected
-from derive.mechanics.rotation.vectors import length_by_turning
+from derive.mechanics.rotation.vectors import RateByParticles, Through, length_by_turning
 from derive.steps.establish import establish
 from derive.steps.step import Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
@@ -78,9 +78,9 @@ def _check_same_kind(general: Quantity, particular: Quantity) -> None:
     if opened.step.kind != particular.step.kind:
         message = f"`at`: `{particular.key}` is not of the kind that `{opened.key}` leaves open"
         raise Rejected(Complaint("wrong-argument", message))
-    points = [q.context.get("through") for q in (opened, particular)]
-    if None not in points and points[0] != points[1]:
-        message = f"`at`: `{opened.key}` turns about the {points[0]}, but `{particular.key}` about the {points[1]}"
+    there, here = (q.fact(Through) for q in (opened, particular))
+    if there and here and there != here:
+        message = f"`at`: `{opened.key}` turns about the {there.point}, but `{particular.key}` about the {here.point}"
         raise Rejected(Complaint("wrong-point", message))
 
 
@@ -135,7 +135,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
         key=key or f"{general.key}_here",
         kind=general.step.kind,
         arranged=by_terms,
-        context=general.context,
+        facts=general.facts,
         case_of=general,
     )
 
@@ -183,11 +183,17 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
         routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
         outcome=lambda square: "zero" if square == 0 else "generic",
         key=key,
-        context={
-            **({"rate": lambda: 2 * explicit(Dot(v, of.context["rate"]()))} if "rate" in of.context else {}),
-            **({"any_axes": lambda N: 2 * of.context["any_axes"](N)} if "any_axes" in of.context else {}),
-        },
+        facts=_rate_of_square(of),
     )
+
+
+def _rate_of_square(of: Quantity) -> list[RateByParticles]:
+    """d(v.v)/dt = 2 v.dv/dt, where the rate of the vector is known by particles."""
+    known = of.fact(RateByParticles)
+    if known is None:
+        return []
+    v, in_any_axes = of.value, known.in_any_axes
+    return [RateByParticles(lambda: 2 * explicit(Dot(v, known.rate())), lambda N: 2 * in_any_axes(N))]
 
 
 def let(

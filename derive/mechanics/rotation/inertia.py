@@ -27,6 +27,7 @@ from derive.algebra.expressions import (
 )
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Point, Region
 from derive.steps.establish import establish
@@ -79,7 +80,7 @@ def inertia_tensor(
         outcome=_round_shape if pairs == ROUND else _shape,
         kind="moment of inertia",
         put_in=None,
-        context={"body": body, "about": point},
+        facts=[OfBody(body), AboutPoint(point)],
         words={"about": point.name},
         key=key,
         about=Subject(body=body, point=point),
@@ -286,8 +287,8 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     Errors: the tensor is already about the centre of mass; the centre is counted from another point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
-    body: Body = tensor_there.context["body"]
-    start: Point = tensor_there.context["about"]
+    body: Body = tensor_there.needed(OfBody).body
+    start = tensor_there.needed(AboutPoint).point
     if start.position == body.middle.position:
         message = f"`{tensor_there.key}` is already about the centre of mass"
         raise Rejected(Complaint("already-there", message, help="start from another point, or use the tensor as it is"))
@@ -308,7 +309,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
         kind="moment of inertia",
         parents=[body.density],
         put_in=None,
-        context={"body": body, "about": there},
+        facts=[OfBody(body), AboutPoint(there)],
         words={"about": "centre", "start": start.name},
         key=key,
         about=Subject(body=body, point=there),
@@ -325,9 +326,9 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     Errors: the tensor is not about the centre of mass; the axes are others.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
-    body: Body = inertia.context["body"]
-    target: Point = centre.context["from"]
-    if inertia.context["about"] != replace(body.middle, axes=target.axes):
+    body: Body = inertia.needed(OfBody).body
+    target = centre.needed(CountedFrom).start
+    if inertia.needed(AboutPoint).point != replace(body.middle, axes=target.axes):
         message = f"`{inertia.key}` is not about the centre of mass along the axes of `{centre.key}`"
         raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre"))
     pairs = pairs_left_by_symmetry(body, target)
@@ -342,7 +343,7 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
         kind="moment of inertia",
         parents=[body.density],
         put_in=None,
-        context={"body": body, "about": target},
+        facts=[OfBody(body), AboutPoint(target)],
         words={"about": target.name},
         key=key,
         about=Subject(body=body, point=target),
@@ -351,9 +352,9 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
 
 def _check_start(tensor_there: Quantity, centre: Quantity, start: Point) -> None:
     """Parallel axes hold from the point of the tensor: the centre must be counted from there."""
-    counted_from = centre.context.get("from")
-    if counted_from != start:
-        told = f"from the {counted_from.name}" if isinstance(counted_from, Point) else "from another point"
+    counted = centre.fact(CountedFrom)
+    if counted is None or counted.start != start:
+        told = f"from the {counted.start.name}" if counted else "from another point"
         message = f"`{tensor_there.key}` is about the {start.name}, but `{centre.key}` is counted {told}"
         help_line = f'use centre_of_mass(body, origin="{start.name}")'
         raise Rejected(Complaint("another-origin", message, help=help_line))
@@ -367,8 +368,8 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     """One entry by parallel axes, I_xx = J_xx - M (y^2 + z^2) or I_xy = J_xy + M x y, at r_C = (x, y, z); away from the
     centre with the opposite signs."""
     i, j = pair
-    body: Body = there.context["body"]
-    other: Point = centre.context["from"]
+    body: Body = there.needed(OfBody).body
+    other = centre.needed(CountedFrom).start
     outward = target == other
     sign = 1 if outward else -1
     is_round = pairs_left_by_symmetry(body, other) == ROUND
@@ -418,8 +419,8 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
     Errors: the tensors are not of one body about one point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
-    points = [tensor.context["about"] for tensor in (found, again)]
-    if found.context["body"] != again.context["body"] or points[0].position != points[1].position:
+    points = [tensor.needed(AboutPoint).point for tensor in (found, again)]
+    if found.needed(OfBody) != again.needed(OfBody) or points[0].position != points[1].position:
         message = f"`{found.key}` and `{again.key}` are not tensors of one body about one point"
         raise Rejected(Complaint("not-the-same", message))
     turn = points[0].axes.T * points[1].axes
@@ -432,7 +433,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
         outcome="generic" if turn.is_Identity else "turned",
         kind="moment of inertia",
         put_in=None,
-        context=found.context,
+        facts=found.facts,
         words={"about": points[0].name},
         key=key,
         about=found.subject,

@@ -6,6 +6,7 @@ axis in the plane of theirs is principal, and where all three are, every axis is
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Poly, Symbol, cos, sin, sqrt
@@ -13,8 +14,17 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol,
 from derive.algebra.expressions import Dot, column, explicit, scalar, vector
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.facts import OfBody
 from derive.steps.establish import establish
-from derive.steps.step import Quantity, is_zero, require_kind
+from derive.steps.step import Fact, Quantity, is_zero, require_kind
+
+
+@dataclass(frozen=True)
+class PrincipalOf(Fact):
+    """The tensor that principal moments are those of."""
+
+    missing = "is not the principal moments of a tensor"
+    tensor: Quantity
 
 
 def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principal_moments") -> Quantity:
@@ -55,7 +65,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         outcome=_multiplicity if inertia.value.is_diagonal() else _multiplicity_of_roots,
         kind="moment of inertia",
         put_in=None,
-        context={**inertia.context, "tensor": inertia},
+        facts=[*inertia.facts, PrincipalOf(inertia)],
         key=key,
     )
 
@@ -93,7 +103,7 @@ def _axis(
     key: str,
 ) -> Quantity:
     """One principal axis."""
-    tensor: Quantity = moments.context["tensor"]
+    tensor = moments.needed(PrincipalOf).tensor
     is_free = direction.has(angle)
     return establish(
         "principal.axis",
@@ -128,8 +138,8 @@ def _axis_outcome(moments: Quantity, place: int) -> str:
 
 def _is_round(moments: Quantity) -> bool:
     """Whether the tensor is that of a body which is round about the axis of the single moment, z."""
-    body = moments.context.get("body")
-    return getattr(body, "is_round", False) and lone_moment(moments.value) == 2
+    of = moments.fact(OfBody)
+    return of is not None and getattr(of.body, "is_round", False) and lone_moment(moments.value) == 2
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:
@@ -219,7 +229,7 @@ def _size(root: Expr) -> tuple[float, str]:
 
 def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
     """Three unit vectors, with an angle that remains free where two moments are equal."""
-    tensor = moments.context["tensor"].value
+    tensor = moments.needed(PrincipalOf).tensor.value
     taken = {letter.name for letter in tensor.free_symbols}
     angle = scalar(next(name for name in ("phi", "psi", "chi", "alpha") if name not in taken))
     if tensor.is_diagonal():

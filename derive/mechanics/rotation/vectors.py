@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Pow, Rational, acos, atan2, cos, pi, sin
@@ -27,12 +28,32 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.body import Body
-from derive.mechanics.bodies.regions import Point
+from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.steps.establish import establish
 from derive.steps.record import require_constant
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
+
+
+@dataclass(frozen=True)
+class Through(Fact):
+    """The point of the body that stays at rest when it turns."""
+
+    missing = "is not an angular velocity"
+    point: str
+
+
+@dataclass(frozen=True)
+class RateByParticles(Fact):
+    """The rate of change of a quantity of a body, without its equations of motion.
+
+    rate          what the particles contribute, by their accelerations
+    in_any_axes   the same for a torque N, of a body whose tensor is not diagonal
+    """
+
+    missing = "is not made of particles"
+    rate: Callable[[], Any]
+    in_any_axes: Callable[[Any], Any]
 
 
 def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
@@ -51,7 +72,7 @@ def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: st
         key=key,
         definition=True,
         kind="angular speed",
-        context={"through": through},
+        facts=[Through(through)],
         about=Subject(rotation=components),
     )
 
@@ -84,7 +105,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
         outcome="left_handed" if rate.is_negative else "right_handed",
         key=key,
         kind="angular speed",
-        context={"rate": rate, "through": through},
+        facts=[Through(through)],
         about=lambda omega: Subject(rotation=omega),
     )
 
@@ -104,9 +125,7 @@ def _turned_onto_first(p: Expr, q: Expr) -> Expr:
 
 def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
     """The integral over the body of a function of the position from the point of the tensor, times dm."""
-    body: Body = inertia.context["body"]
-    point: Point = inertia.context["about"]
-    return body.over_mass(integrand, point)
+    return inertia.needed(OfBody).body.over_mass(integrand, inertia.needed(AboutPoint).point)
 
 
 def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
@@ -127,7 +146,7 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
     require_kind(verb, "inertia", inertia, "moment of inertia")
     require_kind(verb, "omega", omega, "angular speed")
     require_constant(verb, "inertia tensor", inertia, "a body whose size or mass changes is not rigid")
-    point, at_rest = inertia.context["about"].name, omega.context["through"]
+    point, at_rest = inertia.needed(AboutPoint).point.name, omega.needed(Through).point
     if point != at_rest:
         message = f"`{inertia.key}` is about the {point}, but the axis of `{omega.key}` goes through the {at_rest}"
         help_line = f'move the tensor with `moved_to`, or write `through="{point}"` where the axis is given'
@@ -171,12 +190,12 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
         key=key,
         kind="energy",
         words=words,
-        context={
-            "rate": lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r))),
-            "any_axes": lambda N: (
-                explicit(Dot(omega.value, N)) + explicit(Dot(omega.value, _left_by_turning(omega)[1]))
-            ),
-        },
+        facts=[
+            RateByParticles(
+                lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r))),
+                lambda N: explicit(Dot(omega.value, N)) + explicit(Dot(omega.value, _left_by_turning(omega)[1])),
+            )
+        ],
     )
 
 
@@ -203,13 +222,15 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         key=key,
         kind="angular momentum",
         words=words,
-        context={
-            "about": words["about"],
-            "rate": lambda: _over_the_body(inertia, lambda r: Cross(r, acceleration(r))),
-            "any_axes": lambda N: (
-                explicit(Dot(applied(inertia.value, omega.value), N)) + explicit(Dot(*_left_by_turning(omega)))
+        facts=[
+            inertia.needed(AboutPoint),
+            RateByParticles(
+                lambda: _over_the_body(inertia, lambda r: Cross(r, acceleration(r))),
+                lambda N: (
+                    explicit(Dot(applied(inertia.value, omega.value), N)) + explicit(Dot(*_left_by_turning(omega)))
+                ),
             ),
-        },
+        ],
     )
 
 
@@ -331,7 +352,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     require_constant(
         "torque", "angular momentum in the body", momentum, "`rate_in_space` is dL/dt for one that changes"
     )
-    about = momentum.context["about"]
+    about = momentum.needed(AboutPoint).point.name
     (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
     carried = CarriedRate(momentum.value, omega.value)
     return establish(

@@ -15,8 +15,9 @@ from sympy import Add, Expr, Integer, Pow, Rational, Symbol, cos, diff, sin
 from derive.algebra.collect import by_accelerations, spread
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRate, rate, scalar
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, letters_of, rate_of
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, letters_of, rate_of
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
+from derive.mechanics.systems.rolling import Contact
 from derive.steps.establish import establish
 from derive.steps.step import Level, Quantity, compared_with, value_behind
 
@@ -88,7 +89,7 @@ def free_lagrangian(
         routes={"energy": energy},
         key=key,
         kind="energy",
-        context={"matter": matter},
+        facts=[matter],
         coordinates=letters_of((*place, turning)),
     )
 
@@ -103,7 +104,7 @@ def equation_with_multipliers(of: Quantity, q: Coordinate, ties: Sequence[Tie], 
     Outcomes: free (a coordinate that one tie keeps), turning (the coordinate that the ties depend on).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
-    matter: Matter = of.context["matter"]
+    matter = of.needed(Matter)
     moving = list(matter.coordinates)
     forces = [(t.multiplier, t.function) for t in ties]
     on_q = Add(*(force * diff(f, q.symbol) for force, f in forces))
@@ -127,7 +128,7 @@ def equation_with_multipliers(of: Quantity, q: Coordinate, ties: Sequence[Tie], 
         judged_by={"multiplier": kept.multiplier if kept else None},
         key=key or f"motion_{q.symbol.name}",
         kind=None,
-        context={"coordinate": q, "ties": tuple(ties)},
+        facts=[OfCoordinate(q)],
         coordinates={t.multiplier: "force" for t in ties},
         arranged=lambda found: Relation(by_accelerations(found.left, moving), "=", _by_forces(found.right, ties)),
     )
@@ -154,7 +155,7 @@ def force_of_constraint(equation: Quantity, tied: Tie, key: str | None = None) -
     Second route: the momentum of the coordinate, M dX/dt, differentiated as a function of t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
-    own = equation.context["coordinate"]
+    own = equation.needed(OfCoordinate).coordinate
     if own.symbol != tied.free.symbol:
         message = f"`{equation.key}` is the equation of {own.symbol.name}, but the tie keeps {tied.free.symbol.name}"
         raise Rejected(Complaint("different-subjects", message))
@@ -208,7 +209,7 @@ def multipliers_eliminated(
         law_shown=Level.FULL,
         routes={"solved_first": compared_with(lambda: found.value)},
         key=key,
-        context=found.context,
+        facts=found.facts,
         arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
     )
 
@@ -228,7 +229,7 @@ def contact_forces(
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 2.5 and 7.6.
     """
     q, moving = angle.symbol, [angle.symbol]
-    matter: Matter = motion.context["matter"]
+    matter = motion.needed(Matter)
     at = [x.value for x in place]
     n, t = (sin(q), cos(q)), (cos(q), -sin(q))
 
@@ -239,7 +240,7 @@ def contact_forces(
 
     def moment(tangential: Expr) -> Relation:
         """About the centre of mass, clockwise: the levers go to the contact."""
-        arm = [c - x for c, x in zip(place[0].context["contact"], at, strict=True)]
+        arm = [c - x for c, x in zip(place[0].needed(Contact).place, at, strict=True)]
         reaction = [normal.value * a + tangential * b for a, b in zip(n, t, strict=True)]
         return Relation(_turning(matter) * angle.acceleration, "=", arm[1] * reaction[0] - arm[0] * reaction[1])
 

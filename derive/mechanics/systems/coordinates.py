@@ -18,7 +18,7 @@ from derive.algebra.expressions import TIME, TimeRate, explicit, rate, scalar
 from derive.errors import Complaint, Rejected
 from derive.steps.establish import establish
 from derive.steps.record import coordinate_named
-from derive.steps.step import Level, Quantity, compared_with
+from derive.steps.step import Fact, Level, Quantity, compared_with
 
 T = TIME  # coordinates are functions of it where a second route makes them so
 
@@ -45,6 +45,14 @@ class Coordinate:
     @property
     def letters(self) -> dict[Symbol, str]:
         return {self.symbol: self.kind}
+
+
+@dataclass(frozen=True)
+class OfCoordinate(Fact):
+    """The coordinate that an equation of motion, or a momentum, belongs to."""
+
+    missing = "is not an equation of one coordinate"
+    coordinate: Coordinate
 
 
 def coordinate(name: str, kind: str = "angle") -> Coordinate:

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from derive.algebra.expressions import Relation, TimeRate
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import Coordinate, required
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, required
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import generalized_force, generalized_momentum
 from derive.steps.establish import establish
-from derive.steps.step import Quantity, compared_with
+from derive.steps.step import Fact, Quantity, compared_with
+
+
+@dataclass(frozen=True)
+class OfMomentum(Fact):
+    """The momentum that is conserved."""
+
+    missing = "is not the conservation of a momentum"
+    momentum: Quantity
 
 
 def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
@@ -25,7 +35,7 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
     if force.value != 0:
         message = f"`conserved_momentum`: `{of.key}` contains {q.symbol.name}, so its momentum is not constant"
         raise Rejected(Complaint("not-cyclic", message))
-    matter: Matter = of.context["matter"]
+    matter = of.needed(Matter)
     momentum = generalized_momentum(of, q)
     moving = list(of.coordinates)
 
@@ -43,5 +53,5 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
         arranged=lambda found: found,
         key=key or f"conserved_{q.symbol.name}",
         parents=[force, momentum],
-        context={"momentum": momentum, "coordinate": q},
+        facts=[OfMomentum(momentum), OfCoordinate(q)],
     )

@@ -18,6 +18,7 @@ from sympy import Expr, Integer, Rational, Symbol, cos, diff, sin
 
 from derive.algebra.expressions import explicit
 from derive.mechanics.systems.coordinates import by_functions_of_time
+from derive.steps.step import Fact
 
 Vector = tuple[Expr, ...]
 
@@ -39,8 +40,10 @@ class Load:
 
 
 @dataclass(frozen=True)
-class Matter:
+class Matter(Fact):
     """Mass points and loads together, and the coordinates that their places depend on."""
+
+    missing = "has no mass points and forces behind it"
 
     points: tuple[MassPoint, ...] = ()
     loads: tuple[Load, ...] = ()

@@ -7,6 +7,7 @@ along the motion of one coordinate, equations of motion by d'Alembert's principl
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
@@ -15,14 +16,22 @@ from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, required
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
 from derive.steps.establish import establish
 from derive.steps.record import changes, require_constant
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject, called
 
 ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class FromLagrangian(Fact):
+    """The Lagrangian that an equation of motion or a momentum comes from."""
+
+    missing = "does not come from a Lagrangian"
+    lagrangian: Quantity
 
 
 def plane_kinetic_energy(
@@ -79,7 +88,7 @@ def plane_kinetic_energy(
         key=key,
         kind="energy",
         parents=list(place),
-        context={"matter": matter},
+        facts=[matter],
         coordinates=own,
         about=Subject(mass=value_behind(mass), place=tuple(x.value for x in place)),
     )
@@ -152,7 +161,7 @@ def weight_energy(
         key=key,
         kind="energy",
         parents=list(place),
-        context={"matter": matter},
+        facts=[matter],
         arranged=explicit,
         about=_about_weight(mass, at),
     )
@@ -178,7 +187,7 @@ def lagrangian(kinetic: Quantity, potential: Quantity, symbol: str = "L", key: s
     require_kind("lagrangian", "potential", potential, "energy")
     moving = {**kinetic.coordinates, **potential.coordinates}
 
-    matter = kinetic.context.get("matter", Matter()) + potential.context.get("matter", Matter())
+    matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
 
     def energy(found: Expr) -> tuple[Expr, Expr]:
         carried = Add(*(rate(q) * diff(found, rate(q)) for q in moving))
@@ -199,7 +208,7 @@ def lagrangian(kinetic: Quantity, potential: Quantity, symbol: str = "L", key: s
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
         key=key,
         kind="energy",
-        context={"matter": matter},
+        facts=[matter],
         arranged=explicit,
     )
 
@@ -216,7 +225,7 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     required(of.coordinates, q, "equation_of_motion", of)
-    matter: Matter = of.context["matter"]
+    matter = of.needed(Matter)
     moving = list(of.coordinates)
     force, momentum = generalized_force(of, q), generalized_momentum(of, q)
     changing = momentum_rate(momentum, q)
@@ -238,7 +247,7 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
         judged_by={"coordinate": q.symbol},
         key=key,
         parents=[force, momentum, changing],
-        context={"lagrangian": of, "coordinate": q, "matter": matter},
+        facts=[FromLagrangian(of), OfCoordinate(q), matter],
         arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
     )
 
@@ -261,7 +270,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
     Outcomes: generic, zero (q does not occur).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
-    matter: Matter = of.context["matter"]
+    matter = of.needed(Matter)
     return establish(
         "lagrangian.generalized_force",
         Partial(of.symbol, q.symbol),
@@ -286,7 +295,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
     Second route: the sum of m v . dr/dq over the mass points.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
-    matter: Matter = of.context["matter"]
+    matter = of.needed(Matter)
     return establish(
         "lagrangian.generalized_momentum",
         Partial(of.symbol, q.rate),
@@ -296,7 +305,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
         law_shown=Level.FULL,
         routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
         key=key or _key_of(of, f"momentum_{q.symbol.name}"),
-        context={"lagrangian": of, "coordinate": q},
+        facts=[FromLagrangian(of), OfCoordinate(q)],
         arranged=lambda value: by_rates(value, list(of.coordinates)),
     )
 

@@ -6,6 +6,7 @@ that a body that rolls to the right turns by a positive angle.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Expr, cos, diff, integrate, sin
@@ -15,7 +16,15 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import establish
 from derive.steps.record import require_constant
-from derive.steps.step import Level, Quantity
+from derive.steps.step import Fact, Level, Quantity
+
+
+@dataclass(frozen=True)
+class Contact(Fact):
+    """Where a rolling body touches the ground, components in m."""
+
+    missing = "touches nothing"
+    place: tuple[Expr, ...]
 
 
 def rolled_centre(
@@ -73,7 +82,7 @@ def rolled_centre(
             },
             outcome="across" if name == name_x else "up",
             arranged=explicit,
-            context={"contact": tuple(contact.values())},
+            facts=[Contact(tuple(contact.values()))],
             key=name,
             kind="length",
             coordinates=angle.letters,

@@ -9,8 +9,8 @@ from derive.algebra.expressions import PLUS_MINUS, CarriedRate, Relation, Terms,
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size, positive_where
-from derive.mechanics.equations.quadratics import Quadratic, discriminant, roots_of
-from derive.mechanics.tops.top import EulerAngles
+from derive.mechanics.equations.quadratics import Roots, discriminant, roots_of
+from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop
 from derive.steps.establish import establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import require_constant
@@ -29,9 +29,10 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
     is the torque of the weight.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
-    angles: EulerAngles = tilt.context["angles"]
+    angles = tilt.needed(EulerAngles)
     phi, theta, _ = angles.coordinates
-    top, gravity, spin = (tilt.context[name] for name in ("top", "gravity", "spin"))
+    heavy, spin = tilt.needed(HeavyTop), tilt.needed(ConstantSpin).rate
+    top, gravity = heavy.top, heavy.gravity
     sine = sin(theta.symbol)
     at_rest = tilt.value.left.xreplace({theta.acceleration: ZERO, theta.rate: ZERO})
     kept = by_rates(-(at_rest / sine).expand(), [phi.symbol])
@@ -59,7 +60,7 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
         key=key,
         parents=[tilt],
         points_to={"of_tilt": tilt},
-        context=tilt.context,
+        facts=tilt.facts,
     )
 
 
@@ -87,7 +88,7 @@ def precession_rates(steady: Quantity, tilt: Expr, key: str = RATES) -> Quantity
     Errors: the axis is vertical.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
-    angles, top = steady.context["angles"], steady.context["top"]
+    angles, top = steady.needed(EulerAngles), steady.needed(HeavyTop).top
     if sign_known(sin(tilt)) == 0:
         message = "`precession_rates`: the axis is vertical, so that it has no rate of precession"
         raise Rejected(Complaint("vertical", message, help="give a tilt between 0 and 180 degrees"))
@@ -130,7 +131,7 @@ def steady_rates(rates: Quantity, condition: Quantity) -> tuple[Quantity, Quanti
     if outcome == "none":
         none = no_steady_precession(rates, condition)
         return none, none
-    quadratic: Quadratic = rates.context["quadratic"]
+    quadratic = rates.needed(Roots).quadratic
     forward = -1 if sign_known(quadratic.b) == 1 else 1
     words = {
         "two": ("slow", "fast"),
@@ -155,7 +156,7 @@ def _steady_rate(
     Outcomes: slow, fast, slow_where_real, fast_where_real, forward, backward, coinciding.
     Source: as `steady_rates`.
     """
-    quadratic: Quadratic = rates.context["quadratic"]
+    quadratic = rates.needed(Roots).quadratic
     name = key.partition("_")[0]
 
     def other_form() -> Expr:
@@ -196,7 +197,7 @@ def no_steady_precession(rates: Quantity, condition: Quantity, key: str = "no_st
     Second route: the discriminant with the numbers that are given, which is negative; at the bound it vanishes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
-    quadratic: Quadratic = rates.context["quadratic"]
+    quadratic = rates.needed(Roots).quadratic
 
     def by_numbers(found: Relation) -> tuple[Expr, Expr]:
         here = with_numbers(quadratic.discriminant)

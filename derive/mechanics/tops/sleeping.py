@@ -15,7 +15,8 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import boundary_case, sign_by_factors, truth
 from derive.mechanics.systems.coordinates import Coordinate, T
-from derive.mechanics.tops.top import EulerAngles, Top
+from derive.mechanics.systems.cyclic import OfMomentum
+from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop, Top
 from derive.steps.establish import establish
 from derive.steps.step import Quantity, Route
 
@@ -35,11 +36,11 @@ def upright_rate(conserved: Quantity, tilt: Quantity, key: str = "upright_rate")
     phi, theta, psi = angles.coordinates
     along, across = top.along.symbol, top.across.symbol
     carried = along * spin
-    of_phi = explicit(conserved.context["momentum"].value)
+    of_phi = explicit(conserved.needed(OfMomentum).momentum.value)
     upright = of_phi.subs(theta.symbol, 0).xreplace({psi.rate: spin - phi.rate})
 
     def by_momentum(found: Expr) -> tuple[Expr, Expr]:
-        momentum = explicit(conserved.context["momentum"].value)
+        momentum = explicit(conserved.needed(OfMomentum).momentum.value)
         return momentum.xreplace({psi.rate: spin - phi.rate * cos(theta.symbol)}).xreplace({phi.rate: found}), carried
 
     def by_vertical_component(found: Expr) -> tuple[Expr, Expr]:
@@ -64,12 +65,12 @@ def upright_rate(conserved: Quantity, tilt: Quantity, key: str = "upright_rate")
         kind="angular speed",
         parents=[conserved, tilt],
         points_to={"conserved": conserved},
-        context=tilt.context,
+        facts=tilt.facts,
     )
 
 
 def _facts(quantity: Quantity) -> tuple[EulerAngles, Top, Expr]:
-    return quantity.context["angles"], quantity.context["top"], quantity.context["spin"]
+    return quantity.needed(EulerAngles), quantity.needed(HeavyTop).top, quantity.needed(ConstantSpin).rate
 
 
 def effective_potential(
@@ -90,7 +91,7 @@ def effective_potential(
     q = theta.symbol
     rates = {psi.rate: spin - rate.value * cos(q), phi.rate: rate.value}
     moving, constant = HALF * top.across.symbol * theta.rate**2, HALF * top.along.symbol * spin**2
-    motion = next(parent for parent in rate.parents if "gravity" in parent.context)
+    motion = next(parent for parent in rate.parents if parent.fact(HeavyTop))
 
     def by_motion(found: Expr) -> tuple[Expr, Expr]:
         accelerated = motion.value.left.xreplace({theta.acceleration: Integer(0)})
@@ -115,7 +116,7 @@ def effective_potential(
         key=key,
         kind="energy",
         parents=[kinetic],
-        context=rate.context,
+        facts=rate.facts,
     )
 
 
@@ -185,7 +186,7 @@ def _difference_of_rates(potential: Quantity, letter: Symbol, value: Expr) -> Ex
     weight l axis x (0, 0, -M g). Of u + i v = e^(i p t), the first two components leave a quadratic in p.
     """
     _, top, spin = _facts(potential)
-    gravity = potential.context["gravity"]
+    gravity = potential.needed(HeavyTop).gravity
     p, small = Symbol("p", real=True), Symbol("epsilon", real=True)
     axis = Matrix([small * cos(p * T), small * sin(p * T), 1])
     momentum = top.across.symbol * axis.cross(diff(axis, T)) + top.along.symbol * spin * axis

@@ -35,7 +35,17 @@ from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_tim
 from derive.mechanics.systems.dalembert import symmetric_body
 from derive.steps.establish import establish
 from derive.steps.record import require_constant
-from derive.steps.step import Level, Quantity, compared_with, is_zero, lettered, only_equation, require_kind, same_value
+from derive.steps.step import (
+    Fact,
+    Level,
+    Quantity,
+    compared_with,
+    is_zero,
+    lettered,
+    only_equation,
+    require_kind,
+    same_value,
+)
 from derive.steps.subject import called, united
 
 ZERO, ONE, HALF = Integer(0), Integer(1), Rational(1, 2)
@@ -43,8 +53,10 @@ _MOMENT = "moment of inertia"
 
 
 @dataclass(frozen=True)
-class EulerAngles:
+class EulerAngles(Fact):
     """Precession phi, tilt theta and turning psi. Source: Goldstein, Poole, Safko, section 4.4."""
+
+    missing = "is not in Euler's angles"
 
     phi: Coordinate
     theta: Coordinate
@@ -150,6 +162,23 @@ def _check_letter_of_top(role: str, kind: str, given: Any) -> None:
     require_constant("Top", role, given)
 
 
+@dataclass(frozen=True)
+class ConstantSpin(Fact):
+    """The component S of the angular velocity along the axis of the top, which is constant, 1/s."""
+
+    missing = "is not at constant spin"
+    rate: Expr
+
+
+@dataclass(frozen=True)
+class HeavyTop(Fact):
+    """The top, and the gravity in which it turns, m/s^2."""
+
+    missing = "does not belong to a top"
+    top: Top
+    gravity: Expr
+
+
 def turning_rate(angles: EulerAngles, symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
     """Angular velocity in Euler's angles, omega = theta_dot x + phi_dot Z + psi_dot z, in the following axes.
 
@@ -186,7 +215,7 @@ def turning_rate(angles: EulerAngles, symbol: str = "omega", key: str = "angular
         key=key,
         kind="angular speed",
         coordinates=letters_of(angles.coordinates),
-        context={"angles": angles},
+        facts=[angles],
     )
 
 
@@ -221,13 +250,13 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
         arranged=explicit,
         key=key,
         kind="energy",
-        context={"matter": matter, "angles": angles},
+        facts=[matter, angles],
     )
 
 
 def _angles_of(verb: str, quantity: Quantity) -> EulerAngles:
-    angles = quantity.context.get("angles")
-    if isinstance(angles, EulerAngles):
+    angles = quantity.fact(EulerAngles)
+    if angles is not None:
         return angles
     raise Rejected(Complaint("wrong-argument", f"`{verb}` needs a quantity in Euler's angles, not `{quantity.key}`"))
 
@@ -294,7 +323,7 @@ def constant_spin(omega: Quantity, rate: Expr, conserved: Quantity, top: Top, ke
         key=key,
         parents=[omega, conserved],
         points_to={"conserved": conserved},
-        context={"angles": angles, "spin": rate},
+        facts=[angles, ConstantSpin(rate)],
     )
 
 
@@ -312,7 +341,7 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
     """
     angles = _angles_of("tilt_equation", spin)
     phi, theta, psi = angles.coordinates
-    rate = spin.context["spin"]
+    rate = spin.needed(ConstantSpin).rate
     turning = rate - phi.rate * cos(theta.symbol)
 
     def by_torque() -> Relation:
@@ -332,5 +361,5 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
         arranged=lambda found: Relation(by_accelerations(found.left, angles.names), "=", 0),
         key=key,
         parents=[spin, motion],
-        context={"angles": angles, "spin": rate, "top": top, "gravity": gravity},
+        facts=[angles, ConstantSpin(rate), HeavyTop(top, gravity)],
     )
