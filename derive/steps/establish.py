@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 from types import FrameType
 from typing import Any
 
@@ -43,6 +44,81 @@ from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, is_
 from derive.steps.subject import NOTHING, Subject, united, with_name
 
 
+@dataclass(frozen=True)
+class Lines:
+    """How the law becomes the lines of a chain, and how the result is written.
+
+    before    forms that come ahead of the law, `between` the law and the result, `after` the result
+    law       the level at which the law is shown
+    put_in    the level at which the law with values put in is shown; None leaves it out
+    result    whether the result has a line of its own
+    arranged  how the result is written; it changes no value
+    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
+    means     what names on the left side stand for, where that is an expression with names that the law does not have
+    """
+
+    before: Sequence[Form] = ()
+    between: Sequence[Form] = ()
+    after: Sequence[Form] = ()
+    law: Level = Level.BRIEF
+    put_in: Level | None = Level.STANDARD
+    result: bool = True
+    arranged: Callable[[Any], Any] = tidied
+    motion: Mapping[Symbol, Expr] = field(default_factory=dict)
+    means: Mapping[Any, Any] = field(default_factory=dict)
+
+    def chain(self, symbol: Any, formula: Any, substituted: Any, result: Any) -> list[Form]:
+        """The lines in their order, without repeats."""
+        forms = [*self.before, Form(formula, "law", self.law)]
+        forms += [Form(substituted, "put_in", self.put_in)] if self.put_in else []
+        forms += [*self.between]
+        forms += [Form(result, "motion" if self.motion else "result")] if self.result else []
+        return without_repeats([*forms, *self.after], symbol)
+
+
+@dataclass(frozen=True)
+class Telling:
+    """What the sentence of a step has besides its chain, and what its outcome is judged by.
+
+    words       name -> key of a term that phrases put into words ("about": "corner")
+    formulas    role -> a formula that only the sentence has, with the same by another way
+    points_to   role -> a parent that the sentence names, by its letter or its number
+    judged_by   what else the outcome is judged by, besides the result and the inputs
+    stands_for  keys that answers may ask for although in this case there is only this step
+    """
+
+    words: Mapping[str, str] = field(default_factory=dict)
+    formulas: Mapping[str, tuple[Any, Any]] = field(default_factory=dict)
+    points_to: Mapping[str, Quantity] = field(default_factory=dict)
+    judged_by: Mapping[str, Any] = field(default_factory=dict)
+    stands_for: Sequence[str] = ()
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """role -> the formula that only the sentence has."""
+        return {role: formula for role, (formula, _) in self.formulas.items()}
+
+
+@dataclass(frozen=True)
+class Scope:
+    """What a result is about, and where its letter comes from.
+
+    about        what it is about, beyond what the inputs are about; or a function of the result that says it
+    differ       in what the inputs may be about different things
+    coordinates  those that the step brings in, with their kinds
+    case_of      the general quantity of the same symbol that this is a particular case of
+    """
+
+    about: Subject | Callable[[Any], Subject] = NOTHING
+    differ: Collection[str] = ()
+    coordinates: Mapping[Symbol, str] = field(default_factory=dict)
+    case_of: Quantity | None = None
+
+    def around(self, together: Subject, result: Any) -> Subject:
+        """What the inputs are about together, and what the result is about beyond that."""
+        return together.with_more(self.about(result) if callable(self.about) else self.about)
+
+
 def establish(
     rule: str,
     symbol: Any,
@@ -50,94 +126,58 @@ def establish(
     inputs: Mapping[str, Any],
     *,
     key: str | None = None,
-    before: Sequence[Form] = (),
-    between: Sequence[Form] = (),
-    after: Sequence[Form] = (),
-    routes: Mapping[str, Route] | None = None,
-    outcome: Callable[[Any], str] | str = "generic",
     kind: str | None = None,
     definition: bool = False,
-    put_in: Level | None = Level.STANDARD,
-    show_result: bool = True,
-    law_shown: Level = Level.BRIEF,
+    routes: Mapping[str, Route] | None = None,
+    outcome: Callable[[Any], str] | str = GENERIC,
+    lines: Lines = Lines(),
+    telling: Telling = Telling(),
+    scope: Scope = Scope(),
     parents: Sequence[Quantity] = (),
     facts: Sequence[Fact] = (),
-    words: Mapping[str, str] | None = None,
-    coordinates: Mapping[Symbol, str] | None = None,
-    stands_for: Sequence[str] = (),
-    arranged: Callable[[Any], Any] = tidied,
-    motion: Mapping[Symbol, Expr] | None = None,
-    about: Subject | Callable[[Any], Subject] = NOTHING,
-    differ: Collection[str] = (),
-    means: Mapping[Any, Any] | None = None,
-    case_of: Quantity | None = None,
-    judged_by: Mapping[str, Any] | None = None,
-    told: Mapping[str, tuple[Any, Any]] | None = None,
-    points_to: Mapping[str, Quantity] | None = None,
 ) -> Quantity:
     """Make a step, or refuse.
 
-    rule      which phrase and which source, `topic.verb`
-    symbol    what the page calls the result
-    law       a function of the inputs, in their order; it is called with names and with values
-    inputs    role -> Quantity, or plain SymPy value
-    before    forms that come ahead of the law, `between` the law and the result, `after` the result
-    routes    claim -> function of the result, giving two values that must be equal
-    outcome   a word, or a function of the result that gives one; it selects the phrase
-    words     name -> key of a term that phrases put into words ("about": "corner")
-    stands_for   keys that answers may ask for although in this case there is only this step
-    arranged  how the result is written; it changes no value
-    motion    rate -> what the equations of motion make of it, put in at the last line, which holds only then
-    about     what the result is about, beyond what the inputs are about; or a function of the result that says it
-    differ    in what the inputs may be about different things
-    means     what names on the left side stand for, where that is an expression with names that the law does not have
-    case_of   the general quantity of the same symbol that this is a particular case of
-    told      role -> a formula that only the sentence has, with the same by another way
-    points_to role -> a parent that the sentence names, by its letter or its number
-    facts     what the quantity hands on besides its value
-    judged_by what else the outcome is judged by, besides the result and the inputs
-    put_in    the level at which the substituted law is shown; None leaves it out; `law_shown` that of the law
+    rule        which phrase and which source, `topic.verb`
+    symbol      what the page calls the result
+    law         a function of the inputs, in their order; it is called with names and with values
+    inputs      role -> Quantity, or plain SymPy value
+    definition  that the law says what a name means, so that there is no second route
+    routes      claim -> function of the result, giving two values that must be equal
+    outcome     a word, or a function of the result that gives one; it selects the phrase
+    parents     what it rests on besides its inputs
+    facts       what the quantity hands on besides its value
     Raises `Unverified`, naming the step, when a line or a route disagrees.
     """
     key = key or rule.rpartition(".")[2]
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
     _check_names(key, list(quantities.values()))
-    together = united(key, [(q.key, q.subject) for q in quantities.values()], differ, same_value)
-    body = together.body or (about.body if isinstance(about, Subject) else None)
-    plain_symbol, called = symbol, getattr(body, "called", "")
+    together = united(key, [(q.key, q.subject) for q in quantities.values()], scope.differ, same_value)
+    body = together.body or (scope.about.body if isinstance(scope.about, Subject) else None)
+    plain_symbol, words, called = symbol, telling.words, getattr(body, "called", "")
     if called:
         key, symbol = with_name(called, key, symbol)
-        words = {"part": called, **(words or {})}
+        words = {"part": called, **words}
     given = [value_behind(q) for q in inputs.values()]
     names = [q.symbol if isinstance(q, Quantity) else q for q in inputs.values()]
 
     formula, substituted = law(*names), law(*given)
     bindings = bindings_of([*quantities.values(), *parents])
-    result = arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **(motion or {})}))
-    _check_letter(key, symbol, result, means or {})
+    result = lines.arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **lines.motion}))
+    _check_letter(key, symbol, result, lines.means)
     check_can_hold(key, result)
-    chain = without_repeats(
-        [
-            *before,
-            Form(formula, "law", law_shown),
-            *([Form(substituted, "put_in", put_in)] if put_in else []),
-            *between,
-            *([Form(result, "motion" if motion else "result")] if show_result else []),
-            *after,
-        ],
-        symbol,
-    )
-    evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **(means or {})})
-    evidence += [line_evidence(key, chain, i, bindings, motion or {}) for i in range(1, len(chain))]
-    check_last_line(key, chain, result, bindings, motion or {})
+    chain = lines.chain(symbol, formula, substituted, result)
+    evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **lines.means})
+    evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
+    check_last_line(key, chain, result, bindings, lines.motion)
     evidence += evidence_of_routes(key, result, routes or {})
-    _check_told(key, told or {})
+    _check_told(key, telling.formulas)
     if not routes:
         evidence.append(_unsupported(key, rule, definition))
-    subject = together.with_more(about(result) if callable(about) else about)
+    subject = scope.around(together, result)
     chosen = outcome(result) if callable(outcome) else outcome
-    values = {**dict(zip(inputs, given, strict=True)), **_as_told(told or {}), **(judged_by or {})}
-    judged = Facts(result, values, quantities, plain_symbol, subject, words or {})
+    values = {**dict(zip(inputs, given, strict=True)), **telling.told, **telling.judged_by}
+    judged = Facts(result, values, quantities, plain_symbol, subject, words)
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
     step = Step(
         key=key,
@@ -145,19 +185,19 @@ def establish(
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple((role, _called(q)) for role, q in {**inputs, **_as_told(told or {}), **(points_to or {})}.items()),
+        roles=tuple((role, _called(q)) for role, q in {**inputs, **telling.told, **telling.points_to}.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
-        words=tuple((words or {}).items()),
-        coordinates=tuple({**coordinates_in(result), **(coordinates or {})}.items()),
-        stands_for=tuple(stands_for),
+        words=tuple(words.items()),
+        coordinates=tuple({**coordinates_in(result), **scope.coordinates}.items()),
+        stands_for=tuple(telling.stands_for),
         names=names_in([symbol, *(form.expr for form in chain)], bindings),
-        motion=tuple((motion or {}).items()),
+        motion=tuple(lines.motion.items()),
         law_at=_place_of_verb(sys._getframe(1)),
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
-    record.add(quantity, case_of)
+    record.add(quantity, scope.case_of)
     return quantity
 
 
@@ -165,10 +205,6 @@ def _place_of_verb(frame: FrameType) -> str:
     """Where a verb hands over its law; empty for a verb from elsewhere."""
     module = str(frame.f_globals["__name__"])
     return f"{module.replace('.', '/')}.py:{frame.f_lineno}" if module.partition(".")[0] == "derive" else ""
-
-
-def _as_told(told: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
-    return {role: formula for role, (formula, _) in told.items()}
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:

@@ -12,7 +12,7 @@ from derive.algebra.normal_form import vanishes
 from derive.algebra.rounding import rounded_form
 from derive.algebra.samples import value_at
 from derive.algebra.tidy import factored_matrix, tidied
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Level, Quantity
 
 DIGITS = 20  # in which an exact value and the one taken anew agree
@@ -72,18 +72,19 @@ def value_of(
         {},
         routes={"floats": floats},
         outcome="measured" if letters else "exact",
-        judged_by={"letters": letters},
-        about=answer.subject,
-        case_of=answer,
+        telling=Telling(judged_by={"letters": letters}),
+        scope=Scope(about=answer.subject, case_of=answer),
         key=key or f"{answer.key}_value",
         kind=answer.step.kind,
-        put_in=None,
-        show_result=False,
-        law_shown=Level.BRIEF if _amounts_in(substituted) <= SHORT else Level.FULL,
-        after=[Form(within(each), "value" if explicit(each) == exact else "rounded") for each in shown],
+        lines=Lines(
+            put_in=None,
+            result=False,
+            law=Level.BRIEF if _amounts_in(substituted) <= SHORT else Level.FULL,
+            after=[Form(within(each), "value" if explicit(each) == exact else "rounded") for each in shown],
+            arranged=tidied if within is _as_it_is else explicit,
+            means={letter: explicit(amount) for letter, amount in numbers.items()},
+        ),
         parents=[answer],
-        arranged=tidied if within is _as_it_is else explicit,
-        means={letter: explicit(amount) for letter, amount in numbers.items()},
     )
 
 
@@ -149,10 +150,8 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
         routes={"floats": anew},
         outcome="fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled",
         key=key or f"{condition.key}_value",
-        put_in=None,
-        show_result=False,
+        lines=Lines(put_in=None, result=False, arranged=explicit),
         parents=[condition],
-        arranged=explicit,
     )
 
 
@@ -178,12 +177,11 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
         {},
         routes={"floats": lambda result: _by_floats(number, set(), {}, result / letters)},
         outcome="exact",
-        judged_by={"letters": ()},
-        about=answer.subject,
-        case_of=answer,
+        telling=Telling(judged_by={"letters": ()}),
+        scope=Scope(about=answer.subject, case_of=answer),
         key=f"{answer.key}_value",
         kind=answer.step.kind,
-        after=[Form(Factors(rounded_form(number, figures), letters), "rounded")],
+        lines=Lines(after=[Form(Factors(rounded_form(number, figures), letters), "rounded")]),
         parents=[answer],
     )
 

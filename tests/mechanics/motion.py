@@ -19,7 +19,7 @@ from derive.mechanics import (
     rate_of,
     weight_energy,
 )
-from derive.steps.establish import establish
+from derive.steps.establish import Scope, establish
 from derive.steps.step import Quantity
 
 m, l, g, b = symbols("m l g b", positive=True)
@@ -32,7 +32,14 @@ def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "lengt
     letters = {symbol: known for q in coordinates for symbol, known in q.letters.items()}
     value = Integer(value) if isinstance(value, int) else value
     return establish(
-        "equations.let", scalar(name), lambda: value, {}, key=name, definition=True, kind=kind, coordinates=letters
+        "equations.let",
+        scalar(name),
+        lambda: value,
+        {},
+        key=name,
+        definition=True,
+        kind=kind,
+        scope=Scope(coordinates=letters),
     )
 
 

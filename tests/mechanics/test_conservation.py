@@ -12,7 +12,7 @@ from derive.algebra.equality import Grade
 from derive.algebra.expressions import Relation, explicit
 from derive.errors import Rejected
 from derive.mechanics import coordinate, rate_under
-from derive.steps.establish import establish
+from derive.steps.establish import Scope, establish
 from derive.steps.step import Quantity
 
 M, k, b, g, l = symbols("M k b g l", positive=True)
@@ -33,7 +33,7 @@ def named(key: str, value: Expr, moving: Any, kind: str | None = None) -> Quanti
         definition=True,
         key=key,
         kind=kind,
-        coordinates=moving.letters,
+        scope=Scope(coordinates=moving.letters),
     )
 
 
@@ -45,7 +45,7 @@ def equation(left: Expr, moving: Any, right: Expr = NONE, key: str = "motion") -
         {},
         definition=True,
         key=key,
-        coordinates=moving.letters,
+        scope=Scope(coordinates=moving.letters),
     )
 
 
@@ -87,7 +87,7 @@ def test_each_equation_is_multiplied_by_what_the_quantity_needs() -> None:
         {},
         definition=True,
         key="l_z",
-        coordinates=both,
+        scope=Scope(coordinates=both),
     )
     pulls = [equation(M * q.acceleration + k * q.symbol, q, key=q.symbol.name) for q in (x, y)]
     found = rate_under(turning, pulls)

@@ -25,7 +25,7 @@ from derive.mechanics import (
     squared_magnitude,
 )
 from derive.steps.derivation import derivation_of, from_json, to_json, with_ancestors
-from derive.steps.establish import establish
+from derive.steps.establish import Scope, establish
 from derive.steps.step import Quantity
 
 I_x, I_y, I_z, A, C = symbols("I_x I_y I_z A C", positive=True)
@@ -61,7 +61,7 @@ def component(i: int) -> Quantity:
         definition=True,
         key="n",
         kind="angular speed",
-        coordinates=dict.fromkeys(names, "angular speed"),
+        scope=Scope(coordinates=dict.fromkeys(names, "angular speed")),
     )
 
 

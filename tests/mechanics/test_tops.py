@@ -19,7 +19,7 @@ from derive.mechanics import (
     steady_rates,
     turning_rate,
 )
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
@@ -173,7 +173,13 @@ def test_turning_about_the_axis_alone_is_along_it(top: SimpleNamespace) -> None:
 def test_only_quadratic_equations_have_these_roots() -> None:
     x = scalar("x")
     cubic = establish(
-        "equations.let", None, lambda: Relation(x**3 - 1, "=", 0), {}, key="cubic", definition=True, arranged=explicit
+        "equations.let",
+        None,
+        lambda: Relation(x**3 - 1, "=", 0),
+        {},
+        key="cubic",
+        definition=True,
+        lines=Lines(arranged=explicit),
     )
     with pytest.raises(Rejected, match="not a linear or quadratic equation in x"):
         roots_of(cubic, x)

@@ -33,7 +33,11 @@ MODULES = (
 SUMS, PRODUCTS = {"Terms", "Add"}, {"Factors", "Mul"}
 NODES = SUMS | PRODUCTS | {"Ratio", "Root", "Dot", "Cross", "Outer", "Norm", "Group", "Pow", "TimeRate", "Slope"}
 TOLD = {"Complaint", "Rejected", "Unverified", "TypeError", "ValueError", "AssertionError", "require_kind"}
-ORDERLESS = {"isinstance", "getattr", "establish", "Form", "zip", "range", "dict", "Add", "Mul", "Terms", "Factors"}
+ORDERLESS = (
+    SUMS
+    | PRODUCTS
+    | {"isinstance", "getattr", "establish", "Lines", "Telling", "Scope", "Form", "zip", "range", "dict"}
+)
 MARKS = {"=": ">", "!=": "=", ">": "<", "<": ">", ">=": ">", "<=": "<"}
 COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Eq: ast.NotEq,
@@ -297,6 +301,8 @@ class _Maker:
                     yield self._mutant(argument, node, "args", i, "dropped", None)
             if _called(node) == "establish":
                 yield from self._of_establishing(node)
+            if _called(node) == "Telling":
+                yield from self._of_telling(node)
             for i, keyword in enumerate(node.keywords):
                 if keyword.arg in DROPPED:
                     yield self._mutant(keyword, node, "keywords", i, "dropped", None)
@@ -312,7 +318,7 @@ class _Maker:
         return made
 
     def _of_establishing(self, call: ast.Call) -> Iterator[Mutant]:
-        """Another law, and other words; two roles exchanged, so that a sentence tells one formula for another."""
+        """Another law; two roles exchanged, so that a sentence tells one formula for another."""
         tables = [call.args[3]] if len(call.args) > 3 else []
         for what in ("2 * ({})(*given)", "({})(*given[::-1])") if len(call.args) > 3 else ():
             law = ast.parse(f"lambda *given: {what.format(ast.unparse(call.args[2]))}", mode="eval").body
@@ -324,6 +330,9 @@ class _Maker:
                     keys = [*table.keys[:i], table.keys[j], table.keys[i], *table.keys[j + 1 :]]
                     whole = ast.Dict(keys, table.values)
                     yield self._mutant_of_list(table, "keys", keys, "role", whole)
+
+    def _of_telling(self, call: ast.Call) -> Iterator[Mutant]:
+        """Other words."""
         for keyword in call.keywords:
             if keyword.arg == "words" and isinstance(keyword.value, ast.Dict):
                 for i, value in enumerate(keyword.value.values):

@@ -12,7 +12,7 @@ from sympy import Expr, Integer, Integral, Matrix, Rational, Symbol, acos, cos, 
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import NUMBER, Dimension, Inhomogeneous, dimension_of_kind
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Form, Quantity, Step
 from tests.mechanics import slab
@@ -136,7 +136,14 @@ def test_a_wrong_dimension_in_a_motion_is_found_where_it_first_shows() -> None:
 def made(result: Expr, kind: str | None = None, *lines: Expr) -> Quantity:
     after = [Form(line, "line") for line in lines]
     return establish(
-        "test.made", ex.scalar("q"), lambda: result, {}, key="made", definition=True, kind=kind, after=after
+        "test.made",
+        ex.scalar("q"),
+        lambda: result,
+        {},
+        key="made",
+        definition=True,
+        kind=kind,
+        lines=Lines(after=after),
     )
 
 

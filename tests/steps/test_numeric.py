@@ -14,7 +14,7 @@ from derive.algebra.expressions import Amount, Relation, bound
 from derive.algebra.rounding import decimal_text
 from derive.errors import Unverified
 from derive.steps import numeric as numbers
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.numeric import coefficient_of, comparison_of, value_of
 from derive.steps.step import Quantity
 from tests.mechanics.block import AMOUNTS, M, a, known_block, omega
@@ -147,7 +147,7 @@ def test_an_inequality_is_told_by_numbers_however_near(width: Expr) -> None:
         lambda: Relation(sqrt(2) * c, ">", sqrt(8) * a),
         {},
         definition=True,
-        arranged=lambda r: r,
+        lines=Lines(arranged=lambda r: r),
     )
     found = comparison_of(condition, {a: Amount(Integer(20), "cm", CENTI), c: Amount(width, "cm", CENTI)})
     assert found is not None

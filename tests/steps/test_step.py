@@ -14,7 +14,7 @@ from derive.algebra.expressions import Dot, Truncated, column, scalar, vector
 from derive.algebra.rounding import Rounded
 from derive.errors import Rejected, Unverified
 from derive.mechanics import let
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.outcomes import _PREDICATES, outcomes_of
 from derive.steps.record import recorded
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, entry_name, is_zero, scalar_component
@@ -70,12 +70,12 @@ def test_every_second_route_must_agree() -> None:
 
 @pytest.mark.parametrize("place", ["before", "between", "after"])
 def test_a_line_that_does_not_follow_is_refused_wherever_it_stands(place: str) -> None:
-    complaint = refusal_of(lambda: sum_of_squares(**{place: [Form(a**2 + 2 * b**2, "slip", Level.FULL)]}))
+    complaint = refusal_of(lambda: sum_of_squares(lines=Lines(**{place: [Form(a**2 + 2 * b**2, "slip", Level.FULL)]})))
     assert "does not follow from line" in complaint.message
 
 
 def test_a_line_that_follows_is_kept_with_its_evidence() -> None:
-    s = sum_of_squares(between=[Form(a**2 + 2 * a * b + b**2 - 2 * a * b, "expanded", Level.FULL)])
+    s = sum_of_squares(lines=Lines(between=[Form(a**2 + 2 * a * b + b**2 - 2 * a * b, "expanded", Level.FULL)]))
     assert len([e for e in s.step.evidence if e.compared is Compared.LINES]) == len(s.step.chain) - 1
     assert {e.grade for e in s.step.evidence} == {Grade.PROVED}
 
@@ -98,7 +98,7 @@ def test_a_series_has_the_derivatives_of_the_whole_and_no_term_beyond(
 ) -> None:
     def made() -> Quantity:
         series = Form(Truncated(polynomial, x, Integer(0), Integer(order)), "series")
-        return establish("test.s", scalar("s"), lambda: cos(x), {}, definition=True, after=[series])
+        return establish("test.s", scalar("s"), lambda: cos(x), {}, definition=True, lines=Lines(after=[series]))
 
     if message:
         assert message in refusal_of(made).message
@@ -114,13 +114,19 @@ def test_a_step_without_a_second_route_is_refused_unless_it_is_a_definition() ->
 
 def test_a_definition_still_has_lines_that_must_follow() -> None:
     wrong = [Form(a**2, "slip")]
-    assert "line 2" in refusal_of(lambda: sum_of_squares(routes=None, definition=True, between=wrong)).message
+    assert (
+        "line 2" in refusal_of(lambda: sum_of_squares(routes=None, definition=True, lines=Lines(between=wrong))).message
+    )
 
 
 def test_the_law_is_read_with_names_and_with_values() -> None:
     p = sum_of_squares(key="first")
     twice = establish(
-        "test.twice", scalar("t"), lambda s: 2 * s, {"s": p}, routes={"sum": compared_with(lambda: p.value + p.value)}
+        "test.twice",
+        scalar("t"),
+        lambda s: 2 * s,
+        {"s": p},
+        routes={"sum": compared_with(lambda: p.value + p.value)},
     )
     assert [form.expr for form in twice.step.chain][:2] == [2 * scalar("s"), 2 * (a**2 + b**2)]
     assert twice.parents == (p,)
@@ -132,7 +138,11 @@ def test_a_vector_brings_the_names_of_its_components_along() -> None:
     v = establish("test.v", vector("v"), lambda: column(a, b, 0), {}, definition=True)
     v_x, v_y, _ = (scalar_component(v, i) for i in range(3))
     product = establish(
-        "test.product", scalar("p"), lambda _: v_x * v_y, {"v": v}, routes={"plain": compared_with(lambda: a * b)}
+        "test.product",
+        scalar("p"),
+        lambda _: v_x * v_y,
+        {"v": v},
+        routes={"plain": compared_with(lambda: a * b)},
     )
     assert product.value == a * b
 
@@ -177,7 +187,7 @@ def test_an_outcome_that_no_predicate_judges_is_refused() -> None:
 
 
 def test_a_form_just_like_the_one_before_is_shown_once_at_the_lower_level() -> None:
-    s = sum_of_squares(law=lambda p, q: p**2 + q**2, between=[Form(a**2 + b**2, "again", Level.FULL)])
+    s = sum_of_squares(law=lambda p, q: p**2 + q**2, lines=Lines(between=[Form(a**2 + b**2, "again", Level.FULL)]))
     assert [(form.because, form.level) for form in s.step.chain] == [("law", Level.BRIEF)]
 
 
@@ -192,7 +202,7 @@ def test_a_rounded_line_may_be_off_by_half_a_unit_and_no_more(value: str, fits: 
             lambda: Rational(1, 3),
             {},
             routes={"put_back": lambda t: (3 * t, Integer(1))},
-            after=[rounded],
+            lines=Lines(after=[rounded]),
         )
 
     if fits:
@@ -208,7 +218,7 @@ def test_trigonometry_in_a_line_is_decided_exactly() -> None:
         scalar("one"),
         lambda: sin(x) ** 2 + cos(x) ** 2,
         {},
-        between=[Form(1 - cos(x) ** 2 + cos(x) ** 2, "pythagoras")],
+        lines=Lines(between=[Form(1 - cos(x) ** 2 + cos(x) ** 2, "pythagoras")]),
         routes={"half_angles": lambda one: (one, 2 * sin(x / 2) ** 2 + cos(x))},
     ).step
     assert {e.grade for e in step.evidence} == {Grade.PROVED}

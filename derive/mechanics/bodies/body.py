@@ -24,7 +24,7 @@ from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Level, Quantity, compared_with
 from derive.steps.subject import Subject
 
@@ -224,9 +224,9 @@ def axis_vector(body: Body, along: ImmutableMatrix, name: str, symbol: str = "d"
         {},
         outcome="edge" if name in {"x", "y", "z"} else name,
         definition=True,
-        words={"axis": name},
+        telling=Telling(words={"axis": name}),
         key=key,
-        about=Subject(body=body),
+        scope=Scope(about=Subject(body=body)),
     )
 
 
@@ -252,8 +252,8 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
         outcome=_density_outcome(body, extent),
         kind=kind,
         key=key,
-        words={"part": part} if part else {},
-        about=Subject(body=body),
+        telling=Telling(words={"part": part} if part else {}),
+        scope=Scope(about=Subject(body=body)),
     )
 
 
@@ -304,13 +304,15 @@ def centre_of_mass(
         routes={"particles": compared_with(mean_of_particles)},
         outcome="round" if on_axis else "generic" if _is_its_own_image(body) else "asymmetric",
         parents=[rho, *on_axis],
-        between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis],
+        lines=Lines(
+            between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis],
+            put_in=Level.FULL,
+        ),
         kind="length",
-        put_in=Level.FULL,
         facts=[CountedFrom(start)],
-        words={"start": start.name},
+        telling=Telling(words={"start": start.name}),
         key=key,
-        about=Subject(body=body, point=start),
+        scope=Scope(about=Subject(body=body, point=start)),
     )
 
 
@@ -330,12 +332,13 @@ def _centre_on_axis(body: Body, start: Point, region: Region, letter: str, key: 
         component_names(letter)[2],
         lambda density, mass: Factors(Ratio(density, mass), integral),
         {"density": rho, "mass": body.mass},
-        between=worked_integral(region, region.position[2], rho.symbol / body.mass, body.size),
+        lines=Lines(
+            between=worked_integral(region, region.position[2], rho.symbol / body.mass, body.size), put_in=None
+        ),
         routes={"particles": lambda z: (z, sum(m * start.seen(r)[2] for m, r in body.particles()) / body.mass)},
         kind="length",
-        put_in=None,
         parents=body.radii(start, region),
-        words={"start": start.name},
+        telling=Telling(words={"start": start.name}),
         key=f"{key}_on_axis",
-        about=Subject(body=body, point=start),
+        scope=Scope(about=Subject(body=body, point=start)),
     )

@@ -13,7 +13,7 @@ from derive.algebra.expressions import Factors, column
 from derive.mechanics.bodies.body import Body, Particles
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import COORDINATES, Point, Region, solid_of_revolution
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity
 from derive.steps.subject import Subject
 
@@ -206,19 +206,20 @@ def volume(body: Cone) -> Quantity:
         Symbol("V" if Symbol("V", positive=True) not in body.mass.free_symbols else "V_0", positive=True),
         lambda *_: region.integral(Integer(1)),
         {"along": region.names[0]},
-        told={
-            "edge": (region.limits[2][2], _edge_at(body, start, region.names[0])),
-            "x_is": (r * cos(theta), region.position[0]),
-            "y_is": (r * sin(theta), region.position[1]),
-        },
-        between=worked_integral(region, Integer(1), Integer(1), Integer(1)),
+        telling=Telling(
+            formulas={
+                "edge": (region.limits[2][2], _edge_at(body, start, region.names[0])),
+                "x_is": (r * cos(theta), region.position[0]),
+                "y_is": (r * sin(theta), region.position[1]),
+            },
+            words={"start": start.name},
+            judged_by={"element": region.element, "radius": r},
+        ),
+        lines=Lines(between=worked_integral(region, Integer(1), Integer(1), Integer(1)), put_in=None),
         routes={"pappus": lambda value: (value, _by_pappus(body))},
         outcome="cylindrical",
         kind="volume",
-        put_in=None,
-        words={"start": start.name},
-        about=Subject(body=body),
-        judged_by={"element": region.element, "radius": r},
+        scope=Scope(about=Subject(body=body)),
     )
 
 
@@ -250,9 +251,8 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         routes={"edge": lambda r: body.edge_condition(point.along_body(z), r)},
         outcome="straight" if isinstance(body, Cone) else "curved",
         kind="length",
-        put_in=None,
-        coordinates={z: "length"},
-        words={"start": point.name},
+        lines=Lines(put_in=None),
+        scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),
+        telling=Telling(words={"start": point.name}),
         key="section_radius",
-        about=Subject(body=body, point=point),
     )

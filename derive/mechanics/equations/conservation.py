@@ -20,7 +20,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.trajectory import followed
 from derive.mechanics.rotation.vectors import RateByParticles
 from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_rate
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 
 HIGHEST = 2  # the order of the rates that equations of motion determine
@@ -63,7 +63,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
         TimeRate(quantity.symbol, *moving),
         lambda q: TimeRate(q, *moving),
         {"quantity": quantity},
-        between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)],
+        lines=Lines(between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)], motion=motion),
         routes={
             "functions_of_time": compared_with(lambda: bound(in_time, motion)),
             "sum": compared_with(lambda: in_time - taken_off),
@@ -72,7 +72,6 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
             "followed": lambda value: followed(quantity.value, value, motion),
         },
         outcome=lambda value: "conserved" if value == 0 else "changes",
-        motion=motion,
         parents=known,
         key=key or f"{quantity.key}_rate",
         kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
@@ -143,15 +142,15 @@ def _product(
         None,
         lambda f, _: Relation(Factors(f, written.left), "=", _times(f, written.right)),
         {"factor": factor, "quantity": quantity},
-        arranged=lambda value: _by_sides(value, _moving([quantity, equation])),
+        lines=Lines(
+            arranged=lambda value: _by_sides(value, _moving([quantity, equation])), law=Level.FULL, put_in=None
+        ),
         routes={
             "motion": lambda value: _sides(value, motion),
             "divided": lambda value: _divided(value, factor, written, motion),
         },
         outcome="first" if leads else "next",
-        judged_by={"leads": leads, "written": written},
-        law_shown=Level.FULL,
-        put_in=None,
+        telling=Telling(judged_by={"leads": leads, "written": written}),
         parents=[equation],
         key=f"{quantity.key}_{equation.key}",
     )
@@ -190,15 +189,15 @@ def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbo
         None,
         lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
         {},
-        arranged=lambda value: _by_sides(value, _moving([quantity, *products])),
+        lines=Lines(
+            arranged=lambda value: _by_sides(value, _moving([quantity, *products])), law=Level.FULL, put_in=None
+        ),
         routes={
             "motion": lambda value: _sides(value, motion),
             "one_by_one": lambda value: _one_by_one(value, products),
         },
         outcome=_left_over(sides[0], list(motion)),
-        judged_by={"highest": list(motion), "products": sides[0]},
-        law_shown=Level.FULL,
-        put_in=None,
+        telling=Telling(judged_by={"highest": list(motion), "products": sides[0]}),
         parents=list(products),
         key=f"{quantity.key}_sum",
     )

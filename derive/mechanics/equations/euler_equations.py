@@ -39,7 +39,7 @@ from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.equations.conservation import Acting, highest_rates
 from derive.mechanics.rotation.vectors import RateByParticles, Through
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
@@ -124,9 +124,9 @@ def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_ten
         definition=True,
         kind="moment of inertia",
         facts=[OfBody(body), AboutPoint(body.point)],
-        words={"about": body.about},
+        telling=Telling(words={"about": body.about}),
         key=key,
-        about=Subject(body=body, point=body.point),
+        scope=Scope(about=Subject(body=body, point=body.point)),
     )
 
 
@@ -152,10 +152,9 @@ def changing_angular_velocity(
         {},
         definition=True,
         kind="angular speed",
-        coordinates=dict.fromkeys(names, "angular speed"),
+        scope=Scope(coordinates=dict.fromkeys(names, "angular speed"), about=Subject(rotation=column(*names))),
         facts=[Through(through)],
         key=key,
-        about=Subject(rotation=column(*names)),
     )
 
 
@@ -196,9 +195,12 @@ def rate_in_space(
         CarriedRate(L.symbol, w.symbol, *moving),
         law,
         inputs,
-        between=_rates_worked(momentum, omega, in_body),
-        put_in=None,
-        arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
+        lines=Lines(
+            between=_rates_worked(momentum, omega, in_body),
+            put_in=None,
+            arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
+            means=motion,
+        ),
         routes={
             "carried_round": compared_with(lambda: bound(explicit(turned), motion)),
             "matter": compared_with(lambda: bound(explicit(matter()), motion)),
@@ -209,8 +211,7 @@ def rate_in_space(
         },
         outcome=lambda value: _constancy(value, in_body),
         kind="torque",
-        words={"about": L.needed(AboutPoint).point.name},
-        means=motion,
+        telling=Telling(words={"about": L.needed(AboutPoint).point.name}),
         facts=[RateOfMomentum(matter, tuple(moving))],
         key=key,
     )
@@ -259,13 +260,16 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         None,
         lambda rate, _: Relation(Component(rate, AXES[i]), "=", acting),
         {"rate": rate, "component": moving[i]},
-        put_in=None,
-        arranged=lambda value: Relation(by_products(explicit(value.left), moving), "=", value.right),
-        law_shown=Level.FULL,
+        lines=Lines(
+            put_in=None,
+            arranged=lambda value: Relation(by_products(explicit(value.left), moving), "=", value.right),
+            law=Level.FULL,
+        ),
         routes={"matter": lambda value: (value, Relation(explicit(of.by_particles())[i], "=", acting))},
         outcome=_coupling(rate.value, moving, i, torque),
-        words={"axis": AXES[i]},
-        judged_by={"torque": column(*torque), "rate": rate.value, "moving": list(moving)},
+        telling=Telling(
+            words={"axis": AXES[i]}, judged_by={"torque": column(*torque), "rate": rate.value, "moving": list(moving)}
+        ),
         kind="torque",
         key=f"euler_{AXES[i]}",
         facts=[Acting(column(*torque))],
@@ -313,11 +317,10 @@ def rate_in_body(
         BodyRate(momentum.symbol, *moving),
         law,
         {"omega": omega, "momentum": momentum},
-        put_in=Level.FULL,
+        lines=Lines(put_in=Level.FULL, means=motion),
         routes={"motion": compared_with(lambda: bound(explicit(BodyRate(momentum.value, *moving)), motion))},
         outcome=lambda value: "zero" if is_zero(value) else "in_general" if is_zero(acting) else "driven",
-        judged_by={"torque": acting},
-        means=motion,
+        telling=Telling(judged_by={"torque": acting}),
         kind="torque",
         parents=list(equations),
         facts=[MotionOfBody(motion)],

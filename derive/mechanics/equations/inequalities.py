@@ -8,7 +8,7 @@ from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 TURNED = {">": "<", ">=": "<="}
@@ -46,19 +46,21 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
         None,
         lambda v: Relation(v, mark, 0),
         {"quantity": of},
-        put_in=Level.STANDARD,
-        between=steps,
-        after=[Form(Relation(alone, turned, bound), "solved", nonzero=(value / core,))],
-        show_result=False,
+        lines=Lines(
+            put_in=Level.STANDARD,
+            between=steps,
+            after=[Form(Relation(alone, turned, bound), "solved", nonzero=(value / core,))],
+            result=False,
+            arranged=lambda _: Relation(alone, turned, bound),
+        ),
         routes={
             "above": lambda found: _truths_beside(found, value, or_zero, 1),
             "at": lambda found: _truths_beside(found, value, or_zero, 0),
             "below": lambda found: _truths_beside(found, value, or_zero, -1),
         },
         outcome="conditional" if has_root else "squared",
-        words={"strictly": "not_negative" if or_zero else "positive"},
+        telling=Telling(words={"strictly": "not_negative" if or_zero else "positive"}),
         key=key,
-        arranged=lambda _: Relation(alone, turned, bound),
     )
 
 
@@ -69,12 +71,10 @@ def _of_known_sign(of: Quantity, value: Expr, key: str) -> Quantity:
         None,
         lambda v: Relation(v, mark, 0),
         {"quantity": of},
-        put_in=Level.STANDARD if value != 0 else None,
-        show_result=False,
+        lines=Lines(put_in=Level.STANDARD if value != 0 else None, result=False, arranged=explicit),
         routes={"sign": lambda found: (found.residual, of_the_size(value, found.mark))},
         outcome=outcome,
         key=key,
-        arranged=explicit,
     )
 
 

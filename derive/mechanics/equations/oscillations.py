@@ -13,7 +13,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import OfCoordinate, T
 from derive.mechanics.systems.lagrangian import FromLagrangian
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Quantity, compared_with
 
@@ -61,14 +61,13 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
         None,
         lambda _: Relation(_mass_and_stiffness(first, q), "=", 0),
         {"q": q},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=explicit),
         routes={"second_order": compared_with(of_second_order)},
         outcome="generic" if place == 0 else "displaced",
-        judged_by={"place": place},
+        telling=Telling(judged_by={"place": place}),
         key=key,
         parents=[equation],
         facts=[equation.needed(OfCoordinate)],
-        arranged=explicit,
     )
 
 
@@ -106,16 +105,18 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         Pow(scalar(symbol), 2),
         lambda _: Ratio(stiffness, mass),
         {"q": q},
-        put_in=None,
+        lines=Lines(
+            put_in=None,
+            arranged=explicit if stiffness.has(Add) else tidied,
+            means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
+        ),
         routes={"put_back": put_back},
-        arranged=explicit if stiffness.has(Add) else tidied,
         outcome=sign_of,
         key=key,
         kind="squared angular speed",
         parents=[linear],
-        points_to={"linear": linear},
+        telling=Telling(points_to={"linear": linear}),
         facts=[SquareOf(symbol)],
-        means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
     )
 
 
@@ -158,9 +159,8 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=explicit),
         routes={"motion": satisfies, "positive": positive_root},
-        arranged=explicit,
         outcome=outcome,
         key=key,
         kind="angular speed",

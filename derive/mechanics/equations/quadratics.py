@@ -15,7 +15,7 @@ from sympy import Add, Expr, Integer, Mul, Symbol, resultant, sqrt
 from derive.algebra.expressions import PLUS_MINUS, Factors, Ratio, Relation, Root, Terms, bound, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.step import Fact, Quantity
 
@@ -149,12 +149,14 @@ def roots_of(
         {"equation": equation, "unknown": x, **{q.key: q for q in values}},
         routes={"put_back": lambda found: (here.at(found), Integer(0)), "sum": sum_of_both},
         outcome=outcome,
-        judged_by={"quadratic": here},
-        told={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
-        arranged=lambda found: tidied(found) if linear else _arranged(here, found),
+        telling=Telling(
+            judged_by={"quadratic": here},
+            formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
+            stands_for=one_stands_for if linear else (),
+        ),
+        lines=Lines(arranged=lambda found: tidied(found) if linear else _arranged(here, found)),
         key=key,
         facts=[Roots(general, here, x, values)],
-        stands_for=one_stands_for if linear else (),
         kind=kind,
     )
 

@@ -11,7 +11,7 @@ from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size
 from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 
@@ -40,16 +40,18 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
         None,
         lambda found: Relation(found[one], "=", found[other]),
         {"moments": moments},
-        between=[Form(Relation(*_with_mark(sides)), "divided", Level.STANDARD), *squared],
-        after=[Form(Relation(unknown, "=", bound), "positive")],
-        show_result=False,
+        lines=Lines(
+            between=[Form(Relation(*_with_mark(sides)), "divided", Level.STANDARD), *squared],
+            after=[Form(Relation(unknown, "=", bound), "positive")],
+            result=False,
+            arranged=lambda _: Relation(unknown, "=", bound),
+        ),
         routes={
             "put_back": lambda found: _tensor_there(moments, found, one),
             "beside": lambda found: _differences_beside(difference, found),
         },
         outcome="special",
         key=key,
-        arranged=lambda _: Relation(unknown, "=", bound),
     )
 
 
@@ -61,7 +63,7 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
         None,
         lambda found: Relation(found[one], mark, found[other]),
         {"moments": moments},
-        show_result=False,
+        lines=Lines(result=False, arranged=explicit),
         routes={
             "sign": lambda found: (
                 ImmutableDenseMatrix([found.residual] * 2),
@@ -70,7 +72,6 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
         },
         outcome="always" if mark == "=" else "never",
         key=key,
-        arranged=explicit,
     )
 
 

@@ -12,7 +12,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.oscillations import sign_of
 from derive.mechanics.systems.coordinates import only_coordinate
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
@@ -45,12 +45,14 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quanti
         Slope(potential.symbol, q, Integer(order)),
         lambda energy: Slope(energy, q, Integer(order)),
         {"potential": potential},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
+        ),
         routes={"expanded": compared_with(lambda: _coefficient(potential.value, q, q, order) * factorial(order))},
         outcome=named if order < 3 else "higher",
         key=key or f"{potential.key}_{named}",
-        arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
         facts=[DerivativeOf(potential, q)],
     )
 
@@ -85,13 +87,13 @@ def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvat
         At(curvature.symbol, q, place),
         lambda second: At(second, q, place),
         {"curvature": curvature},
-        told={"place": (Relation(q, "=", place), Relation(q, "=", _level_place(potential.value, q, place)))},
-        put_in=None,
-        law_shown=Level.FULL,
+        telling=Telling(
+            formulas={"place": (Relation(q, "=", place), Relation(q, "=", _level_place(potential.value, q, place)))}
+        ),
+        lines=Lines(put_in=None, law=Level.FULL, arranged=spread_or_by_terms),
         routes={"expanded": compared_with(lambda: 2 * _coefficient(potential.value, q, place, 2))},
         outcome=sign_of,
         key=key,
-        arranged=spread_or_by_terms,
         parents=[potential],
     )
 
@@ -158,17 +160,21 @@ def leading_order(
         in_case(potential.symbol),
         lambda energy, *_: in_case(energy),
         {"potential": potential},
-        told={"case": (where, Relation(where.left, "=", where.right))} if where else {},
-        put_in=None,
-        law_shown=Level.FULL,
-        after=[Form(Truncated(truncated, q, place, Integer(order)), "series")] if order else [],
+        telling=Telling(
+            formulas={"case": (where, Relation(where.left, "=", where.right))} if where else {},
+            judged_by={"coordinate": q, "place": place, **({"case": where} if where else {})},
+        ),
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            after=[Form(Truncated(truncated, q, place, Integer(order)), "series")] if order else [],
+            arranged=spread_or_by_terms,
+        ),
         routes={"derivatives": by_derivatives, "lowest": lowest},
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,
-        arranged=spread_or_by_terms,
-        judged_by={"coordinate": q, "place": place, **({"case": where} if where else {})},
-        case_of=potential,
+        scope=Scope(case_of=potential),
     )
 
 

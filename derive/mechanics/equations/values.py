@@ -25,7 +25,7 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import size_and_rest
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation.vectors import RateByParticles, Through, length_by_turning
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
 
@@ -64,9 +64,7 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
         routes={"law": compared_with(anew)},
         key=key or f"{general.key}_at_{particular.key}",
         kind=general.step.kind,
-        differ={"rotation"},
-        about=Subject(rotation=particular.subject.rotation),
-        case_of=general,
+        scope=Scope(differ={"rotation"}, about=Subject(rotation=particular.subject.rotation), case_of=general),
     )
 
 
@@ -129,14 +127,12 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
         general.symbol,
         lambda _, *those: bound(general.value, dict(zip(known, those, strict=True))),
         {"general": general, **{q.key: q for q in values}},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(put_in=None, law=Level.FULL, arranged=by_terms),
         routes={"law": compared_with(anew)},
         key=key or f"{general.key}_here",
         kind=general.step.kind,
-        arranged=by_terms,
         facts=general.facts,
-        case_of=general,
+        scope=Scope(case_of=general),
     )
 
 
@@ -156,8 +152,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
         Norm(of.symbol),
         lambda v: Root(Dot(v, v)),
         {"vector": of},
-        between=worked,
-        put_in=Level.FULL,
+        lines=Lines(between=worked, put_in=Level.FULL),
         routes={"turned": compared_with(lambda: length_by_turning(of.value))},
         outcome=lambda length: "zero" if length == 0 else "generic",
         key=key,
@@ -179,7 +174,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
         Pow(Norm(of.symbol), 2),
         lambda v: Dot(v, v),
         {"vector": of},
-        put_in=Level.FULL,
+        lines=Lines(put_in=Level.FULL),
         routes={"turned": compared_with(lambda: length_by_turning(v) ** 2)},
         outcome=lambda square: "zero" if square == 0 else "generic",
         key=key,
@@ -231,5 +226,5 @@ def let(
         key=key,
         definition=True,
         kind=kind,
-        differ=EVERYTHING,
+        scope=Scope(differ=EVERYTHING),
     )

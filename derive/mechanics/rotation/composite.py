@@ -18,7 +18,7 @@ from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.rotation.inertia import entry_weight
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity, compared_with
 from derive.steps.subject import Subject
 
@@ -129,7 +129,7 @@ def total_mass(body: Composed, symbol: str | None = None, key: str = "total_mass
         routes={"integration": compared_with(by_integration)},
         kind="mass",
         key=key,
-        about=Subject(body=body),
+        scope=Scope(about=Subject(body=body)),
     )
 
 
@@ -156,7 +156,7 @@ def centre_distance(
         routes={"balance": unbalanced},
         kind="length",
         key=key,
-        about=Subject(body=body, point=PIVOT),
+        scope=Scope(about=Subject(body=body, point=PIVOT)),
     )
 
 
@@ -182,8 +182,7 @@ def axial_moment(body: Composed, symbol: str = "I_z", key: str = "axial_moment")
         parents=list(moments.values()),
         kind="moment of inertia",
         key=key,
-        about=Subject(body=body, point=PIVOT, axis="z"),
-        differ={"body", "point"},
+        scope=Scope(about=Subject(body=body, point=PIVOT, axis="z"), differ={"body", "point"}),
     )
 
 
@@ -218,8 +217,7 @@ def transverse_moment(body: Composed, symbol: str = "I_x", key: str = "transvers
         },
         kind="moment of inertia",
         key=key,
-        about=Subject(body=body, point=PIVOT, axis="x"),
-        differ={"body", "point"},
+        scope=Scope(about=Subject(body=body, point=PIVOT, axis="x"), differ={"body", "point"}),
     )
 
 
@@ -255,7 +253,9 @@ def part_moment(body: Composed, part: Part, pair: tuple[int, int]) -> Quantity:
         scalar(f"I_{LETTER[pair]}_{part.name}"),
         law,
         {"axial": axial[0]} if is_flat else {"density": rho},
-        between=[] if is_flat else worked_integral(region, weight, rho.symbol, part.body.size),
+        lines=Lines(
+            between=[] if is_flat else worked_integral(region, weight, rho.symbol, part.body.size), put_in=None
+        ),
         routes={
             "particles": compared_with(
                 lambda: sum((m * _squared_distance(centre.seen(r), pair) for m, r in part.body.particles()), Integer(0))
@@ -264,10 +264,9 @@ def part_moment(body: Composed, part: Part, pair: tuple[int, int]) -> Quantity:
         },
         outcome="flat" if is_flat else "none" if weight == 0 else "moment",
         kind="moment of inertia",
-        put_in=None,
         key=f"{part.name}_moment_{LETTER[pair]}",
-        words={"name": part.name, "axis_letter": LETTER[pair]},
-        about=Subject(body=part.body, point=centre, axis=LETTER[pair]),
+        telling=Telling(words={"name": part.name, "axis_letter": LETTER[pair]}),
+        scope=Scope(about=Subject(body=part.body, point=centre, axis=LETTER[pair])),
     )
 
 

@@ -30,7 +30,7 @@ from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Point, Region
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, entry_name
 from derive.steps.subject import Subject
 
@@ -79,11 +79,11 @@ def inertia_tensor(
         },
         outcome=_round_shape if pairs == ROUND else _shape,
         kind="moment of inertia",
-        put_in=None,
+        lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(point)],
-        words={"about": point.name},
+        telling=Telling(words={"about": point.name}),
         key=key,
-        about=Subject(body=body, point=point),
+        scope=Scope(about=Subject(body=body, point=point)),
     )
 
 
@@ -107,15 +107,13 @@ def moment_of_inertia(
         scalar(symbol),
         _with_sign_in_front(region, weight),
         {"density": rho},
-        told=_told_square(region, (i, i), weight),
-        between=worked_integral(region, weight, rho.symbol, body.size),
+        telling=Telling(formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis}),
+        lines=Lines(between=worked_integral(region, weight, rho.symbol, body.size), put_in=None),
         routes={"particles": compared_with(lambda: _entry_from_particles(body, point, (i, i)))},
         kind="moment of inertia",
-        put_in=None,
-        words={"about": point.name, "axis": axis},
         key=key,
         parents=body.radii(point, region),
-        about=Subject(body=body, mass=body.mass, point=point, axis=axis),
+        scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis)),
     )
 
 
@@ -134,11 +132,10 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
         definition=True,
         kind="moment of inertia",
         parents=[body.density, *body.radii(point, region)],
-        put_in=None,
-        show_result=False,
-        words={"about": point.name},
+        lines=Lines(put_in=None, result=False),
+        telling=Telling(words={"about": point.name}),
         key=f"{key}_definition",
-        about=Subject(body=body, point=point),
+        scope=Scope(about=Subject(body=body, point=point)),
     )
 
 
@@ -199,16 +196,14 @@ def _entry_by_integration(
         entry_name(name, i, j),
         _with_sign_in_front(region, weight),
         {"density": rho},
-        told=_told_square(region, pair, weight),
-        between=worked_integral(region, weight, rho.symbol, body.size),
+        telling=Telling(formulas=_told_square(region, pair, weight), words={"about": point.name}),
+        lines=Lines(between=worked_integral(region, weight, rho.symbol, body.size), put_in=None),
         routes={"particles": compared_with(lambda: _entry_from_particles(body, point, pair))},
         outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
-        put_in=None,
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
-        words={"about": point.name},
         parents=[definition, *body.radii(point, region)],
-        about=Subject(body=body, point=point, axis=f"{'xyz'[i]}{'xyz'[j]}"),
+        scope=Scope(about=Subject(body=body, point=point, axis=f"{'xyz'[i]}{'xyz'[j]}")),
     )
 
 
@@ -308,11 +303,11 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
         outcome=_round_shape if pairs == ROUND else _shape,
         kind="moment of inertia",
         parents=[body.density],
-        put_in=None,
+        lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(there)],
-        words={"about": "centre", "start": start.name},
+        telling=Telling(words={"about": "centre", "start": start.name}),
         key=key,
-        about=Subject(body=body, point=there),
+        scope=Scope(about=Subject(body=body, point=there)),
     )
 
 
@@ -342,11 +337,11 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
         outcome=_round_shape if pairs == ROUND else _shape,
         kind="moment of inertia",
         parents=[body.density],
-        put_in=None,
+        lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(target)],
-        words={"about": target.name},
+        telling=Telling(words={"about": target.name}),
         key=key,
-        about=Subject(body=body, point=target),
+        scope=Scope(about=Subject(body=body, point=target)),
     )
 
 
@@ -396,12 +391,11 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         routes={"integration": compared_with(directly)},
         outcome=_outward_outcome(pair) if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
-        put_in=Level.STANDARD,
+        lines=Lines(put_in=Level.STANDARD),
         parents=[there],
-        words={"start": other.name},
+        telling=Telling(words={"start": other.name}),
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
-        about=Subject(body=body, point=target),
-        differ={"point"},
+        scope=Scope(about=Subject(body=body, point=target), differ={"point"}),
     )
 
 
@@ -432,11 +426,9 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
         routes={"other_way": compared_with(lambda: turn * again.value * turn.T)},
         outcome="generic" if turn.is_Identity else "turned",
         kind="moment of inertia",
-        put_in=None,
+        lines=Lines(put_in=None),
         facts=found.facts,
-        words={"about": points[0].name},
+        telling=Telling(words={"about": points[0].name}, judged_by={"turn": turn}),
         key=key,
-        about=found.subject,
-        differ={"point", "axes"},
-        judged_by={"turn": turn},
+        scope=Scope(about=found.subject, differ={"point", "axes"}),
     )

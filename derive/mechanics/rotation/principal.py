@@ -15,7 +15,7 @@ from derive.algebra.expressions import Dot, column, explicit, scalar, vector
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import OfBody
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Fact, Quantity, is_zero, require_kind
 
 
@@ -64,7 +64,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         parents=[parent for parent in inertia.parents if parent.symbol in _by_entries(inertia).free_symbols],
         outcome=_multiplicity if inertia.value.is_diagonal() else _multiplicity_of_roots,
         kind="moment of inertia",
-        put_in=None,
+        lines=Lines(put_in=None),
         facts=[*inertia.facts, PrincipalOf(inertia)],
         key=key,
     )
@@ -118,9 +118,9 @@ def _axis(
         },
         outcome=_axis_outcome(moments, place),
         kind="number",
-        put_in=None,
+        lines=Lines(put_in=None),
         parents=[tensor, *before],
-        coordinates={angle: "angle"} if is_free else {},
+        scope=Scope(coordinates={angle: "angle"} if is_free else {}),
         key=f"{key}_{k + 1}",
     )
 

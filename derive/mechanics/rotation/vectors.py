@@ -29,7 +29,7 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
@@ -73,7 +73,7 @@ def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: st
         definition=True,
         kind="angular speed",
         facts=[Through(through)],
-        about=Subject(rotation=components),
+        scope=Scope(about=Subject(rotation=components)),
     )
 
 
@@ -96,8 +96,10 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
         vector(symbol),
         lambda w, d: scaled(w / Norm(d), d),
         {"rate": rate, "axis": along},
-        between=[] if length == 1 else [Form(scaled(Ratio(rate, length), along.value), "length", Level.STANDARD)],
-        put_in=None,
+        lines=Lines(
+            between=[] if length == 1 else [Form(scaled(Ratio(rate, length), along.value), "length", Level.STANDARD)],
+            put_in=None,
+        ),
         routes={
             "length": lambda omega: (length_by_turning(omega) ** 2, rate**2),
             "parallel": lambda omega: (explicit(Dot(omega, along.value)), rate * length),
@@ -106,7 +108,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
         key=key,
         kind="angular speed",
         facts=[Through(through)],
-        about=lambda omega: Subject(rotation=omega),
+        scope=Scope(about=lambda omega: Subject(rotation=omega)),
     )
 
 
@@ -184,12 +186,14 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
         scalar(symbol),
         lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
         {"omega": omega, "inertia": inertia},
-        between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.STANDARD)],
-        put_in=Level.FULL,
+        lines=Lines(
+            between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.STANDARD)],
+            put_in=Level.FULL,
+        ),
         routes={"speeds": compared_with(by_speeds)},
         key=key,
         kind="energy",
-        words=words,
+        telling=Telling(words=words),
         facts=[
             RateByParticles(
                 lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r))),
@@ -221,7 +225,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         outcome=lambda L: "parallel" if (how := _whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
         key=key,
         kind="angular momentum",
-        words=words,
+        telling=Telling(words=words),
         facts=[
             inertia.needed(AboutPoint),
             RateByParticles(
@@ -260,14 +264,16 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
         cos(scalar(angle)),
         lambda u, v: Ratio(Dot(u, v), Factors(Norm(u), Norm(v))),
         {"a": a, "b": b},
-        between=_lengths_worked(a, b, lengths),
-        put_in=Level.FULL,
+        lines=Lines(
+            between=_lengths_worked(a, b, lengths),
+            put_in=Level.FULL,
+            means={scalar(angle): _angle_by_components(a.value, b.value)},
+        ),
         routes={"triangle": compared_with(by_law_of_cosines)},
         outcome=_relation_of_directions,
         key=key,
         kind="number",
-        differ={"point", "rotation"},
-        means={scalar(angle): _angle_by_components(a.value, b.value)},
+        scope=Scope(differ={"point", "rotation"}),
     )
 
 
@@ -325,7 +331,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
         lambda: acos(cosine.value),
         {},
         parents=[cosine, a, b],
-        points_to={"a": a, "b": b},
+        telling=Telling(points_to={"a": a, "b": b}),
         routes={
             "tangent": lambda theta: (sin(theta) * along, cos(theta) * across),
             "sine": lambda theta: (sin(theta) * lengths, across),
@@ -360,15 +366,17 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
         vector(symbol),
         Cross,
         {"omega": omega, "momentum": momentum},
-        before=[
-            Form(CarriedRate(momentum.symbol, omega.symbol), "law"),
-            Form(MatAdd(BodyRate(momentum.symbol), Cross(omega.symbol, momentum.symbol)), "moving_axes"),
-        ],
-        between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
-        put_in=Level.FULL,
+        lines=Lines(
+            before=[
+                Form(CarriedRate(momentum.symbol, omega.symbol), "law"),
+                Form(MatAdd(BodyRate(momentum.symbol), Cross(omega.symbol, momentum.symbol)), "moving_axes"),
+            ],
+            between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
+            put_in=Level.FULL,
+        ),
         routes={"carried_round": compared_with(lambda: carried)},
         outcome=_whether_zero,
         key=key,
         kind="torque",
-        words={"about": about, "point": about},
+        telling=Telling(words={"about": about, "point": about}),
     )

@@ -18,7 +18,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, letters_of, rate_of
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
 from derive.mechanics.systems.rolling import Contact
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, value_behind
 
 
@@ -84,13 +84,12 @@ def free_lagrangian(
         scalar(symbol),
         law,
         {"mass": mass, "gravity": gravity, "inertia": inertia, "x": x, "y": y, "q": turning.symbol},
-        put_in=None,
-        show_result=False,
+        lines=Lines(put_in=None, result=False),
         routes={"energy": energy},
         key=key,
         kind="energy",
         facts=[matter],
-        coordinates=letters_of((*place, turning)),
+        scope=Scope(coordinates=letters_of((*place, turning))),
     )
 
 
@@ -120,17 +119,18 @@ def equation_with_multipliers(of: Quantity, q: Coordinate, ties: Sequence[Tie], 
         None,
         lambda L, *_: Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", on_q),
         {"lagrangian": of, "q": q.symbol, **({"multiplier": kept.multiplier} if kept else {})},
-        told=_told_of(kept),
-        put_in=None,
-        law_shown=Level.FULL,
+        telling=Telling(formulas=_told_of(kept), judged_by={"multiplier": kept.multiplier if kept else None}),
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda found: Relation(by_accelerations(found.left, moving), "=", _by_forces(found.right, ties)),
+        ),
         routes={"virtual_work": compared_with(by_virtual_work)},
         outcome="free" if kept else "turning",
-        judged_by={"multiplier": kept.multiplier if kept else None},
         key=key or f"motion_{q.symbol.name}",
         kind=None,
         facts=[OfCoordinate(q)],
-        coordinates={t.multiplier: "force" for t in ties},
-        arranged=lambda found: Relation(by_accelerations(found.left, moving), "=", _by_forces(found.right, ties)),
+        scope=Scope(coordinates={t.multiplier: "force" for t in ties}),
     )
 
 
@@ -173,13 +173,12 @@ def force_of_constraint(equation: Quantity, tied: Tie, key: str | None = None) -
         tied.multiplier,
         lambda a: mass * a + applied,
         {"acceleration": acceleration},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=lambda value: by_accelerations(value, moving)),
         routes={"momentum": compared_with(by_momentum)},
         key=key or f"force_{x.symbol.name}",
         kind="force",
         parents=[equation],
-        points_to={"equation": equation},
-        arranged=lambda value: by_accelerations(value, moving),
+        telling=Telling(points_to={"equation": equation}),
     )
 
 
@@ -205,12 +204,14 @@ def multipliers_eliminated(
         None,
         law,
         {**{f"force_{i}": force for i, force in enumerate(forces)}, "turning": equation, "found": found},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
+        ),
         routes={"solved_first": compared_with(lambda: found.value)},
         key=key,
         facts=found.facts,
-        arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
     )
 
 
@@ -249,31 +250,29 @@ def contact_forces(
         scalar("N"),
         lambda x, y: Terms(Factors(x, n[0]), Factors(y, n[1])),
         {"right": forces[0], "up": forces[1]},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=lambda value: by_accelerations(value, moving)),
         routes={"newton": compared_with(lambda: by_newton(n))},
         outcome="normal",
-        judged_by={"angle": q},
+        telling=Telling(judged_by={"angle": q}),
         key="normal_force",
         kind="force",
         parents=list(place),
-        arranged=lambda value: by_accelerations(value, moving),
     )
     tangent = establish(
         "constraints.contact_forces",
         scalar("F"),
         lambda x, y, _: Terms(Factors(x, t[0]), -Factors(y, n[0])),
         {"right": forces[0], "up": forces[1], "normal": normal},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=lambda value: by_accelerations(value, moving)),
         routes={
             "newton": compared_with(lambda: by_newton(t)),
             "moment": lambda found: (moment(found), motion.value),
         },
         outcome="tangent",
-        judged_by={"angle": q},
+        telling=Telling(judged_by={"angle": q}),
         key="tangent_force",
         kind="force",
         parents=list(place),
-        arranged=lambda value: by_accelerations(value, moving),
     )
     return normal, tangent
 

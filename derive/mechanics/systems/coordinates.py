@@ -16,7 +16,7 @@ from derive.algebra.collect import by_rates
 from derive.algebra.dimensions import dimension_of_kind, kind_of_dimension
 from derive.algebra.expressions import TIME, TimeRate, explicit, rate, scalar
 from derive.errors import Complaint, Rejected
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named
 from derive.steps.step import Fact, Level, Quantity, compared_with
 
@@ -128,11 +128,9 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
         rate(quantity.symbol),
         lambda x: TimeRate(x, *moving),
         {"quantity": quantity},
-        put_in=Level.FULL,
-        law_shown=Level.FULL,
+        lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=lambda value: by_rates(value, moving)),
         routes={"functions_of_time": compared_with(by_time)},
         outcome=lambda value: "zero" if value == 0 else "generic",
-        arranged=lambda value: by_rates(value, moving),
         key=key or f"{quantity.key}_rate",
         kind=kind_of_rate(quantity.step.kind) if quantity.step.kind else None,
     )

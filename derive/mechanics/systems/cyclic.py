@@ -9,7 +9,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, required
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import generalized_force, generalized_momentum
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, establish
 from derive.steps.step import Fact, Quantity, compared_with
 
 
@@ -47,10 +47,8 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
         None,
         lambda p, _: Relation(TimeRate(p, *moving), "=", 0),
         {"momentum": momentum, "coordinate": q.symbol},
-        before=[],
-        show_result=False,
+        lines=Lines(before=[], result=False, arranged=lambda found: found),
         routes={"virtual_work": compared_with(by_virtual_work)},
-        arranged=lambda found: found,
         key=key or f"conserved_{q.symbol.name}",
         parents=[force, momentum],
         facts=[OfMomentum(momentum), OfCoordinate(q)],

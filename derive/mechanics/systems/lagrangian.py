@@ -18,7 +18,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject, called
@@ -81,16 +81,14 @@ def plane_kinetic_energy(
         scalar(symbol),
         law,
         inputs,
-        put_in=Level.STANDARD,
+        lines=Lines(put_in=Level.STANDARD, arranged=lambda value: by_rates(value, list(coordinates), halves=True)),
         routes={"mass_points": compared_with(matter.kinetic_energy)},
-        arranged=lambda value: by_rates(value, list(coordinates), halves=True),
         outcome="turning" if turning else "particle",
         key=key,
         kind="energy",
         parents=list(place),
         facts=[matter],
-        coordinates=own,
-        about=Subject(mass=value_behind(mass), place=tuple(x.value for x in place)),
+        scope=Scope(coordinates=own, about=Subject(mass=value_behind(mass), place=tuple(x.value for x in place))),
     )
 
 
@@ -155,15 +153,13 @@ def weight_energy(
         scalar(symbol),
         lambda m, g, y: Factors(m, g, y),
         {"mass": mass, "gravity": gravity, "height": height},
-        put_in=Level.BRIEF,
-        show_result=False,
+        lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
         routes={"work": work_of_weight, "origin": zero_at_origin},
         key=key,
         kind="energy",
         parents=list(place),
         facts=[matter],
-        arranged=explicit,
-        about=_about_weight(mass, at),
+        scope=Scope(about=_about_weight(mass, at)),
     )
 
 
@@ -203,13 +199,11 @@ def lagrangian(kinetic: Quantity, potential: Quantity, symbol: str = "L", key: s
         scalar(symbol),
         lambda t, u: Terms(t, -u),
         {"kinetic": kinetic, "potential": potential},
-        put_in=Level.BRIEF,
-        show_result=False,
+        lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
         key=key,
         kind="energy",
         facts=[matter],
-        arranged=explicit,
     )
 
 
@@ -238,17 +232,19 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
         None,
         lambda L: Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", 0),
         {"lagrangian": of},
-        between=[
-            Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL),
-        ],
-        put_in=None,
+        lines=Lines(
+            between=[
+                Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL),
+            ],
+            put_in=None,
+            arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
+        ),
         routes={"virtual_work": compared_with(by_virtual_work)},
         outcome="cyclic" if force.value == 0 else "generic",
-        judged_by={"coordinate": q.symbol},
+        telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key,
         parents=[force, momentum, changing],
         facts=[FromLagrangian(of), OfCoordinate(q), matter],
-        arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
     )
 
 
@@ -276,14 +272,12 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         Partial(of.symbol, q.symbol),
         lambda L: Partial(L, q.symbol),
         {"lagrangian": of},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
         routes={
             "virtual_work": compared_with(lambda: matter.force_along(q.symbol) + matter.turning_along(q.symbol)),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or _key_of(of, f"force_{q.symbol.name}"),
-        arranged=lambda value: by_rates(value, list(of.coordinates)),
     )
 
 
@@ -301,12 +295,10 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
         Partial(of.symbol, q.rate),
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
         routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
         key=key or _key_of(of, f"momentum_{q.symbol.name}"),
         facts=[FromLagrangian(of), OfCoordinate(q)],
-        arranged=lambda value: by_rates(value, list(of.coordinates)),
     )
 
 
@@ -324,9 +316,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
         TimeRate(momentum.symbol, *moving),
         lambda p: TimeRate(p, *moving),
         {"momentum": momentum},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_accelerations(value, moving)),
         routes={"functions_of_time": compared_with(lambda: by_functions_of_time(momentum.value, moving))},
         key=key or f"{momentum.key}_rate",
-        arranged=lambda value: by_accelerations(value, moving),
     )

@@ -14,7 +14,7 @@ from sympy import Expr, cos, diff, integrate, sin
 from derive.algebra.expressions import Factors, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.mechanics.systems.coordinates import Coordinate
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Level, Quantity
 
@@ -72,20 +72,19 @@ def rolled_centre(
             scalar(name),
             lambda *_: values[name],
             {"angle": q},
-            told={"arc": (radius * q, arc_of_contact()), "above": (explicit(above), along_normal())},
-            put_in=None,
-            law_shown=Level.BRIEF,
-            show_result=False,
+            telling=Telling(
+                formulas={"arc": (radius * q, arc_of_contact()), "above": (explicit(above), along_normal())}
+            ),
+            lines=Lines(put_in=None, law=Level.BRIEF, result=False, arranged=explicit),
             routes={
                 "no_slip": lambda found: at_rest(found, name),
                 "balanced": lambda found: (found.subs(q, 0), balanced),
             },
             outcome="across" if name == name_x else "up",
-            arranged=explicit,
             facts=[Contact(tuple(contact.values()))],
             key=name,
             kind="length",
-            coordinates=angle.letters,
+            scope=Scope(coordinates=angle.letters),
         )
 
     return one(name_x, radius * 0), one(name_y, radius + height)

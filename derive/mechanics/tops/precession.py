@@ -11,7 +11,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size, positive_where
 from derive.mechanics.equations.quadratics import Roots, discriminant, roots_of
 from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import require_constant
 from derive.steps.step import Form, Quantity, compared_with, only_equation
@@ -51,15 +51,16 @@ def steady_precession(tilt: Quantity, key: str = "steady_precession") -> Quantit
         None,
         lambda *_: Relation(at_rest, "=", 0),
         {"tilt": theta.symbol, "rate": phi.rate},
-        told={"sine": (sine, tidied(-at_rest / kept))},
-        put_in=None,
-        after=[Form(Relation(in_powers, "=", 0), "divided", nonzero=(sine,))],
-        show_result=False,
+        telling=Telling(formulas={"sine": (sine, tidied(-at_rest / kept))}, points_to={"of_tilt": tilt}),
+        lines=Lines(
+            put_in=None,
+            after=[Form(Relation(in_powers, "=", 0), "divided", nonzero=(sine,))],
+            result=False,
+            arranged=lambda _: Relation(kept, "=", 0),
+        ),
         routes={"carried_round": by_carrying},
-        arranged=lambda _: Relation(kept, "=", 0),
         key=key,
         parents=[tilt],
-        points_to={"of_tilt": tilt},
         facts=tilt.facts,
     )
 
@@ -71,7 +72,7 @@ def _fixed_tilt(tilt: Expr, angles: EulerAngles, key: str = "tilt") -> Quantity:
         angles.theta.symbol,
         lambda: tilt,
         {},
-        judged_by={"given": tilt, "tilt": angles.names[1]},
+        telling=Telling(judged_by={"given": tilt, "tilt": angles.names[1]}),
         key=key,
         definition=True,
         kind="angle",
@@ -167,19 +168,16 @@ def _steady_rate(
         rate(scalar(f"phi_{name}")),
         lambda _: _of_sign(rates.value, sign),
         {"rates": rates},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=lambda _: _of_sign(rates.value, sign)),
         routes={
             "put_back": lambda found: (quadratic.at(found), ZERO),
             "other_form": compared_with(other_form),
         },
         outcome=outcome,
-        judged_by={"quadratic": quadratic},
-        arranged=lambda _: _of_sign(rates.value, sign),
+        telling=Telling(judged_by={"quadratic": quadratic}, points_to={"condition": condition}, stands_for=stands_for),
         key=key,
         kind="angular speed",
         parents=[rates, condition],
-        points_to={"condition": condition},
-        stands_for=stands_for,
     )
 
 
@@ -212,11 +210,9 @@ def no_steady_precession(rates: Quantity, condition: Quantity, key: str = "no_st
         None,
         lambda: Relation(condition.value.left, "<", condition.value.right),
         {},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=explicit),
         routes={"numbers": by_numbers, "bound": at_the_bound},
-        arranged=explicit,
         key=key,
         parents=[rates, condition],
-        points_to={"condition": condition},
-        stands_for=(SLOW, FAST),
+        telling=Telling(points_to={"condition": condition}, stands_for=(SLOW, FAST)),
     )

@@ -17,7 +17,7 @@ from derive.mechanics.equations.inequalities import boundary_case, sign_by_facto
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.mechanics.systems.cyclic import OfMomentum
 from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop, Top
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Quantity, Route
 
 HALF = Rational(1, 2)
@@ -53,18 +53,19 @@ def upright_rate(conserved: Quantity, tilt: Quantity, key: str = "upright_rate")
         phi.rate,
         lambda *_: Ratio(Terms(carried, -carried * cos(theta.symbol)), across * sin(theta.symbol) ** 2),
         {},
-        told={
-            "sine": (sin(theta.symbol), (angles.following.T * Matrix([0, 0, 1]))[1]),
-            "carried": (carried, upright),
-        },
-        judged_by={"cyclic": dict(conserved.step.roles)["coordinate"]},
-        put_in=None,
+        telling=Telling(
+            formulas={
+                "sine": (sin(theta.symbol), (angles.following.T * Matrix([0, 0, 1]))[1]),
+                "carried": (carried, upright),
+            },
+            judged_by={"cyclic": dict(conserved.step.roles)["coordinate"]},
+            points_to={"conserved": conserved},
+        ),
+        lines=Lines(put_in=None, arranged=lambda _: carried / (across * (1 + cos(theta.symbol)))),
         routes={"momentum": by_momentum, "vertical_component": by_vertical_component},
-        arranged=lambda _: carried / (across * (1 + cos(theta.symbol))),
         key=key,
         kind="angular speed",
         parents=[conserved, tilt],
-        points_to={"conserved": conserved},
         facts=tilt.facts,
     )
 
@@ -106,13 +107,14 @@ def effective_potential(
         scalar(symbol),
         lambda turning, weight, *_: Terms(HALF * top.across.symbol * turning**2 * sin(q) ** 2, weight),
         {"rate": rate, "potential": potential},
-        told={
-            "moving": (moving, _tilting(kinetic.value, theta)),
-            "constant": (constant, _of_spin(kinetic.value, rates, q)),
-        },
-        put_in=None,
+        telling=Telling(
+            formulas={
+                "moving": (moving, _tilting(kinetic.value, theta)),
+                "constant": (constant, _of_spin(kinetic.value, rates, q)),
+            }
+        ),
+        lines=Lines(put_in=None, arranged=lambda _: _of_carried(top, spin, q) + potential.value),
         routes={"motion": by_motion, "energy": by_energy},
-        arranged=lambda _: _of_carried(top, spin, q) + potential.value,
         key=key,
         kind="energy",
         parents=[kinetic],
@@ -170,10 +172,9 @@ def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, ke
         None,
         lambda: Relation(condition.value.left, ">=" if sleeps else ">", least),
         {},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=explicit),
         routes={"at_border": beside(0), "above": beside(1), "below": beside(-1)},
         outcome="with_border" if sleeps else "without_border",
-        arranged=explicit,
         key=key,
         parents=[condition, border],
     )

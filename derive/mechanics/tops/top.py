@@ -33,7 +33,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, coordinate, letters_of
 from derive.mechanics.systems.dalembert import symmetric_body
-from derive.steps.establish import establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import (
     Fact,
@@ -208,13 +208,12 @@ def turning_rate(angles: EulerAngles, symbol: str = "omega", key: str = "angular
             "tilt": theta.symbol,
             "turning": psi.symbol,
         },
-        told={"sine": (vertical[1], upwards[1]), "cosine": (vertical[2], upwards[2])},
-        put_in=None,
+        telling=Telling(formulas={"sine": (vertical[1], upwards[1]), "cosine": (vertical[2], upwards[2])}),
+        lines=Lines(put_in=None, arranged=explicit),
         routes={"rotation_matrix": compared_with(by_rotation_matrix)},
-        arranged=explicit,
         key=key,
         kind="angular speed",
-        coordinates=letters_of(angles.coordinates),
+        scope=Scope(coordinates=letters_of(angles.coordinates)),
         facts=[angles],
     )
 
@@ -245,9 +244,8 @@ def top_kinetic_energy(top: Top, omega: Quantity, symbol: str = "T", key: str = 
         law,
         {"omega": omega},
         parents=[letters.mass, letters.distance, letters.along, letters.across],
-        show_result=False,
+        lines=Lines(result=False, arranged=explicit),
         routes={"mass_points": compared_with(matter.kinetic_energy)},
-        arranged=explicit,
         key=key,
         kind="energy",
         facts=[matter, angles],
@@ -279,13 +277,11 @@ def centre_height(top: Top, angles: EulerAngles, symbol: str = "Z", key: str = "
         scalar(symbol),
         lambda l: l * cos(theta.symbol),
         {"distance": top.in_letters().distance},
-        put_in=None,
-        show_result=False,
+        lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"rotation": compared_with(by_rotation)},
-        arranged=explicit,
         key=key,
         kind="length",
-        coordinates=theta.letters,
+        scope=Scope(coordinates=theta.letters),
     )
 
 
@@ -317,12 +313,11 @@ def constant_spin(omega: Quantity, rate: Expr, conserved: Quantity, top: Top, ke
         None,
         lambda *_: Relation(omega.value[2], "=", rate),
         {"omega": omega, "spin": rate, "along": top.along.symbol},
-        put_in=None,
+        lines=Lines(put_in=None, arranged=explicit),
         routes={"rate_of_momentum": by_its_rate, "component": by_component},
-        arranged=explicit,
         key=key,
         parents=[omega, conserved],
-        points_to={"conserved": conserved},
+        telling=Telling(points_to={"conserved": conserved}),
         facts=[angles, ConstantSpin(rate)],
     )
 
@@ -355,10 +350,12 @@ def tilt_equation(motion: Quantity, spin: Quantity, top: Top, gravity: Expr, key
         None,
         lambda *_: Relation(motion.value.left.expand().xreplace({psi.rate: turning}), "=", 0),
         {"tilt": theta.symbol, "turning": psi.rate, "spin": spin},
-        put_in=None,
-        law_shown=Level.FULL,
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda found: Relation(by_accelerations(found.left, angles.names), "=", 0),
+        ),
         routes={"torque": compared_with(by_torque)},
-        arranged=lambda found: Relation(by_accelerations(found.left, angles.names), "=", 0),
         key=key,
         parents=[spin, motion],
         facts=[angles, ConstantSpin(rate), HeavyTop(top, gravity)],
