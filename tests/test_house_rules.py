@@ -220,7 +220,7 @@ def test_a_verb_explains_each_of_its_arguments(name: str) -> None:
 def test_a_verb_can_be_found_in_the_notation(name: str) -> None:
     notation = (ROOT / "NOTATION.md").read_text(encoding="utf-8")
     of_engine = {"axis_vector", "value_of", "coefficient_of", "comparison_of"}
-    assert name in derive.mechanics.__all__ or name in of_engine
+    assert hasattr(derive.mechanics, name) or name in of_engine
     assert re.search(rf"`{name}\b", notation) or name in of_engine
 
 

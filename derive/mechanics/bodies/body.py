@@ -28,6 +28,8 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Level, Quantity, compared_with
 from derive.steps.subject import Subject
 
+__all__ = ["Cuboid", "centre_of_mass", "density"]
+
 Particles = list[tuple[Expr, ImmutableMatrix]]
 
 # what is filled with mass -> letter and kind of the density

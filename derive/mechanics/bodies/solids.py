@@ -17,6 +17,8 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity
 from derive.steps.subject import Subject
 
+__all__ = ["Ball", "Cone", "Cylinder", "volume"]
+
 UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x: z is counted the other way
 
 

@@ -13,6 +13,8 @@ from derive.mechanics.bodies.body import Body, Particles
 from derive.mechanics.bodies.regions import Point, Region, box, circle, disc, segment
 from derive.mechanics.bodies.solids import disc_particles
 
+__all__ = ["Disc", "Hoop", "Plate", "Rod"]
+
 HALF = Rational(1, 2)
 
 

@@ -23,6 +23,8 @@ from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_r
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 
+__all__ = ["rate_under"]
+
 HIGHEST = 2  # the order of the rates that equations of motion determine
 
 

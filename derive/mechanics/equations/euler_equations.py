@@ -44,6 +44,15 @@ from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
 
+__all__ = [
+    "RigidBody",
+    "changing_angular_velocity",
+    "euler_equations",
+    "principal_tensor",
+    "rate_in_body",
+    "rate_in_space",
+]
+
 NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 
 

@@ -11,6 +11,8 @@ from derive.errors import Complaint, Rejected
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Form, Level, Quantity, is_zero
 
+__all__ = ["boundary_case", "positive_where"]
+
 TURNED = {">": "<", ">=": "<="}
 TRUE_FOR = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
 

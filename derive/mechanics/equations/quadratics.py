@@ -19,6 +19,8 @@ from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.step import Fact, Quantity
 
+__all__ = ["discriminant", "roots_of"]
+
 FOUR = Integer(4)
 
 
@@ -35,6 +37,10 @@ class Quadratic:
 
     def at(self, x: Expr) -> Expr:
         return self.a * x**2 + self.b * x + self.c
+
+    @property
+    def is_linear(self) -> bool:
+        return bool(self.a == 0)
 
     @property
     def discriminant(self) -> Expr:
@@ -78,7 +84,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     """
     of = roots.needed(Roots)
     general, here, values, x = of.general, of.quadratic, of.values, of.unknown
-    if here.a == 0:
+    if here.is_linear:
         raise Rejected(Complaint("not-quadratic", f"`{roots.key}` has the root of a linear equation"))
 
     def by_resultant(found: Expr) -> tuple[Expr, Expr]:
@@ -132,7 +138,7 @@ def roots_of(
     here = general.with_values(_put_in(values))
     if here.a == 0 and here.b == 0:
         raise Rejected(Complaint("no-roots", f"`{equation.key}` does not depend on {x.name} here"))
-    linear = here.a == 0
+    linear = here.is_linear
     excluded = _may_vanish(here.a)
     formula = _linear_formula(general) if linear else _formula(general)
     outcome = "linear" if linear else character(here)

@@ -14,6 +14,8 @@ from derive.mechanics.rotation.principal import PrincipalOf, lone_moment
 from derive.steps.establish import Lines, establish
 from derive.steps.step import Form, Level, Quantity, is_zero
 
+__all__ = ["isotropic_where"]
+
 
 def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
     """Case in which all three principal moments are equal, I_1 = I_3, solved for one letter: h = 2R.

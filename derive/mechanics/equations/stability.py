@@ -16,6 +16,8 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
+__all__ = ["curvature_at", "leading_order", "slope"]
+
 HIGHEST = 8  # where a potential is level to this order, nothing is decided
 
 
@@ -26,6 +28,19 @@ class DerivativeOf(Fact):
     missing = "is not the derivative of a potential energy"
     potential: Quantity
     coordinate: Symbol
+
+
+@dataclass(frozen=True)
+class LowestOrder(Fact):
+    """The first order of a potential energy that does not vanish, and its coefficient; (0, 0) if none was found."""
+
+    missing = "is not a potential energy to its lowest order"
+    order: int
+    coefficient: Expr
+
+    @property
+    def is_minimum(self) -> bool:
+        return self.order % 2 == 0 and bool(self.coefficient.is_positive)
 
 
 def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quantity:
@@ -174,6 +189,7 @@ def leading_order(
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,
+        facts=[LowestOrder(order, leading)],
         scope=Scope(case_of=potential),
     )
 

@@ -29,6 +29,8 @@ from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
 
+__all__ = ["at", "let", "magnitude", "squared_magnitude", "with_values"]
+
 
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
     """The value that a general result takes for a particular vector.

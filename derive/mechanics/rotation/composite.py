@@ -22,6 +22,8 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity, compared_with
 from derive.steps.subject import Subject
 
+__all__ = ["Composed", "Part", "axial_moment", "centre_distance", "part_moment", "total_mass", "transverse_moment"]
+
 AXIAL, TRANSVERSE = (2, 2), (0, 0)
 LETTER = {AXIAL: "z", TRANSVERSE: "x"}
 PIVOT = Point("pivot", ImmutableDenseMatrix(column(0, 0, 0)))  # in axes of the whole, which begin there

@@ -34,6 +34,8 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, entry_name
 from derive.steps.subject import Subject
 
+__all__ = ["agreement", "inertia_tensor", "moment_of_inertia", "moved_from_centre", "moved_to"]
+
 Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products

@@ -18,6 +18,8 @@ from derive.mechanics.bodies.facts import OfBody
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Fact, Quantity, is_zero, require_kind
 
+__all__ = ["principal_axes", "principal_moments"]
+
 
 @dataclass(frozen=True)
 class PrincipalOf(Fact):
@@ -132,14 +134,19 @@ def _axis_outcome(moments: Quantity, place: int) -> str:
     if different == 3:
         return "distinct_too" if place else "distinct"
     if place == 0:
-        return "symmetry" if moments.step.outcome == "two_equal" and _is_round(moments) else "single"
+        return "symmetry" if _is_round(moments) else "single"
     return "free" if place == 1 else "free_too"
 
 
 def _is_round(moments: Quantity) -> bool:
     """Whether the tensor is that of a body which is round about the axis of the single moment, z."""
-    of = moments.fact(OfBody)
-    return of is not None and getattr(of.body, "is_round", False) and lone_moment(moments.value) == 2
+    of, tensor = moments.fact(OfBody), moments.needed(PrincipalOf).tensor.value
+    return (
+        of is not None
+        and tensor.is_diagonal()
+        and getattr(of.body, "is_round", False)
+        and lone_moment(moments.value) == 2
+    )
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:

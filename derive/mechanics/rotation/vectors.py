@@ -34,6 +34,16 @@ from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
 
+__all__ = [
+    "angle_between",
+    "angular_momentum",
+    "any_angular_velocity",
+    "cosine_between",
+    "kinetic_energy",
+    "spin",
+    "torque",
+]
+
 
 @dataclass(frozen=True)
 class Through(Fact):

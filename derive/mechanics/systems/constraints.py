@@ -21,6 +21,16 @@ from derive.mechanics.systems.rolling import Contact
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, value_behind
 
+__all__ = [
+    "Tie",
+    "contact_forces",
+    "equation_with_multipliers",
+    "force_of_constraint",
+    "free_lagrangian",
+    "multipliers_eliminated",
+    "tie",
+]
+
 
 @dataclass(frozen=True)
 class Tie:

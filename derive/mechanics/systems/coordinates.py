@@ -20,6 +20,8 @@ from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named
 from derive.steps.step import Fact, Level, Quantity, compared_with
 
+__all__ = ["Coordinate", "coordinate", "rate_of"]
+
 T = TIME  # coordinates are functions of it where a second route makes them so
 
 

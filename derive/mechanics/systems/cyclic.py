@@ -12,6 +12,8 @@ from derive.mechanics.systems.lagrangian import generalized_force, generalized_m
 from derive.steps.establish import Lines, establish
 from derive.steps.step import Fact, Quantity, compared_with
 
+__all__ = ["conserved_momentum"]
+
 
 @dataclass(frozen=True)
 class OfMomentum(Fact):

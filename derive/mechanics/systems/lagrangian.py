@@ -23,6 +23,16 @@ from derive.steps.record import changes, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject, called
 
+__all__ = [
+    "equation_of_motion",
+    "generalized_force",
+    "generalized_momentum",
+    "lagrangian",
+    "momentum_rate",
+    "plane_kinetic_energy",
+    "weight_energy",
+]
+
 ZERO = Integer(0)
 
 

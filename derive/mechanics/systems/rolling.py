@@ -18,6 +18,8 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Level, Quantity
 
+__all__ = ["rolled_centre"]
+
 
 @dataclass(frozen=True)
 class Contact(Fact):

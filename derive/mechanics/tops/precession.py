@@ -9,12 +9,14 @@ from derive.algebra.expressions import PLUS_MINUS, CarriedRate, Relation, Terms,
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size, positive_where
-from derive.mechanics.equations.quadratics import Roots, discriminant, roots_of
+from derive.mechanics.equations.quadratics import Quadratic, Roots, discriminant, roots_of
 from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import require_constant
 from derive.steps.step import Form, Quantity, compared_with, only_equation
+
+__all__ = ["no_steady_precession", "precession_condition", "precession_rates", "steady_precession", "steady_rates"]
 
 ZERO = Integer(0)
 RATES, CONDITION, SLOW, FAST = "precession_rates", "precession_condition", "slow_precession", "fast_precession"
@@ -109,7 +111,7 @@ def precession_condition(rates: Quantity, spin: Expr, key: str = CONDITION) -> Q
     Outcomes: those of `positive_where`; where there is one rate anyway, the rates themselves.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
-    if rates.step.outcome == "linear":
+    if rates.needed(Roots).quadratic.is_linear:
         return rates
     return positive_where(discriminant(rates), spin, or_zero=True, key=key)
 
@@ -126,27 +128,29 @@ def steady_rates(rates: Quantity, condition: Quantity) -> tuple[Quantity, Quanti
     one step for both where there is no rate, or only one.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
-    outcome = rates.step.outcome
-    if outcome == "linear":
+    quadratic = rates.needed(Roots).quadratic
+    if quadratic.is_linear:
         return rates, rates
-    if outcome == "none":
+    real = sign_known(quadratic.discriminant)
+    if real == -1:
         none = no_steady_precession(rates, condition)
         return none, none
-    quadratic = rates.needed(Roots).quadratic
     forward = -1 if sign_known(quadratic.b) == 1 else 1
-    words = {
-        "two": ("slow", "fast"),
-        "opposite": ("forward", "backward"),
-        "conditional": ("slow_where_real", "fast_where_real"),
-    }
-    if outcome == "double":
+    if real == 0:
         both = _steady_rate(rates, condition, -forward, "coinciding", SLOW, stands_for=(FAST,))
         return both, both
-    slow, fast = words[outcome]
+    slow, fast = _called(quadratic, real)
     return (
         _steady_rate(rates, condition, -forward, slow, SLOW),
         _steady_rate(rates, condition, forward, fast, FAST),
     )
+
+
+def _called(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
+    """The words for the two rates: of opposite signs, or of one, where they are known to be real."""
+    if real is None:
+        return "slow_where_real", "fast_where_real"
+    return ("forward", "backward") if sign_known(quadratic.a * quadratic.c) == -1 else ("slow", "fast")
 
 
 def _steady_rate(

@@ -14,11 +14,14 @@ from derive.algebra.expressions import rate as rate_name
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import boundary_case, sign_by_factors, truth
+from derive.mechanics.equations.stability import LowestOrder
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.mechanics.systems.cyclic import OfMomentum
 from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop, Top
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Quantity, Route
+
+__all__ = ["effective_potential", "sleeping_spin", "upright_rate"]
 
 HALF = Rational(1, 2)
 
@@ -154,7 +157,7 @@ def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, ke
     if case is None:
         raise Rejected(Complaint("no-border", f"`{condition.key}` has no border, so there is no least spin"))
     least = case.right
-    sleeps = border.step.outcome.startswith("minimum")
+    sleeps = border.needed(LowestOrder).is_minimum
 
     def beside(side: int) -> Route:
         """Whether the condition is true beside its bound, and whether small circles about the vertical last there."""

@@ -48,6 +48,17 @@ from derive.steps.step import (
 )
 from derive.steps.subject import called, united
 
+__all__ = [
+    "EulerAngles",
+    "Top",
+    "centre_height",
+    "constant_spin",
+    "euler_angles",
+    "tilt_equation",
+    "top_kinetic_energy",
+    "turning_rate",
+]
+
 ZERO, ONE, HALF = Integer(0), Integer(1), Rational(1, 2)
 _MOMENT = "moment of inertia"
 
