@@ -38,7 +38,7 @@ from derive.steps.chain import (
     short,
     without_repeats,
 )
-from derive.steps.outcomes import GENERIC, Facts, holds, told_rightly
+from derive.steps.outcomes import GENERIC, Judged, holds, told_rightly
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
@@ -177,7 +177,7 @@ def establish(
     subject = scope.around(together, result)
     chosen = outcome(result) if callable(outcome) else outcome
     values = {**dict(zip(inputs, given, strict=True)), **telling.told, **telling.judged_by}
-    judged = Facts(result, values, quantities, plain_symbol, subject, words)
+    judged = Judged(result, values, quantities, plain_symbol, subject, words)
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
     step = Step(
         key=key,
@@ -222,7 +222,7 @@ def _called(value: Any) -> Any:
     return value
 
 
-def _check_outcome(key: str, rule: str, outcome: str, facts: Facts, may_be_zero: bool) -> None:
+def _check_outcome(key: str, rule: str, outcome: str, facts: Judged, may_be_zero: bool) -> None:
     """The word that chooses the sentence must be true of the result.
 
     Whatever the rule: "zero" needs a result that vanishes, and one that vanishes is not `generic` where that was asked.

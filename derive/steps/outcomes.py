@@ -16,7 +16,7 @@ GENERIC = "generic"  # the word where nothing is to be chosen
 
 
 @dataclass(frozen=True)
-class Facts:
+class Judged:
     """What an outcome is judged by.
 
     result      what was established
@@ -35,10 +35,10 @@ class Facts:
     words: Mapping[str, str] = field(default_factory=dict)
 
 
-Predicate = Callable[[Facts], bool]
+Predicate = Callable[[Judged], bool]
 
 _PREDICATES: dict[str, dict[str, Predicate]] = {}
-_TOLD: dict[str, Callable[[Facts, str], bool]] = {}
+_TOLD: dict[str, Callable[[Judged, str], bool]] = {}
 
 
 def outcomes_of(rule: str, predicates: Mapping[str, Predicate]) -> None:
@@ -46,32 +46,32 @@ def outcomes_of(rule: str, predicates: Mapping[str, Predicate]) -> None:
     _PREDICATES[rule] = dict(predicates)
 
 
-def told_by(rule: str, predicate: Callable[[Facts, str], bool]) -> None:
+def told_by(rule: str, predicate: Callable[[Judged, str], bool]) -> None:
     """Say what must hold of the roles and formulas that the sentences of a rule tell, by facts and outcome."""
     _TOLD[rule] = predicate
 
 
-def told_rightly(rule: str, outcome: str, facts: Facts) -> bool:
+def told_rightly(rule: str, outcome: str, facts: Judged) -> bool:
     """Whether what the sentence tells besides its chain is true: the point and axis that it names, roles, formulas."""
     named = _names_its_point(facts) and _names_its_axis(facts)
     return named and (rule not in _TOLD or bool(_TOLD[rule](facts, outcome)))
 
 
-def _names_its_point(facts: Facts) -> bool:
+def _names_its_point(facts: Judged) -> bool:
     """Whether the point that is named is the one that the result is about, where that is known."""
     known = getattr(facts.subject.point, "name", None)
     named = {facts.words[word] for word in ("about", "point") if word in facts.words}
     return not isinstance(known, str) or isinstance(facts.subject.point, Mixed) or named <= {known}
 
 
-def _names_its_axis(facts: Facts) -> bool:
+def _names_its_axis(facts: Judged) -> bool:
     """Whether the axis that is named is the one that the result is about, where that is known."""
     axis = facts.subject.axis
     named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
     return not isinstance(axis, str) or named <= {axis}
 
 
-def holds(rule: str, outcome: str, facts: Facts) -> bool:
+def holds(rule: str, outcome: str, facts: Judged) -> bool:
     """Whether the outcome is one that the rule has, and is true.
 
     A rule of which nothing was said has only the outcome that chooses nothing.

@@ -12,7 +12,7 @@ from sympy import ImmutableDenseMatrix, Integer, cos, pi, sin, symbols, zeros
 from derive.algebra.expressions import Relation, rate, scalar
 from derive.errors import Unverified
 from derive.steps.establish import establish
-from derive.steps.outcomes import Facts, told_rightly
+from derive.steps.outcomes import Judged, told_rightly
 from derive.steps.subject import Subject
 from tests.mechanics.block import known_block
 
@@ -24,8 +24,8 @@ KEPT = Relation(rate(q), "=", R)
 FROM_CENTRE: dict[str, Any] = {
     "symbol": scalar("r_z"), "words": {"start": "centre"}, "subject": Subject(point=SimpleNamespace(name="centre"))
 }  # fmt: skip
-TILT = Facts(q, {"given": q, "tilt": theta}, symbol=theta)
-UPRIGHT = Facts(R / cos(theta), {"sine": sin(theta), "carried": R, "cyclic": q}, symbol=rate(q))
+TILT = Judged(q, {"given": q, "tilt": theta}, symbol=theta)
+UPRIGHT = Judged(R / cos(theta), {"sine": sin(theta), "carried": R, "cyclic": q}, symbol=rate(q))
 SPINNING = {"omega": zeros(3, 1), "spin": R, "along": a}
 
 
@@ -37,14 +37,14 @@ class Centre:
     name = "centre"
 
 
-def cylindrical(**changed: Any) -> Facts:
+def cylindrical(**changed: Any) -> Judged:
     told = {"along": z, "edge": R * z / h, "x_is": r * cos(theta), "y_is": r * sin(theta), "element": r, "radius": r}
-    return Facts(pi * R**2 * h / 3, told | changed, subject=Subject(body=Cone()), words={"start": "apex"})
+    return Judged(pi * R**2 * h / 3, told | changed, subject=Subject(body=Cone()), words={"start": "apex"})
 
 
-def rolled(**changed: Any) -> Facts:
+def rolled(**changed: Any) -> Judged:
     told = {"angle": q, "arc": R * q, "above": R + a} | changed
-    return Facts((R + a) * sin(q) - R * q * cos(q), told)
+    return Judged((R + a) * sin(q) - R * q * cos(q), told)
 
 
 def test_the_arc_of_a_rolling_body_is_judged_by_where_its_centre_is() -> None:
@@ -66,21 +66,21 @@ def test_two_roles_of_a_rotation_cannot_be_exchanged() -> None:
     found = known_block()
     roles = {"inertia": found["inertia_tensor"], "omega": found["spin"]}
     other = {"inertia": found["spin"], "omega": found["inertia_tensor"]}
-    assert told_rightly("rotation.angular_momentum", "generic", Facts(Integer(1), quantities=roles))
-    assert not told_rightly("rotation.angular_momentum", "generic", Facts(Integer(1), quantities=other))
+    assert told_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=roles))
+    assert not told_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=other))
 
 
 def test_each_free_coordinate_has_its_own_inertia_and_weight() -> None:
     L = m * (rate(x) ** 2 + rate(y) ** 2) / 2 + a * rate(q) ** 2 / 2 - m * g * y
     told = {"mass": m, "gravity": g, "inertia": a, "x": x, "y": y, "q": q}
-    assert told_rightly("constraints.free_lagrangian", "generic", Facts(L, told))
-    assert not told_rightly("constraints.free_lagrangian", "generic", Facts(L, told | {"x": y, "y": x}))
-    assert not told_rightly("constraints.free_lagrangian", "generic", Facts(L, told | {"y": q, "q": y}))
+    assert told_rightly("constraints.free_lagrangian", "generic", Judged(L, told))
+    assert not told_rightly("constraints.free_lagrangian", "generic", Judged(L, told | {"x": y, "y": x}))
+    assert not told_rightly("constraints.free_lagrangian", "generic", Judged(L, told | {"y": q, "q": y}))
 
 
 @pytest.mark.parametrize(("named", "right"), [("centre", True), ("corner", False)])
 def test_the_point_that_is_named_is_the_one_of_the_result(named: str, right: bool) -> None:
-    facts = Facts(Integer(1), subject=Subject(point=Centre()), words={"about": named})
+    facts = Judged(Integer(1), subject=Subject(point=Centre()), words={"about": named})
     assert told_rightly("some.rule", "generic", facts) is right
 
 
@@ -94,83 +94,91 @@ def test_two_moments_cannot_have_one_name() -> None:
 @pytest.mark.parametrize(("mark", "strictly", "right"), [(">", "positive", True), (">=", "positive", False)])
 def test_a_strict_condition_is_said_to_be_strict(mark: str, strictly: str, right: bool) -> None:
     for turned in (mark, mark.replace(">", "<")):
-        facts = Facts(Relation(R, turned, a), words={"strictly": strictly})
+        facts = Judged(Relation(R, turned, a), words={"strictly": strictly})
         assert told_rightly("conditions.positive_where", "conditional", facts) is right
 
 
 def test_a_constraint_that_is_told_is_an_equation_of_its_coordinate() -> None:
     motion = Relation(m * rate(x, 2), "=", g)
     told = {"q": x, "constraint": Relation(x, "=", a)}
-    assert told_rightly("constraints.equation_with_multipliers", "free", Facts(motion, told))
+    assert told_rightly("constraints.equation_with_multipliers", "free", Judged(motion, told))
     for wrong in (Relation(x, ">", a), Relation(y, "=", a)):
-        facts = Facts(motion, told | {"constraint": wrong})
+        facts = Judged(motion, told | {"constraint": wrong})
         assert not told_rightly("constraints.equation_with_multipliers", "free", facts)
 
 
 def test_of_the_parts_of_an_energy_one_moves_and_one_is_constant() -> None:
     told = {"moving": rate(q) ** 2 * a, "constant": a}
-    assert told_rightly("sleeping.effective_potential", "generic", Facts(cos(q), told))
+    assert told_rightly("sleeping.effective_potential", "generic", Judged(cos(q), told))
     exchanged = {"moving": told["constant"], "constant": told["moving"]}
-    assert not told_rightly("sleeping.effective_potential", "generic", Facts(cos(q), exchanged))
+    assert not told_rightly("sleeping.effective_potential", "generic", Judged(cos(q), exchanged))
 
 
 @pytest.mark.parametrize(
     ("rule", "right", "wrong"),
     [
-        ("precession.no_steady_precession", Facts(Relation(R, "<", a)), Facts(Relation(R, "<=", a))),
-        ("precession.fixed_tilt", TILT, Facts(2 * q, {"given": q, "tilt": theta}, symbol=theta)),
-        ("precession.fixed_tilt", TILT, Facts(q, {"given": q, "tilt": theta}, symbol=x)),
+        ("precession.no_steady_precession", Judged(Relation(R, "<", a)), Judged(Relation(R, "<=", a))),
+        ("precession.fixed_tilt", TILT, Judged(2 * q, {"given": q, "tilt": theta}, symbol=theta)),
+        ("precession.fixed_tilt", TILT, Judged(q, {"given": q, "tilt": theta}, symbol=x)),
         ("sleeping.upright_rate", UPRIGHT, replace(UPRIGHT, symbol=rate(theta))),
-        ("equations.at", Facts(R, {"vector": zeros(3, 1)}), Facts(R, {"vector": R})),
+        ("equations.at", Judged(R, {"vector": zeros(3, 1)}), Judged(R, {"vector": R})),
         (
             "inertia.moment_of_inertia",
-            Facts(R, subject=Subject(axis="z"), words={"axis": "z"}),
-            Facts(R, subject=Subject(axis="z"), words={"axis": "corner"}),
+            Judged(R, subject=Subject(axis="z"), words={"axis": "z"}),
+            Judged(R, subject=Subject(axis="z"), words={"axis": "corner"}),
         ),
-        ("tops.constant_spin", Facts(KEPT, SPINNING), Facts(KEPT, SPINNING | {"omega": R})),
-        ("tops.constant_spin", Facts(KEPT, SPINNING), Facts(KEPT, SPINNING | {"spin": a, "along": R})),
+        ("tops.constant_spin", Judged(KEPT, SPINNING), Judged(KEPT, SPINNING | {"omega": R})),
+        ("tops.constant_spin", Judged(KEPT, SPINNING), Judged(KEPT, SPINNING | {"spin": a, "along": R})),
         (
             "quadratics.roots_of",
-            Facts(R, {"equation": KEPT, "unknown": rate(q)}),
-            Facts(R, {"equation": q, "unknown": KEPT}),
+            Judged(R, {"equation": KEPT, "unknown": rate(q)}),
+            Judged(R, {"equation": q, "unknown": KEPT}),
         ),
         (
             "quadratics.roots_of",
-            Facts(R, {"equation": KEPT, "unknown": rate(q)}),
-            Facts(R, {"equation": KEPT, "unknown": x}),
+            Judged(R, {"equation": KEPT, "unknown": rate(q)}),
+            Judged(R, {"equation": KEPT, "unknown": x}),
         ),
-        ("bodies.centre_on_axis", Facts(R, **FROM_CENTRE), Facts(R, **(FROM_CENTRE | {"symbol": scalar("r_y")}))),
-        ("bodies.centre_on_axis", Facts(R, **FROM_CENTRE), Facts(R, **(FROM_CENTRE | {"words": {"start": "corner"}}))),
-        ("bodies.section_radius", Facts(R, **FROM_CENTRE), Facts(R, **(FROM_CENTRE | {"words": {"start": "corner"}}))),
+        ("bodies.centre_on_axis", Judged(R, **FROM_CENTRE), Judged(R, **(FROM_CENTRE | {"symbol": scalar("r_y")}))),
+        (
+            "bodies.centre_on_axis",
+            Judged(R, **FROM_CENTRE),
+            Judged(R, **(FROM_CENTRE | {"words": {"start": "corner"}})),
+        ),
+        (
+            "bodies.section_radius",
+            Judged(R, **FROM_CENTRE),
+            Judged(R, **(FROM_CENTRE | {"words": {"start": "corner"}})),
+        ),
         (
             "constraints.multipliers_eliminated",
-            Facts(KEPT, {"found": Relation(2 * rate(q), "=", 2 * R)}),
-            Facts(KEPT, {"found": Relation(rate(q), "=", 2 * R)}),
+            Judged(KEPT, {"found": Relation(2 * rate(q), "=", 2 * R)}),
+            Judged(KEPT, {"found": Relation(rate(q), "=", 2 * R)}),
         ),
         (
             "composed.part_moment",
-            Facts(R, symbol=scalar("I_z_rod"), subject=Subject(axis="z"), words={"axis_letter": "z", "name": "rod"}),
-            Facts(R, symbol=scalar("I_z_rod"), subject=Subject(axis="z"), words={"axis_letter": "x", "name": "rod"}),
+            Judged(R, symbol=scalar("I_z_rod"), subject=Subject(axis="z"), words={"axis_letter": "z", "name": "rod"}),
+            Judged(R, symbol=scalar("I_z_rod"), subject=Subject(axis="z"), words={"axis_letter": "x", "name": "rod"}),
         ),
         (
             "composed.part_moment",
-            Facts(R, symbol=scalar("I_z_rod"), words={"name": "rod"}),
-            Facts(R, symbol=scalar("I_z_rod"), words={"name": "disc"}),
+            Judged(R, symbol=scalar("I_z_rod"), words={"name": "rod"}),
+            Judged(R, symbol=scalar("I_z_rod"), words={"name": "disc"}),
         ),
         (
             "cyclic.conserved_momentum",
-            Facts(R, {"momentum": R, "coordinate": q}, {"momentum": MOMENTUM}),
-            Facts(R, {"momentum": q, "coordinate": R * q}, {"coordinate": MOMENTUM}),
+            Judged(R, {"momentum": R, "coordinate": q}, {"momentum": MOMENTUM}),
+            Judged(R, {"momentum": q, "coordinate": R * q}, {"coordinate": MOMENTUM}),
         ),
     ],
 )
-def test_what_is_told_is_what_it_is_called(rule: str, right: Facts, wrong: Facts) -> None:
+def test_what_is_told_is_what_it_is_called(rule: str, right: Judged, wrong: Judged) -> None:
     assert told_rightly(rule, "generic", right)
     assert not told_rightly(rule, "generic", wrong)
 
 
 def test_a_long_diagonal_is_called_so() -> None:
-    right, wrong = (Facts(R, words={"axis": name}) for name in ("diagonal", "corner"))
+    right, wrong = (Judged(R, words={"axis": name}) for name in ("diagonal", "corner"))
     assert told_rightly("bodies.axis_vector", "diagonal", right)
     assert not told_rightly("bodies.axis_vector", "diagonal", wrong)
 

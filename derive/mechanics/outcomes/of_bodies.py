@@ -10,19 +10,19 @@ from sympy import diag as diagonal
 
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import lasts, vanishes
-from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import Quantity, is_zero
 
 
 def _dimensions_of_filling(n: int) -> Predicate:
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         body = facts.subject.body
         return len(body.region(body.point(body.reference)).with_section_put_in().limits) == n
 
     return is_so
 
 
-def _has_edges(facts: Facts) -> bool:
+def _has_edges(facts: Judged) -> bool:
     """Whether every coordinate has limits of its own, from zero: a box whose origin is at a corner."""
     body = facts.subject.body
     region = body.region(body.point(body.reference))
@@ -31,22 +31,22 @@ def _has_edges(facts: Facts) -> bool:
     return len(own) == 3 and all(own) and region.element == 1
 
 
-def _is_symmetric_about_its_centre(facts: Facts) -> bool:
+def _is_symmetric_about_its_centre(facts: Judged) -> bool:
     """No third moment about the centre of mass is left, by integration."""
     body = facts.subject.body
     return is_zero(body.over_mass(lambda r: r.applyfunc(lambda x: x**3), body.middle))
 
 
-def _on_the_axis(facts: Facts) -> bool:
+def _on_the_axis(facts: Judged) -> bool:
     return is_zero(facts.result[0]) and is_zero(facts.result[1]) and not is_zero(facts.result[2])
 
 
-def _along_the_edge(facts: Facts) -> bool:
+def _along_the_edge(facts: Judged) -> bool:
     named = "xyz".find(facts.words.get("axis", "?"))
     return named >= 0 and all(bool(x == int(k == named)) for k, x in enumerate(facts.result))
 
 
-def _joins_corners(facts: Facts) -> bool:
+def _joins_corners(facts: Judged) -> bool:
     """From the corner at the origin through the centre, as far again: by the region's limits."""
     body = facts.subject.body
     limits = body.region(body.point(body.reference)).limits
@@ -56,13 +56,13 @@ def _joins_corners(facts: Facts) -> bool:
 def _entry(*pairs: str, round_body: bool = False) -> Predicate:
     """Which entry of a tensor it is, by its letter; of a round body, that it is round by its particles."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         return facts.symbol.name[-2:] in pairs and (not round_body or _is_round(facts))
 
     return is_so
 
 
-def _is_round(facts: Facts) -> bool:
+def _is_round(facts: Judged) -> bool:
     """Whether the particles of the body have the same moment about x and y, and no product, seen from its centre."""
     body = facts.subject.body
     centre = body.middle
@@ -91,7 +91,7 @@ def _moments_of(tensor: Any) -> list[Expr]:
 def _tensor(different: int | None, round_body: bool = False) -> Predicate:
     """A diagonal tensor with so many different moments; None for one that is not diagonal."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         tensor = facts.result
         if different is None:
             return not _products_vanish(tensor)
@@ -115,7 +115,7 @@ def _moments(different: int, diagonal: bool) -> Predicate:
 def _axis_of(different: int, alone: bool | None = None) -> Predicate:
     """Of how many different moments the axis is; whether its own is the single one of three of which two are equal."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
         twins = sum(is_zero(moments[k] - other) for other in moments)
         return _different(moments) == different and (alone is None or (twins == 1) == alone)
@@ -123,7 +123,7 @@ def _axis_of(different: int, alone: bool | None = None) -> Predicate:
     return is_so
 
 
-def _axis_of_symmetry(facts: Facts) -> bool:
+def _axis_of_symmetry(facts: Judged) -> bool:
     along = all(bool(x == int(k == 2)) for k, x in enumerate(facts.result))
     return _axis_of(2, alone=True)(facts) and along and _is_round(facts)
 
@@ -131,7 +131,7 @@ def _axis_of_symmetry(facts: Facts) -> bool:
 def _moments_compared(wanted: str) -> Predicate:
     """Equal moments; or one that is always the greater; else the relation says where they are equal."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         moments = facts.inputs["moments"]
         apart = [tidied(a - b) for a in moments for b in moments if not is_zero(a - b)]
         if wanted == "always":
@@ -145,7 +145,7 @@ def _moments_compared(wanted: str) -> Predicate:
     return is_so
 
 
-def _is_flat(facts: Facts) -> bool:
+def _is_flat(facts: Judged) -> bool:
     """Whether all particles of the part are in one plane across its axis."""
     heights = [r[2] for _, r in facts.subject.body.particles()]
     return all(is_zero(z - heights[0]) for z in heights)

@@ -10,7 +10,7 @@ from sympy import Expr, Integer, Rational, Symbol, prime
 from derive.algebra.expressions import explicit
 from derive.mechanics.outcomes.signs import always_sign, sign_is
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
 
@@ -21,7 +21,7 @@ def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
         yield {s: Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i, s in enumerate(ordered)}
 
 
-def _two_roots(facts: Facts) -> Iterable[tuple[Expr, Expr, Expr]]:
+def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:
     """This root, the other and the factor b, in numbers: those that are given, or some for which the roots are real."""
     quadratic = facts.inputs["quadratic"]
     a, b, c = quadratic.a, quadratic.b, quadratic.c
@@ -37,7 +37,7 @@ def _two_roots(facts: Facts) -> Iterable[tuple[Expr, Expr, Expr]]:
 
 
 def _roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         seen = list(_two_roots(facts))
         return bool(seen) and all(bool(test(*numbers)) for numbers in seen)
 
@@ -58,7 +58,7 @@ def _whether(real: bool, predicate: Predicate) -> Predicate:
 def _roots(discriminant: int | None, product: int | None = 1) -> Predicate:
     """By the sign of the discriminant, and of the product of the roots where it is positive."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
         if is_zero(q.a) or sign_known((q.b / q.a) ** 2 - 4 * q.c / q.a) != discriminant:
             return False
@@ -68,14 +68,14 @@ def _roots(discriminant: int | None, product: int | None = 1) -> Predicate:
     return is_so
 
 
-def _linear(facts: Facts) -> bool:
+def _linear(facts: Judged) -> bool:
     return is_zero(facts.inputs["quadratic"].a)
 
 
 def _solved(squared: bool) -> Predicate:
     """A letter stands alone on the left, or its square; it is not on the right."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         left, right = facts.result.sides
         alone = left.base if squared and left.is_Pow else left
         return isinstance(alone, Symbol) and left.is_Pow == squared and not right.has(alone)
@@ -101,7 +101,7 @@ def _numbers_fulfil(wanted: bool) -> Predicate:
         ">=": lambda d: d >= 0,
     }
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         residual = explicit(facts.result.left) - explicit(facts.result.right)
         value = Integer(0) if is_zero(residual) else residual.evalf(30)
         return bool(truths[facts.inputs["condition"].mark](value)) == wanted

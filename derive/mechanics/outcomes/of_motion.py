@@ -7,30 +7,30 @@ from sympy import Expr, diff
 from derive.algebra.expressions import Slope, explicit
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
-from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
 
 def _even_in(sign: int) -> Predicate:
     """How a coordinate of the rolled body changes with the sign of the angle: across turns over, up does not."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         q = facts.inputs["angle"]
         return is_zero(facts.result.subs(q, -q) - sign * facts.result)
 
     return is_so
 
 
-def _cyclic(facts: Facts) -> bool:
+def _cyclic(facts: Judged) -> bool:
     return is_zero(diff(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
 
 
-def _not_cyclic(facts: Facts) -> bool:
+def _not_cyclic(facts: Judged) -> bool:
     return not _cyclic(facts)
 
 
 def _order_of(*orders: int, more: bool = False) -> Predicate:
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         symbol = facts.symbol
         order = int(symbol.args[2]) if isinstance(symbol, Slope) else 0
         return order > max(orders) if more else order in orders
@@ -41,7 +41,7 @@ def _order_of(*orders: int, more: bool = False) -> Predicate:
 def _shaped(shape: str, at_bound: bool) -> Predicate:
     """The first derivative that does not vanish, by differentiation where the verb expands in a series."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]
         level = is_zero(diff(facts.result, q, 2).subs(q, place))
         if at_bound != ("case" in facts.inputs) or at_bound and not level:
@@ -64,7 +64,7 @@ def _shape_by(order: int, derivative: Expr) -> str:
 def _constraint_of(wanted: str) -> Predicate:
     """A free coordinate has a multiplier of its own on its right side, with the factor one."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         own = facts.inputs.get("multiplier")
         return (wanted == "free") == (own is not None and is_zero(facts.result.right - own))
 
@@ -74,7 +74,7 @@ def _constraint_of(wanted: str) -> Predicate:
 def _directed(wanted: str) -> Predicate:
     """At the angle zero the normal is upwards and the tangent to the right."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         q, forces = facts.inputs["angle"], (facts.inputs["right"], facts.inputs["up"])
         there = forces[0 if wanted == "tangent" else 1]
         return is_zero((facts.result - there).subs(q, 0))

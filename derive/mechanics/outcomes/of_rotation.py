@@ -10,18 +10,18 @@ from sympy import Expr, Integer, diff
 from derive.algebra.expressions import Cross, Dot, explicit
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import lasts, never_vanishes, vanishes
-from derive.steps.outcomes import Facts, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
 
-def _across(facts: Facts) -> Any:
+def _across(facts: Judged) -> Any:
     return explicit(Cross(facts.inputs["omega"], facts.result))
 
 
 def _turns(wanted: str) -> Predicate:
     """The component along the axis is negative where the body is said to turn left-handed, and there only."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
         return (wanted == "left") == bool(along.is_negative)
 
@@ -31,7 +31,7 @@ def _turns(wanted: str) -> Predicate:
 def _cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
     """Parallel, opposite, perpendicular by the cosine 1, -1, 0; None for a cosine that is none of them."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         cosine = of(facts.result)
         if wanted is not None:
             return is_zero(cosine - wanted)
@@ -49,7 +49,7 @@ def _cos(angle: Expr) -> Expr:
 def _rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
     """Whether the rate vanishes in space, and in the body where that rate was put in; None: it was not."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
         if seen is None:
             return in_space is None
@@ -64,7 +64,7 @@ def _euler(first: bool, torque: bool, coupled: str) -> Predicate:
     coupled   "here": in this one; "elsewhere": not here but in another; "nowhere"
     """
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         axis = facts.words["axis"]
         acting = facts.inputs["torque"]
         driven = not is_zero(acting)
@@ -80,7 +80,7 @@ def _euler(first: bool, torque: bool, coupled: str) -> Predicate:
     return is_so
 
 
-def _next_euler(facts: Facts) -> bool:
+def _next_euler(facts: Judged) -> bool:
     """A later equation that needs no sentence of its own."""
     return any(
         _euler(False, torque, coupled)(facts) for torque, coupled in ((True, ""), (False, "here"), (False, "nowhere"))
@@ -90,7 +90,7 @@ def _next_euler(facts: Facts) -> bool:
 def _sum_left(wanted: str) -> Predicate:
     """What becomes of the terms that have no highest rate: there were none, they cancelled, or some are left."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
         before = [tidied(side.xreplace(highest)) for side in facts.inputs["products"]]
         left = facts.result.left.xreplace(highest)
@@ -104,7 +104,7 @@ def _sum_left(wanted: str) -> Predicate:
 def _times_its_factor(wanted: bool) -> Predicate:
     """Whether it is the first of the products, and is the equation times the factor that the sentence names."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
         return facts.inputs["leads"] == wanted and is_zero(explicit(facts.result.left) - multiplied)
 

@@ -9,15 +9,15 @@ from sympy import Expr
 
 from derive.algebra.tidy import tidied
 from derive.steps.known_numbers import sign_known
-from derive.steps.outcomes import Facts, Predicate
+from derive.steps.outcomes import Judged, Predicate
 from derive.steps.step import is_zero
 
 
-def vanishes(facts: Facts) -> bool:
+def vanishes(facts: Judged) -> bool:
     return is_zero(facts.result)
 
 
-def lasts(facts: Facts) -> bool:
+def lasts(facts: Judged) -> bool:
     return not is_zero(facts.result)
 
 
@@ -26,14 +26,14 @@ def never_vanishes(v: Any) -> bool:
     return any(bool(tidied(entry).is_nonzero) for entry in v)
 
 
-def sign_is(wanted: int | None, of: Callable[[Facts], Expr] = lambda facts: facts.result) -> Predicate:
+def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
     return lambda facts: sign_known(of(facts)) == wanted
 
 
-def always_sign(wanted: int | None, of: Callable[[Facts], Expr] = lambda facts: facts.result) -> Predicate:
+def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
     """The sign by the letters alone, whatever numbers they have."""
 
-    def is_so(facts: Facts) -> bool:
+    def is_so(facts: Judged) -> bool:
         value = tidied(of(facts))
         sign = 0 if is_zero(value) else 1 if value.is_positive else -1 if value.is_negative else None
         return sign == wanted

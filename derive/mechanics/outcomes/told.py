@@ -13,20 +13,20 @@ from sympy import Expr, Integer, Symbol, cos, diff, integrate, pi, sin
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, column, explicit, rate
-from derive.steps.outcomes import Facts, told_by
+from derive.steps.outcomes import Judged, told_by
 from derive.steps.step import is_zero
 
-Told = Callable[[Facts, str], bool]
+Told = Callable[[Judged, str], bool]
 
 _KINDS = {"omega": "angular speed", "inertia": "moment of inertia", "momentum": "angular momentum"}
 
 
-def _of_their_kinds(facts: Facts, outcome: str) -> bool:
+def _of_their_kinds(facts: Judged, outcome: str) -> bool:
     """Whether each role that is a vector or a tensor of rotation is one."""
     return all(q.step.kind == _KINDS.get(role, q.step.kind) for role, q in facts.quantities.items())
 
 
-def _cylindrical(facts: Facts, outcome: str) -> bool:
+def _cylindrical(facts: Judged, outcome: str) -> bool:
     """x = r cos, y = r sin: their area element is that of the integral, and x is r in the first direction."""
     along, edge, x, y = (facts.inputs[role] for role in ("along", "edge", "x_is", "y_is"))
     r, body = facts.inputs["radius"], facts.subject.body
@@ -40,14 +40,14 @@ def _cylindrical(facts: Facts, outcome: str) -> bool:
     return from_start and is_zero(area - facts.inputs["element"]) and is_zero(sections - explicit(facts.result))
 
 
-def _rolled(facts: Facts, outcome: str) -> bool:
+def _rolled(facts: Judged, outcome: str) -> bool:
     """Out along the normal by the height, and back along the surface by the arc."""
     q, arc, above = (explicit(facts.inputs[role]) for role in ("angle", "arc", "above"))
     there = above * sin(q) - arc * cos(q) if outcome == "across" else above * cos(q) + arc * sin(q)
     return isinstance(q, Symbol) and is_zero(facts.result - there)
 
 
-def _of_three_angles(facts: Facts, outcome: str) -> bool:
+def _of_three_angles(facts: Judged, outcome: str) -> bool:
     phi, theta, psi, sine, cosine = (facts.inputs[role] for role in ("precession", "tilt", "turning", "sine", "cosine"))
     by_angles = column(rate(theta), rate(phi) * sin(theta), rate(psi) + rate(phi) * cos(theta))
     return is_zero(facts.result - by_angles) and is_zero(sine - sin(theta)) and is_zero(cosine - cos(theta))
@@ -57,25 +57,25 @@ def _letters_of(value: Any) -> set[Any]:
     return set(explicit(value).free_symbols)
 
 
-def _one_angle_left(facts: Facts, outcome: str) -> bool:
+def _one_angle_left(facts: Judged, outcome: str) -> bool:
     """The equation is one for the tilt, and the turning, a rate, has gone from it."""
     present, turning = _letters_of(facts.result), facts.inputs["turning"]
     return rate(facts.inputs["tilt"], 2) in present and isinstance(turning, Symbol) and turning not in present
 
 
-def _steady(facts: Facts, outcome: str) -> bool:
+def _steady(facts: Judged, outcome: str) -> bool:
     tilt, rate_of_it, sine = (facts.inputs[role] for role in ("tilt", "rate", "sine"))
     return rate_of_it in _letters_of(facts.result) and is_zero(sine - sin(tilt)) and rate(tilt) != rate_of_it
 
 
-def _sine_of_the_tilt(facts: Facts, outcome: str) -> bool:
+def _sine_of_the_tilt(facts: Judged, outcome: str) -> bool:
     """What vanishes with the tilt is the sine of the angle that the rate depends on; the rate is the cyclic one."""
     sine = facts.inputs["sine"]
     of_the_tilt = isinstance(sine, sin) and sine.args[0] in _letters_of(facts.result)
     return of_the_tilt and facts.inputs["carried"] != sine and facts.symbol == rate(facts.inputs["cyclic"])
 
 
-def _of_free_coordinates(facts: Facts, outcome: str) -> bool:
+def _of_free_coordinates(facts: Judged, outcome: str) -> bool:
     """Mass and weight belong to x and y, the moment of inertia to the angle."""
     L = explicit(facts.result)
     mass, gravity, inertia, x, y, q = (facts.inputs[role] for role in ("mass", "gravity", "inertia", "x", "y", "q"))
@@ -86,99 +86,99 @@ def _of_free_coordinates(facts: Facts, outcome: str) -> bool:
     )
 
 
-def _kept_by_a_force(facts: Facts, outcome: str) -> bool:
+def _kept_by_a_force(facts: Judged, outcome: str) -> bool:
     """A constraint is an equation for the coordinate along which its force acts."""
     constraint = facts.inputs.get("constraint")
     kept = constraint is None or (constraint.mark == "=" and constraint.left == facts.inputs["q"])
     return kept and isinstance(facts.inputs["q"], Symbol)
 
 
-def _one_part_moves(facts: Facts, outcome: str) -> bool:
+def _one_part_moves(facts: Judged, outcome: str) -> bool:
     """Of the other two parts of the energy one holds the rate of the coordinate, and one does not."""
     rates = {rate(q) for q in _letters_of(facts.result)}
     moving, constant = (bool(rates & _letters_of(facts.inputs[role])) for role in ("moving", "constant"))
     return moving and not constant
 
 
-def _as_given(facts: Facts, outcome: str) -> bool:
+def _as_given(facts: Judged, outcome: str) -> bool:
     return is_zero(facts.result - facts.inputs["given"]) and facts.symbol == facts.inputs["tilt"]
 
 
-def _for_a_vector(facts: Facts, outcome: str) -> bool:
+def _for_a_vector(facts: Judged, outcome: str) -> bool:
     return getattr(facts.inputs["vector"], "shape", None) == (3, 1)
 
 
-def _strict(facts: Facts, outcome: str) -> bool:
+def _strict(facts: Judged, outcome: str) -> bool:
     """At the bound itself there is still a steady precession, so only what is beyond it has none."""
     return facts.result.mark in {"<", ">"}
 
 
-def _component_that_is_kept(facts: Facts, outcome: str) -> bool:
+def _component_that_is_kept(facts: Judged, outcome: str) -> bool:
     """The component of the vector keeps the value called the spin, and its moment of inertia has no part in that."""
     spin, moment = facts.inputs["spin"], facts.inputs["along"]
     is_vector = getattr(facts.inputs["omega"], "shape", None) == (3, 1)
     return is_vector and is_zero(facts.result.right - spin) and moment not in _letters_of(facts.result)
 
 
-def _equation_in_its_unknown(facts: Facts, outcome: str) -> bool:
+def _equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
     equation, unknown = facts.inputs["equation"], facts.inputs["unknown"]
     return isinstance(equation, Relation) and isinstance(unknown, Symbol) and unknown in _letters_of(equation)
 
 
-def _pushed_across(facts: Facts, outcome: str) -> bool:
+def _pushed_across(facts: Judged, outcome: str) -> bool:
     """Contact lasts as long as the component across the surface is positive."""
     return outcome != "tangent" or facts.quantities["normal"].step.outcome == "normal"
 
 
-def _counted_from_its_point(facts: Facts, outcome: str) -> bool:
+def _counted_from_its_point(facts: Judged, outcome: str) -> bool:
     """A length or a position is counted from the point that it is about."""
     return facts.words["start"] == getattr(facts.subject.point, "name", facts.words["start"])
 
 
-def _from_its_point_along_the_axis(facts: Facts, outcome: str) -> bool:
+def _from_its_point_along_the_axis(facts: Judged, outcome: str) -> bool:
     return _counted_from_its_point(facts, outcome) and str(facts.symbol.name).endswith("z")
 
 
-def _found_once_more(facts: Facts, outcome: str) -> bool:
+def _found_once_more(facts: Judged, outcome: str) -> bool:
     """What is said to have been found before is the same equation."""
     return bool(equal(facts.result, facts.inputs["found"]))
 
 
-def _named_as_its_moment(facts: Facts, outcome: str) -> bool:
+def _named_as_its_moment(facts: Judged, outcome: str) -> bool:
     """The part is called as the letter of its moment says."""
     return str(facts.symbol.name).endswith("_" + facts.words["name"])
 
 
-def _momentum_of_a_coordinate(facts: Facts, outcome: str) -> bool:
+def _momentum_of_a_coordinate(facts: Judged, outcome: str) -> bool:
     return isinstance(facts.inputs["coordinate"], Symbol) and "momentum" in facts.quantities
 
 
-def _axis_as_named(facts: Facts, outcome: str) -> bool:
+def _axis_as_named(facts: Judged, outcome: str) -> bool:
     return outcome != "diagonal" or facts.words["axis"] == outcome
 
 
-def _as_strictly(facts: Facts, outcome: str) -> bool:
+def _as_strictly(facts: Judged, outcome: str) -> bool:
     """Where a quantity must be positive zero is left out, where it must not be negative it is allowed."""
     strictly = facts.words.get("strictly")
     return strictly is None or (strictly == "positive") == (facts.result.mark in {"<", ">"})
 
 
-def _rate_of_the_component(facts: Facts, outcome: str) -> bool:
+def _rate_of_the_component(facts: Judged, outcome: str) -> bool:
     return "rate" in facts.quantities and rate(facts.inputs["component"]) in _letters_of(facts.result)
 
 
-def _inward_or_outward(facts: Facts, outcome: str) -> bool:
+def _inward_or_outward(facts: Judged, outcome: str) -> bool:
     """The tensor exceeds that about the centre of mass, or is less than the other: it depends on where one starts."""
     point = facts.quantities["entry"].subject.point
     return point is None or (point.name in {"centre", "centre_of_mass"}) == outcome.startswith("outward")
 
 
-def _difference(facts: Facts, outcome: str) -> bool:
+def _difference(facts: Judged, outcome: str) -> bool:
     return is_zero(explicit(facts.result) - explicit(facts.inputs["kinetic"]) + explicit(facts.inputs["potential"]))
 
 
 def _product_of(*roles: str) -> Told:
-    def is_so(facts: Facts, outcome: str) -> bool:
+    def is_so(facts: Judged, outcome: str) -> bool:
         product: Expr = Integer(1)
         for role in roles:
             product *= explicit(facts.inputs[role])
@@ -187,7 +187,7 @@ def _product_of(*roles: str) -> Told:
     return is_so
 
 
-def _at_a_place(facts: Facts, outcome: str) -> bool:
+def _at_a_place(facts: Judged, outcome: str) -> bool:
     place = facts.inputs["place"]
     return isinstance(place, Relation) and isinstance(place.left, Symbol)
 
