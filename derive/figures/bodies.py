@@ -1,38 +1,24 @@
-"""The outline of each kind of body, seen from one of its points, and of round bodies on a leaning axis."""
+"""The outline of a body, seen from one of its points or on a leaning axis, as its profile or its corners have it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import singledispatch
 from typing import Any
 
 from sympy import Expr, Integer, Rational
 
 from derive.algebra.expressions import AXES, column, scalar
 from derive.errors import Complaint, Rejected
-from derive.figures.marks import (
-    Axis,
-    BallMark,
-    Box,
-    Circle,
-    ConeMark,
-    CylinderMark,
-    Length,
-    Line,
-    Mark,
-    Polygon,
-    RodMark,
-)
-from derive.mechanics.bodies.body import Cuboid
+from derive.figures.annotations import Axis, LengthMark, Line
+from derive.figures.marks import Mark, Position, Surface
+from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
+from derive.mechanics.bodies.body import Body, EdgedBody, RoundBody
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.bodies.solids import Ball, Cone, Cylinder
-from derive.mechanics.bodies.thin_bodies import Disc, Hoop, Plate, Rod
+from derive.steps.step import is_zero
 
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 20)  # half the thickness with which a disc is drawn, in terms of its radius
-
-OnAxis = Callable[[Expr], Any]  # where a point of a body's own z axis is in the drawing
+CURVED = 48  # circles by which a curved side is drawn, close together where it may come to a tip
 
 
 def outline(body: Any, about: str | None = None, named: bool = True) -> list[Mark]:
@@ -42,109 +28,98 @@ def outline(body: Any, about: str | None = None, named: bool = True) -> list[Mar
     about   the name of the point, otherwise the one at which the body's own axes begin
     named   whether its measures and the axes are written beside it
     """
-    if not hasattr(body, "reference"):
+    if not isinstance(body, RoundBody | EdgedBody):
         raise Rejected(Complaint("wrong-argument", f"there is no outline of a {type(body).__name__}"))
     point: Point = body.point(about or body.reference)
-    if not body.is_round:
+    if isinstance(body, EdgedBody):
         return _with_edges(body, point, named)
-    marks = round_outline(body, lambda z: point.seen(column(0, 0, z)), Z)
-    return [*marks, *_measures(body, point)] if named else marks
+    surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
+    return [surface, *_measures(body, point)] if named else [surface]
 
 
 # --- bodies with edges -----------------------------------------------------------------------------------------------
 
 
-def _with_edges(body: Any, point: Point, named: bool) -> list[Mark]:
-    """A block or a plate, whose own axes are along its edges."""
-    if not isinstance(body, Cuboid | Plate):
-        raise Rejected(Complaint("wrong-argument", f"there is no outline of {body.name}"))
-    corner = point.seen(ORIGIN)
-    ends = [corner + side * along for side, along in zip(body.sides, UNIT, strict=False)]
-    marks: list[Mark] = [_edged(body, corner, named)]
+def _with_edges(body: EdgedBody, point: Point, named: bool) -> list[Mark]:
+    """With a name beside one edge of each length; beside a flat one dimension lines, in its plane."""
+    corners = tuple(point.seen(corner) for corner in body.corners)
+    is_flat = len(body.faces) == 1
+    lengths = tuple((length if named and not is_flat else None, edges) for length, edges in body.edges)
+    marks: list[Mark] = [Polyhedron(corners, body.faces, lengths, **_words(body))]
     if named:
-        ends += [corner] * (3 - len(ends))
+        reaches = (max((corner[k] for corner in body.corners), key=in_units) for k in range(3))
+        ends = [point.seen(reach * along) for reach, along in zip(reaches, UNIT, strict=True)]
         marks += [Axis(end, end, along, label=scalar(name)) for end, along, name in zip(ends, UNIT, AXES, strict=True)]
-    if named and isinstance(body, Plate):
-        marks += [Length(corner, ends[0], -Y, label=body.sides[0]), Length(corner, ends[1], -X, label=body.sides[1])]
+    if named and is_flat:
+        middle = sum(corners, ORIGIN) / len(corners)
+        ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in body.edges)
+        marks += [LengthMark(a, b, (a + b) / 2 - middle, label=length) for length, a, b in ends_of]
     return marks
-
-
-def _edged(body: Any, corner: Any, named: bool) -> Mark:
-    if isinstance(body, Cuboid):
-        return Box(corner, body.sides, body.sides if named else ())
-    a, b = body.sides
-    return Polygon((corner, corner + a * X, corner + a * X + b * Y, corner + b * Y))
 
 
 # --- round bodies ----------------------------------------------------------------------------------------------------
 
 
-@singledispatch
-def round_outline(body: Any, on_axis: OnAxis, along: Any) -> list[Mark]:
-    """The outline of a body that is round about its z axis, wherever that axis is in the drawing.
+def round_outline(body: RoundBody, through: Position, along: Position) -> Surface:
+    """The surface of a body that is round about its z axis, wherever that axis is in the drawing.
 
-    on_axis   where a point of the axis is, by the body's own z
-    along     the direction of the axis, a unit vector (3)
+    through   where its own z is zero
+    along     the direction in which its own z grows, a unit vector (3)
     """
-    raise Rejected(Complaint("wrong-argument", f"there is no outline of {body.name}"))
+    lower, upper = body.ends
+    if is_line(body):
+        return ThinRod(through + lower * along, through + upper * along, **_words(body))
+    if lower != upper:
+        return Revolved(_profile(body), through, along, **_words(body))
+    radius = body.radius_at(lower)
+    if body.filling == "length":
+        return Circle(through + lower * along, along, radius, **_words(body))
+    half = THIN * radius
+    return Revolved(((lower - half, radius), (lower + half, radius)), through, along, **_words(body))
 
 
-@round_outline.register
-def _(body: Cone, on_axis: OnAxis, along: Any) -> list[Mark]:
-    return [ConeMark(on_axis(Integer(0)), on_axis(body.height), body.radius)]
+def is_line(body: Body) -> bool:
+    """Whether all of it is on its axis."""
+    return isinstance(body, RoundBody) and body.is_straight and all(body.radius_at(end) == 0 for end in body.ends)
 
 
-@round_outline.register
-def _(body: Cylinder, on_axis: OnAxis, along: Any) -> list[Mark]:
-    return [CylinderMark(on_axis(Integer(0)), on_axis(body.height), body.radius)]
+def _profile(body: RoundBody) -> tuple[tuple[Expr, Expr], ...]:
+    """Heights of its own z with the radius there: the two ends, or many if the side between them is curved."""
+    lower, upper = body.ends
+    parts = [Rational(k, CURVED) for k in ((0, CURVED) if body.is_straight else range(CURVED + 1))]
+    heights = [lower + (upper - lower) * part**2 * (3 - 2 * part) for part in parts]
+    return tuple((z, body.radius_at(z)) for z in heights)
 
 
-@round_outline.register
-def _(body: Ball, on_axis: OnAxis, along: Any) -> list[Mark]:
-    return [BallMark(on_axis(Integer(0)), body.radius)]
+def _words(body: Body) -> dict[str, Any]:
+    return {"name": body.seen_as or body.name, "measures": tuple(body.measures.items())}
 
 
-@round_outline.register
-def _(body: Disc, on_axis: OnAxis, along: Any) -> list[Mark]:
-    half = THIN * body.radius * along
-    return [CylinderMark(on_axis(Integer(0)) - half, on_axis(Integer(0)) + half, body.radius, thin=True)]
-
-
-@round_outline.register
-def _(body: Hoop, on_axis: OnAxis, along: Any) -> list[Mark]:
-    return [Circle(on_axis(Integer(0)), along, body.radius)]
-
-
-@round_outline.register
-def _(body: Rod, on_axis: OnAxis, along: Any) -> list[Mark]:
-    return [RodMark(on_axis(Integer(0)), on_axis(body.length), body.length)]
-
-
-def _measures(body: Any, point: Point) -> list[Mark]:
+def _measures(body: RoundBody, point: Point) -> list[Mark]:
     """The radius where it is widest, the height beside it, and the axes from the point."""
-    low, high = sorted(_ends(body, point), key=lambda z: not z.is_nonpositive)
-    radius = getattr(body, "radius", Integer(0))
-    wide = point.seen(column(0, 0, body.height)) if isinstance(body, Cone) else low * Z
-    starts = [Integer(0) if isinstance(body, Cone | Rod) and wide != ORIGIN else radius] * 2
+    profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(body)]
+    (low, below), (high, above) = sorted((profile[0], profile[-1]), key=lambda end: not end[0].is_nonpositive)
+    wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: in_units(ring[1]))
+    start = body.radius_at(point.position[2])
     marks: list[Mark] = [
-        Axis(start * along, start * along, along, label=scalar(name))
-        for start, along, name in zip(starts, (X, Y), "xy", strict=True)
+        Axis(start * along, start * along, along, label=scalar(name)) for along, name in zip((X, Y), "xy", strict=True)
     ]
     # Above a base that is on top the axis must first leave the far part of the rim behind.
-    top = high + radius / 4 if isinstance(body, Cone) and wide != ORIGIN else high
+    top = high + radius / 4 if in_units(above) > in_units(below) else high
     marks.append(Axis(high * Z, top * Z, Z, label=scalar("z")))
-    if radius != 0:
-        marks.append(Line(wide + radius * Y, wide, "hidden", label=radius))
-    if low != high and not isinstance(body, Ball):
+    if _is_told(radius, body):
+        marks.append(Line(wide * Z + radius * Y, wide * Z, "hidden", label=radius))
+    if _is_told(high - low, body):
         marks.append(Line(low * Z, high * Z, "hidden"))
-        marks.append(Length(low * Z, high * Z, None, radius, label=high - low))
+        marks.append(LengthMark(low * Z, high * Z, None, radius, label=high - low))
     return marks
 
 
-def _ends(body: Any, point: Point) -> list[Expr]:
-    """The two ends of a round body on its axis, as z from the point."""
-    if isinstance(body, Ball):
-        ends = [-body.radius, body.radius]
-    else:
-        ends = [Integer(0), getattr(body, "height", getattr(body, "length", Integer(0)))]
-    return [point.seen(column(0, 0, end))[2] for end in ends]
+def _is_told(length: Expr, body: Body) -> bool:
+    """Whether it is one of the lengths that say how large a body is."""
+    return length != 0 and any(is_zero(length - measure) for measure in body.measures.values())
+
+
+def in_units(length: Expr) -> float:
+    """A length with every letter one, to put lengths in order."""
+    return float(length.subs(dict.fromkeys(length.free_symbols, Integer(1))))

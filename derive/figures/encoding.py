@@ -9,20 +9,16 @@ from typing import Any
 from sympy import Basic, MatrixBase
 
 from derive.algebra.encoding import decoded, encoded
-from derive.figures import marks
+from derive.figures.marks import MARKS, Drawing, Plot, Recorded
 
-_CLASSES = {
-    each.__name__: each
-    for each in vars(marks).values()
-    if isinstance(each, type) and issubclass(each, marks.Mark | marks.Drawing | marks.Plot)
-}
+_SCENES: dict[str, Any] = {each.__name__: each for each in (Drawing, Plot)}
 
 
-def drawings_to_data(drawings: Sequence[marks.Recorded]) -> list[Any]:
+def drawings_to_data(drawings: Sequence[Recorded]) -> list[Any]:
     return [_to_data(drawing) for drawing in drawings]
 
 
-def drawings_from_data(data: Sequence[Any]) -> tuple[marks.Recorded, ...]:
+def drawings_from_data(data: Sequence[Any]) -> tuple[Recorded, ...]:
     return tuple(_from_data(each) for each in data)
 
 
@@ -31,8 +27,9 @@ def _to_data(value: Any) -> Any:
         return {"expr": encoded(value)}
     if isinstance(value, tuple | list):
         return [_to_data(each) for each in value]
-    if type(value).__name__ in _CLASSES:
-        return {"is": type(value).__name__, **{f.name: _to_data(getattr(value, f.name)) for f in fields(value)}}
+    name = type(value).__name__
+    if _class_of(name) is type(value):
+        return {"is": name, **{f.name: _to_data(getattr(value, f.name)) for f in fields(value)}}
     if value is None or isinstance(value, str | bool | int | float):
         return value
     raise TypeError(f"a drawing cannot hold a {type(value).__name__}")
@@ -46,4 +43,8 @@ def _from_data(data: Any) -> Any:
     if "is" not in data:
         return decoded(data["expr"])
     made_of = {name: _from_data(value) for name, value in data.items() if name != "is"}
-    return _CLASSES[data["is"]](**made_of)
+    return _class_of(data["is"])(**made_of)
+
+
+def _class_of(name: str) -> Any:
+    return MARKS.get(name) or _SCENES.get(name)

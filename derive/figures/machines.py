@@ -5,29 +5,17 @@ Each is a list of marks for `drawing()`, so that a script can add its own marks 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
-from sympy import Add, Expr, Integer, Rational, Symbol, cos, pi, sin
+from sympy import Add, Expr, Rational, Symbol, cos, pi, sin
 
 from derive.algebra.expressions import column, scalar
-from derive.figures.bodies import ORIGIN, Y, Z, round_outline
-from derive.figures.marks import (
-    AngleMark,
-    Arrow,
-    Axis,
-    Circle,
-    Dot,
-    Length,
-    Line,
-    Mark,
-    Polygon,
-    RodMark,
-    Support,
-    Turn,
-)
-from derive.mechanics.bodies.solids import Ball, Cone, Cylinder
-from derive.mechanics.bodies.thin_bodies import Rod
+from derive.figures.annotations import AngleMark, Arrow, Axis, LengthMark, Line, PointMark, Support, Turn
+from derive.figures.bodies import ORIGIN, Y, Z, in_units, is_line, round_outline
+from derive.figures.marks import Mark
+from derive.figures.surfaces import Circle, Polygon, ThinRod
 from derive.mechanics.rotation.composite import Composed, Part
 from derive.steps.step import Quantity
 
@@ -52,8 +40,8 @@ def leaning_top(
     azimuth            to which side it leans
     """
     e = column(sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt))
-    far = max((part.at + _half(part.body) for part in body.parts), key=_in_units)
-    near = min((part.at for part in body.parts if not isinstance(part.body, Rod)), key=_in_units, default=far / 2)
+    far = max((_ends(part)[1] for part in body.parts), key=in_units)
+    near = min((part.at for part in body.parts if not is_line(part.body)), key=in_units, default=far / 2)
     named = angle if angle is not None else tilt
     marks: list[Mark] = [
         Support(ORIGIN, label=scalar("O")),
@@ -71,29 +59,22 @@ def leaning_top(
     return marks if weight is None else [*marks, *_weight(weight, body, e)]
 
 
+def _ends(part: Part) -> tuple[Expr, Expr]:
+    """The heights above the pivot between which a part lies."""
+    lower, upper = part.body.ends
+    middle = part.body.middle.position[2]
+    return part.at - middle + lower, part.at - middle + upper
+
+
 def _part(part: Part, whole: Composed, e: Any) -> list[Mark]:
-    """The outline of a part on the leaning axis; a rod in pieces, so that the bodies on it hide what is behind them."""
-    start = part.at - part.body.middle.position[2]  # of the part's own z, above the pivot
-    if not isinstance(part.body, Rod):
-        return round_outline(part.body, lambda z: (start + z) * e, e)
-    cuts = [other.at for other in whole.parts if not isinstance(other.body, Rod) and _in_units(other.at - start) > 0]
-    ends = [start, *(cut for cut in cuts if _in_units(cut) < _in_units(start + part.body.length))]
-    pieces = pairwise([*ends, start + part.body.length])
-    return [RodMark(a * e, b * e, part.body.length if a == start else Integer(0)) for a, b in pieces]
-
-
-def _half(body: Any) -> Expr:
-    """How far a part reaches beyond its centre of mass, upwards along the axis."""
-    if isinstance(body, Rod | Cylinder):
-        return getattr(body, "height", getattr(body, "length", 0)) / 2
-    if isinstance(body, Cone):
-        return body.height / 4
-    return body.radius if isinstance(body, Ball) else Integer(0)
-
-
-def _in_units(length: Expr) -> float:
-    """A length with every letter one, to put lengths in order."""
-    return float(length.subs(dict.fromkeys(length.free_symbols, 1)))
+    """The surface of a part on the leaning axis; a rod in pieces, so that the bodies on it hide what is behind them."""
+    surface = round_outline(part.body, (part.at - part.body.middle.position[2]) * e, e)
+    if not isinstance(surface, ThinRod):
+        return [surface]
+    start, end = _ends(part)
+    cuts = [other.at for other in whole.parts if not is_line(other.body) and in_units(other.at - start) > 0]
+    pieces = pairwise([start, *(cut for cut in cuts if in_units(cut) < in_units(end)), end])
+    return [replace(surface, start=a * e, end=b * e, name=surface.name if a == start else "") for a, b in pieces]
 
 
 def _weight(weight: Any, body: Composed, e: Any) -> list[Mark]:
@@ -106,7 +87,7 @@ def _weight(weight: Any, body: Composed, e: Any) -> list[Mark]:
         masses = [part.body.mass for part in body.parts]
         moments = [part.body.mass * part.at for part in body.parts]
         centre = (Add(*moments) / Add(*masses)).cancel() * e
-    return [Dot(centre, keys=keys), Arrow(centre, -Z, Rational(1, 2), False, label=name, keys=keys)]
+    return [PointMark(centre, keys=keys), Arrow(centre, -Z, Rational(1, 2), False, label=name, keys=keys)]
 
 
 def slab_on_cylinder(
@@ -131,9 +112,9 @@ def slab_on_cylinder(
         Polygon(tuple(corners)),
         Line(ORIGIN, Rational(13, 10) * radius * Y + thickness * Y, "construction"),
         Line(ORIGIN, contact, "construction", label=radius),
-        Dot(ORIGIN, label=Symbol("O", real=True)),
+        PointMark(ORIGIN, label=Symbol("O", real=True)),
         AngleMark(ORIGIN, Y, across, Rational(2, 5) * radius, label=angle),
-        Length(corners[1], corners[2], along, label=thickness),
+        LengthMark(corners[1], corners[2], along, label=thickness),
     ]
     if centre is None:
         return marks
@@ -141,8 +122,8 @@ def slab_on_cylinder(
     marks += [
         Line(foot, foot + thickness * across, "hidden"),
         Line(contact, contact + thickness * across, "hidden"),
-        Dot(contact, label=Symbol("P", real=True)),
-        Dot(place, label=Symbol("C", real=True), keys=keys),
-        Length(foot + thickness * across, contact + thickness * across, across, label=radius * angle),
+        PointMark(contact, label=Symbol("P", real=True)),
+        PointMark(place, label=Symbol("C", real=True), keys=keys),
+        LengthMark(foot + thickness * across, contact + thickness * across, across, label=radius * angle),
     ]
     return marks if weight is None else [*marks, Arrow(place, -Y, Rational(1, 4), False, label=weight, keys=keys)]

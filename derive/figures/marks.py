@@ -1,184 +1,83 @@
 """What a drawing shows, as data: marks whose places and directions are SymPy expressions in the problem's letters.
 
-A mark knows what it is, not how it looks: which lines are hidden, how long an arrow is and where a label stands is
-decided when it is drawn (`derive.render.drawing.picture`). Places are columns (x, y, z) in one frame, the same for
-all marks of a drawing. `keys` are those of the steps that a mark rests on, so that no drawing gives an answer away too
-early.
+A mark says all that is asked of it: of which pieces it is made once the letters have numbers, how large it is, how it
+is told in words. Which lines are hidden and where a label stands is decided on paper (`derive.render.drawing`).
+Positions are columns (x, y, z) in one frame, the same for all marks of a drawing.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields
-from typing import Any, TypeAlias
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, TypeAlias
 
 from sympy import Symbol
 
 from derive.errors import Complaint, Rejected
+from derive.figures.pieces import Numbers, Paper, Piece
+from derive.figures.space import Vector
 from derive.steps.record import current_run
 
-Place: TypeAlias = Any  # a column of three expressions
+Position: TypeAlias = Any  # a column of three expressions
+Told: TypeAlias = tuple[str, dict[str, Any]]  # by which phrase a mark is told, and what it may name
 SPACE, PLANE = "space", "plane"
 
-_KEY = re.compile(r"[a-z][a-z0-9_]{0,31}")
+BESIDE = {"beside": True}  # of a field: it is written beside a mark, and does not decide how that is drawn
+MARKS: dict[str, type[Mark]] = {}  # every kind of mark by its name
+
+_DRAWING_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
-    """What all marks have: a name or an expression beside it, and the steps that it rests on."""
+    """What all marks have: a name or an expression beside it, and the steps that it rests on, so that no drawing gives
+    an answer away too early.
+    """
 
-    label: Any = None
+    label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
+    together: ClassVar[str | None] = None  # the phrase by which all such marks are told at once, by their labels
+
+    def __init_subclass__(cls) -> None:
+        MARKS[cls.__name__] = cls
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        """What it is on paper; nothing where there is nothing to see."""
+        raise AttributeError(f"{type(self).__name__} must say of which pieces it is")
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        """What says how large a drawing is that shows no body."""
+        return ()
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        """One that must not point at the eye, or two between which an angle must be seen."""
+        return ()
+
+    def in_words(self) -> Told | None:
+        """How it is told to those who do not see it; nothing for a line that only helps the eye."""
+        return None
 
 
-@dataclass(frozen=True)
-class Box(Mark):
-    """A block with its edges along the axes; `edges` are the lengths written beside three of them."""
+@dataclass(frozen=True, kw_only=True)
+class Surface(Mark):
+    """What hides the things behind it and says how large a drawing is.
 
-    corner: Place
-    sides: tuple[Any, ...]
-    edges: tuple[Any, ...] = ()
-
-
-@dataclass(frozen=True)
-class ConeMark(Mark):
-    """A circular cone."""
-
-    apex: Place
-    base: Place
-    radius: Any
-
-
-@dataclass(frozen=True)
-class CylinderMark(Mark):
-    """A circular cylinder between the centres of its two ends; a thin disc has a thickness for the eye only."""
-
-    start: Place
-    end: Place
-    radius: Any
-    thin: bool = False
-
-
-@dataclass(frozen=True)
-class BallMark(Mark):
-    """A ball."""
-
-    centre: Place
-    radius: Any
-
-
-@dataclass(frozen=True)
-class RodMark(Mark):
-    """A rod, too thin to show its thickness, or a piece of one; `length` is the whole one's, zero for a later piece."""
-
-    start: Place
-    end: Place
-    length: Any
-
-
-@dataclass(frozen=True)
-class Circle(Mark):
-    """A circle about a direction; `filled` if it bounds a body."""
-
-    centre: Place
-    normal: Place
-    radius: Any
-    filled: bool = False
-
-
-@dataclass(frozen=True)
-class Polygon(Mark):
-    """A plane outline through its corners."""
-
-    corners: tuple[Place, ...]
-
-
-@dataclass(frozen=True)
-class Line(Mark):
-    """A line; its pen is `edge`, `construction`, `hidden` or `axis`."""
-
-    start: Place
-    end: Place
-    pen: str = "construction"
-
-
-@dataclass(frozen=True)
-class Axis(Mark):
-    """A coordinate axis: a thin arrow from where it begins to where it ends, or past the end in a direction."""
-
-    start: Place
-    end: Place
-    past: Place = None
-
-
-@dataclass(frozen=True)
-class AxisOfRotation(Mark):
-    """The whole line through a point along a direction, a little longer than the body on both sides.
-
-    With a rate an arrow goes round its far end, right-handed if the rate is positive; the label is the rate's.
+    name       what it is of, "a circular cone"; nothing for a surface that is told with another
+    measures   what is told of its size: "base radius" and R
     """
 
-    through: Place
-    along: Place
-    rate: Any = None
+    name: str = ""
+    measures: tuple[tuple[str, Any], ...] = field(default=(), metadata=BESIDE)
 
+    def places(self, numbers: Numbers) -> list[Vector]:
+        """The outermost places that it reaches."""
+        raise AttributeError(f"{type(self).__name__} must say how far it reaches")
 
-@dataclass(frozen=True)
-class Arrow(Mark):
-    """A vector in its true direction. Vectors of different kinds have no common scale: `size` is for the eye only, the
-    length in terms of the size of the body. A vector that is zero is not drawn.
-    """
-
-    start: Place
-    value: Place
-    size: Any
-    asked: bool = True
-
-
-@dataclass(frozen=True)
-class AngleMark(Mark):
-    """The arc between two directions at a vertex; without a radius, as large as the eye needs."""
-
-    vertex: Place
-    a: Place
-    b: Place
-    radius: Any = None
-
-
-@dataclass(frozen=True)
-class Turn(Mark):
-    """An arrow round a direction, right-handed; `size` in terms of the size of the body."""
-
-    centre: Place
-    along: Place
-    size: Any
-
-
-@dataclass(frozen=True)
-class Length(Mark):
-    """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
-    the length `clear` and a little more.
-    """
-
-    start: Place
-    end: Place
-    aside: Place | None
-    clear: Any = 0
-
-
-@dataclass(frozen=True)
-class Dot(Mark):
-    """A point."""
-
-    at: Place
-
-
-@dataclass(frozen=True)
-class Support(Mark):
-    """The fixed ground under a pivot."""
-
-    at: Place
+    def in_words(self) -> Told | None:
+        return ("body", {"name": self.name, "measures": self.measures}) if self.name else None
 
 
 Marks: TypeAlias = Mark | Iterable["Marks"]
@@ -227,11 +126,11 @@ class Plot:
 
 
 def letters_in(thing: Any) -> set[Symbol]:
-    """Every letter in the places and directions of marks, however deep; the names beside them are not among them."""
+    """Every letter in the positions and directions of marks, however deep; the names beside them are not among them."""
     if isinstance(thing, tuple | list):
         return {letter for each in thing for letter in letters_in(each)}
     if isinstance(thing, Mark):
-        return letters_in([getattr(thing, f.name) for f in fields(thing) if f.name not in {"label", "edges"}])
+        return letters_in([getattr(thing, f.name) for f in fields(thing) if not f.metadata.get("beside")])
     return {s for s in getattr(thing, "free_symbols", ()) if isinstance(s, Symbol)}
 
 
@@ -240,7 +139,7 @@ Recorded: TypeAlias = Drawing | Plot
 
 def noted(drawing: Recorded) -> Recorded:
     """The drawing, after it was put on the record; a name stands for one drawing."""
-    if not _KEY.fullmatch(drawing.key):
+    if not _DRAWING_NAME.fullmatch(drawing.key):
         help_line = "use small letters, digits and _"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))
     run = current_run.get()

@@ -15,24 +15,9 @@ from sympy import Expr, Integer, MatrixBase, Rational, Symbol
 from derive.algebra.equality import Grade
 from derive.algebra.expressions import AXES, column, explicit, scalar
 from derive.errors import Complaint, Rejected
+from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, LengthMark, PointMark, Turn
 from derive.figures.bodies import ORIGIN, outline
-from derive.figures.marks import (
-    PLANE,
-    SPACE,
-    AngleMark,
-    Arrow,
-    Axis,
-    AxisOfRotation,
-    Dot,
-    Drawing,
-    Length,
-    Mark,
-    Marks,
-    Plot,
-    Turn,
-    flat,
-    noted,
-)
+from derive.figures.marks import PLANE, SPACE, Drawing, Mark, Marks, Plot, flat, noted
 from derive.mechanics.bodies.regions import Point
 from derive.steps.step import Quantity
 
@@ -138,7 +123,7 @@ def point(at: Any, label: Any = None) -> Mark:
     at   a place: a column of lengths, a body's point, or a quantity
     """
     place, keys = _vector(at)
-    return Dot(place, label=_name_of(at, label), keys=keys)
+    return PointMark(place, label=_name_of(at, label), keys=keys)
 
 
 def length(start: Any, end: Any, label: Any, aside: Any) -> Mark:
@@ -147,7 +132,7 @@ def length(start: Any, end: Any, label: Any, aside: Any) -> Mark:
     aside   vector (3): the direction in which the line is set off, so that it stands clear of the body
     """
     (a, first), (b, second) = _vector(start), _vector(end)
-    return Length(a, b, _vector(aside)[0], label=label, keys=first + second)
+    return LengthMark(a, b, _vector(aside)[0], label=label, keys=first + second)
 
 
 def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:

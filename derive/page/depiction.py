@@ -7,16 +7,12 @@ that it shows; a problem may move it further back, never forward.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from math import acos, degrees
 from typing import Any
 
-from sympy import Integer, MatrixBase
-
 from derive.algebra.dimensions import unit_of_kind
-from derive.algebra.expressions import Amount, Dot, Norm, explicit
-from derive.algebra.tidy import factored_matrix, tidied
+from derive.algebra.expressions import Amount
 from derive.course.placement import HIDDEN, STATEMENT, Placement
 from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected, did_you_mean
@@ -25,7 +21,6 @@ from derive.page.plots import curves_of
 from derive.page.wording import Math, Node, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 
-SHORT = 3  # operations
 FOUND = -1  # the index of the statement, before that of part a
 
 
@@ -194,11 +189,10 @@ def alternative(problem: Problem, drawing: m.Recorded, placement: Placement | No
     if isinstance(drawing, m.Plot):
         return _curves(problem, drawing, placement, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in drawing.marks) if nodes]
-    axes = [_named(mark.label) for mark in drawing.marks if isinstance(mark, m.Axis) and mark.label is not None]
-    if axes:
-        told.append(
-            filled(words.drawings["axes"], {"names": joined(axes, words.labels["and"]), "several": len(axes) > 1})
-        )
+    for phrase in dict.fromkeys(mark.together for mark in drawing.marks if mark.together and mark.label is not None):
+        names = [_named(mark.label) for mark in drawing.marks if mark.together == phrase and mark.label is not None]
+        joint = {"names": joined(names, words.labels["and"]), "several": len(names) > 1}
+        told.append(filled(words.drawings[phrase], joint))
     items = joined(told, words.labels["and"])
     return filled(words.drawings[drawing.view], {"marks": items})
 
@@ -239,119 +233,25 @@ def _with_unit(value: float, unit: str) -> str:
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Node, ...]:
     """The words for one mark; none for a line that only helps the eye."""
-    names = _names(mark)
-    if names is None:
+    told = mark.in_words()
+    if told is None:
         return ()
-    kind = _kind(mark, names)
-    return filled(words.drawings[kind], names)
+    phrase, names = told
+    found = {name: _named(value) for name, value in names.items()}
+    if "measures" in names:
+        last, measures = words.labels["and"], names["measures"]
+        found["several"] = any(isinstance(value, tuple) for _, value in measures)
+        found["measures"] = joined((_measured(name, value, last) for name, value in measures), last)
+    return filled(words.drawings[phrase], found)
 
 
-def _kind(mark: m.Mark, names: Mapping[str, Any]) -> str:
-    match mark:
-        case m.Arrow() if all(entry == 0 for entry in explicit(mark.value)):
-            return "no_arrow"
-        case m.Arrow() if not names["direction"]:
-            return "arrow_of_letters"
-        case m.AxisOfRotation():
-            return "axis_of_rotation" if mark.rate is None else "turning_axis"
-        case m.CylinderMark(thin=True):
-            return "disc"
-        case m.AngleMark() if not names["size"]:
-            return "angle_of_letters"
-    return _KINDS[type(mark)]
+def _measured(name: str, value: Any, last: str) -> tuple[Node, ...]:
+    values = value if isinstance(value, tuple) else (value,)
+    return (Text(f"{name} "), *joined([Math(each) for each in values], last))
 
 
-_KINDS: dict[type[m.Mark], str] = {
-    m.Box: "block",
-    m.ConeMark: "cone",
-    m.CylinderMark: "cylinder",
-    m.BallMark: "ball",
-    m.RodMark: "rod",
-    m.Circle: "circle",
-    m.Polygon: "polygon",
-    m.Arrow: "arrow",
-    m.AngleMark: "angle",
-    m.Turn: "turn",
-    m.Length: "length",
-    m.Dot: "point",
-    m.Support: "support",
-}
-
-
-def _names(mark: m.Mark) -> dict[str, Any] | None:
-    """What the phrase of a mark may mention; nothing for a mark that has no phrase."""
-    names: dict[str, Any] = {"label": _named(mark.label) if mark.label is not None else ()}
-    match mark:
-        case m.Box():
-            names.update(zip("xyz", (Math(side) for side in mark.sides), strict=True))
-        case m.ConeMark():
-            names.update(radius=Math(mark.radius), height=Math(_distance(mark.apex, mark.base)))
-        case m.CylinderMark():
-            names.update(radius=Math(mark.radius), height=Math(_distance(mark.start, mark.end)))
-        case m.RodMark():
-            if mark.length == 0:
-                return None
-            names.update(length=Math(mark.length))
-        case m.Circle() | m.BallMark():
-            names.update(radius=Math(mark.radius))
-        case m.Polygon():
-            names.update(corners=len(mark.corners))
-        case m.Arrow():
-            names.update(direction=_direction(mark.value))
-        case m.AxisOfRotation():
-            names.update(direction=_direction(mark.along))
-        case m.AngleMark():
-            size = _size(mark)
-            if mark.label is None or size == ():
-                return None
-            names.update(size=size)
-        case m.Turn() | m.Length() | m.Dot():
-            if mark.label is None or mark.label == 0:
-                return None
-            if isinstance(mark, m.Dot):
-                names.update(place=_short_place(mark.at))
-        case m.Axis() | m.Line():
-            return None
-    return names
-
-
-def _named(label: Any) -> tuple[Node, ...]:
-    return (Text(label),) if isinstance(label, str) else (Math(label),)
-
-
-def _distance(a: Any, b: Any) -> Any:
-    return tidied(Norm(explicit(b) - explicit(a)))
-
-
-def _whole_direction(value: Any) -> MatrixBase | None:
-    """The direction of a vector as plain numbers, if its letters are only in front; nothing for the zero vector."""
-    value = explicit(value)
-    if all(entry == 0 for entry in value):
-        return None
-    factor, rest = factored_matrix(value)
-    if rest.free_symbols or not (factor.is_positive or factor.is_negative):
-        return None
-    return -rest if factor.is_negative else rest
-
-
-def _direction(value: Any) -> tuple[Node, ...]:
-    found = _whole_direction(value)
-    return () if found is None else (Math(tuple(found)),)
-
-
-def _short_place(place: Any) -> tuple[Node, ...]:
-    """Where a point is, if that can be said in a few letters."""
-    entries = [tidied(entry) for entry in place]
-    return (Math(tuple(entries)),) if any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT else ()
-
-
-def _size(mark: m.AngleMark) -> tuple[Node, ...] | str:
-    """The angle in degrees where it does not depend on letters; empty nodes where there is no arc to see."""
-    a, b = _whole_direction(mark.a), _whole_direction(mark.b)
-    if a is None or b is None:
-        zero = any(all(entry == 0 for entry in explicit(v)) for v in (mark.a, mark.b))
-        return () if zero else ""
-    cosine = explicit(Dot(a, b)) / explicit(Norm(a) * Norm(b))
-    if cosine in (Integer(1), Integer(-1)):
-        return ()
-    return f"{degrees(acos(float(cosine))):.1f}\u00b0"
+def _named(value: Any) -> Any:
+    """What a phrase may mention: words and counts as they are, everything else as mathematics."""
+    if value is None or isinstance(value, str):
+        return (Text(value),) if value else ()
+    return value if isinstance(value, int) else (Math(value),)

@@ -10,9 +10,9 @@ from sympy import Symbol, symbols
 
 from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline
 from derive.figures.marks import Drawing, Mark
+from derive.figures.pieces import Piece, Stroke
 from derive.mechanics import Composed, Cone, Cuboid, Disc, Part, Rod
 from derive.render.drawing.camera import Numbers
-from derive.render.drawing.hidden_lines import Piece, Stroke
 from derive.render.drawing.picture import picture
 from tests.mechanics.block import M, a, known_block
 

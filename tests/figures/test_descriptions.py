@@ -10,20 +10,9 @@ from sympy import Matrix, cos, sin
 from derive.algebra.expressions import column
 from derive.errors import Rejected
 from derive.figures import arc, arrow, drawing, outline, plot, point, slab_on_cylinder
+from derive.figures.annotations import AngleMark, Arrow, LengthMark, PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
-from derive.figures.marks import (
-    AngleMark,
-    Arrow,
-    BallMark,
-    Box,
-    Circle,
-    ConeMark,
-    CylinderMark,
-    Dot,
-    Length,
-    Polygon,
-    RodMark,
-)
+from derive.figures.surfaces import Circle, Polygon, Polyhedron, Revolved, ThinRod
 from derive.mechanics import Ball, Coordinate, Cuboid, Cylinder, Hoop, Plate, rolled_centre
 from derive.steps.record import recorded
 from tests.figures.scenery import CONE, M, R, a, h, leaning, theta, vectors_of_block
@@ -54,8 +43,9 @@ def test_a_derived_place_brings_its_key_along() -> None:
 
 def test_an_outline_has_the_sides_of_the_body() -> None:
     sides = (a, 2 * a, h)
-    box = next(mark for mark in outline(Cuboid(sides, M)) if isinstance(mark, Box))
-    assert box.sides == sides
+    box = next(mark for mark in outline(Cuboid(sides, M)) if isinstance(mark, Polyhedron))
+    assert tuple(box.corners[-1] - box.corners[0]) == sides
+    assert [length for length, _ in box.lengths] == list(sides)
 
 
 def test_drawings_go_to_json_and_back_unchanged() -> None:
@@ -110,15 +100,17 @@ def test_a_plot_needs_a_quantity_that_depends_on_its_letter() -> None:
 
 @pytest.mark.parametrize(("about", "tip", "base"), [("apex", 0, h), ("base", h, 0), ("centre", -3 * h / 4, h / 4)])
 def test_a_cone_is_seen_from_its_points(about: str, tip: object, base: object) -> None:
-    (mark,) = [mark for mark in outline(CONE, about) if isinstance(mark, ConeMark)]
-    assert list(mark.apex) == [0, 0, tip]
-    assert list(mark.base) == [0, 0, base]
-    assert [each.label for each in outline(CONE, about) if isinstance(each, Length)] == [h]
+    (mark,) = [mark for mark in outline(CONE, about) if isinstance(mark, Revolved)]
+    assert [(list(mark.through + z * mark.along), radius) for z, radius in mark.profile] == [
+        ([0, 0, tip], 0),
+        ([0, 0, base], R),
+    ]
+    assert [each.label for each in outline(CONE, about) if isinstance(each, LengthMark)] == [h]
 
 
 @pytest.mark.parametrize(
     ("body", "kind"),
-    [(Cylinder(R, h, M), CylinderMark), (Ball(R, M), BallMark), (Hoop(R, M), Circle), (Plate((R, h), M), Polygon)],
+    [(Cylinder(R, h, M), Revolved), (Ball(R, M), Revolved), (Hoop(R, M), Circle), (Plate((R, h), M), Polyhedron)],
 )
 def test_every_body_has_an_outline(body: object, kind: type) -> None:
     assert sum(isinstance(mark, kind) for mark in outline(body)) == 1
@@ -129,7 +121,7 @@ def test_every_body_has_an_outline(body: object, kind: type) -> None:
 
 
 def test_the_rod_of_a_top_leans_by_the_tilt_and_has_its_length() -> None:
-    rods = [mark for mark in leaning() if isinstance(mark, RodMark)]
+    rods = [mark for mark in leaning() if isinstance(mark, ThinRod)]
     end = Matrix(rods[-1].end)
     assert end[2] == 2 * a * cos(theta)
     assert (end.dot(end) - 4 * a**2).simplify() == 0
@@ -154,7 +146,7 @@ def test_the_centre_of_a_rolled_slab_is_where_rolling_takes_it() -> None:
 def test_the_derived_centre_of_a_slab_is_drawn_where_it_was_derived() -> None:
     x, y = rolled_centre(R, a / 2, Coordinate(theta, "angle"))
     marks = slab_on_cylinder(R, a, theta, (x, y), M)
-    centre = next(mark for mark in marks if isinstance(mark, Dot) and str(mark.label) == "C")
+    centre = next(mark for mark in marks if isinstance(mark, PointMark) and str(mark.label) == "C")
     assert list(centre.at) == [x.value, y.value, 0]
     assert centre.keys == ("x", "y")
     assert drawing("slab", marks, view="plane").keys == ("x", "y")
@@ -163,7 +155,7 @@ def test_the_derived_centre_of_a_slab_is_drawn_where_it_was_derived() -> None:
 
 def test_the_point_of_contact_is_on_the_cylinder_and_on_the_face_of_the_slab() -> None:
     marks = slab_on_cylinder(R, a, theta, rolled_centre(R, a / 2, Coordinate(theta, "angle")))
-    contact = Matrix(next(mark.at for mark in marks if isinstance(mark, Dot) and str(mark.label) == "P"))
+    contact = Matrix(next(mark.at for mark in marks if isinstance(mark, PointMark) and str(mark.label) == "P"))
     assert (contact.dot(contact) - R**2).simplify() == 0
     corners = next(mark.corners for mark in marks if isinstance(mark, Polygon))
     face = Matrix(corners[1]) - Matrix(corners[0])
@@ -179,7 +171,8 @@ def test_an_angle_may_be_named_by_the_quantity_that_it_is() -> None:
 
 
 def test_a_rod_in_pieces_is_told_once_and_a_disc_without_its_thickness() -> None:
-    rods = [mark for mark in leaning() if isinstance(mark, RodMark)]
-    assert [rod.length for rod in rods] == [2 * a, 0]
+    rods = [mark for mark in leaning() if isinstance(mark, ThinRod)]
+    assert [rod.name for rod in rods] == ["a thin rod", ""]
+    assert rods[0].measures == (("length", 2 * a),)
     assert list(rods[0].end) == list(rods[1].start)
-    assert all(mark.thin for mark in leaning() if isinstance(mark, CylinderMark))
+    assert [mark.measures for mark in leaning() if isinstance(mark, Revolved)] == [(("radius", a / 2),)]

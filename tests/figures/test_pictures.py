@@ -10,11 +10,15 @@ from sympy import Rational, Symbol, sqrt
 
 from derive.algebra.expressions import column
 from derive.figures import arc, arrow, axis_of_rotation, drawing, length, outline, point, slab_on_cylinder
-from derive.figures.marks import AngleMark, ConeMark, CylinderMark, Drawing, Polygon, Turn
+from derive.figures.annotations import AngleMark, Turn
+from derive.figures.marks import Drawing
+from derive.figures.pieces import Bullet, Patch, Tag
+from derive.figures.space import dot, size_of, unit
+from derive.figures.surfaces import Polygon, Revolved
 from derive.mechanics import Coordinate, Cuboid, rolled_centre
-from derive.render.drawing.camera import Numbers, best_stance, dot, size_of, stance_from, stand_ins, unit
+from derive.render.drawing.camera import Numbers, best_stance, stance_from, stand_ins
 from derive.render.drawing.canvas import sheet_of
-from derive.render.drawing.hidden_lines import Bullet, Patch, Tag, hull
+from derive.render.drawing.hidden_lines import hull
 from derive.render.drawing.labels import placed
 from derive.render.drawing.picture import POINTS_PER_CM
 from derive.render.notation.notation import Notation
@@ -185,14 +189,14 @@ def test_the_far_half_of_a_rim_is_hidden_only_behind_the_cone(about: str, hidden
 
 def test_a_body_in_front_is_drawn_after_the_one_behind() -> None:
     """Towards the eye is along x here, whatever the order in the script."""
-    near, far = (CylinderMark(column(x, 0, 0), column(x, 0, 1), R) for x in (5, -5))
+    near, far = (Revolved(((0, R), (1, R)), column(x, 0, 0), column(0, 0, 1)) for x in (5, -5))
     for order in ((near, far), (far, near)):
         patches = [piece for piece in pieces_of(drawing("one", *order)) if isinstance(piece, Patch)]
         assert max(y for _, y in patches[0].spots) > max(y for _, y in patches[1].spots)
 
 
 def test_a_cone_seen_from_its_apex_has_no_sides() -> None:
-    flat = drawing("one", ConeMark(column(0, 0, h), column(0, 0, 0), R), view="plane")
+    flat = drawing("one", Revolved(((0, R), (h, 0)), column(0, 0, 0), column(0, 0, 1)), view="plane")
     assert [stroke for stroke in strokes(pieces_of(flat), "edge") if len(stroke.spots) == 2] == []
 
 

@@ -49,6 +49,7 @@ class Body:
 
     mass: Expr
     name: ClassVar[str] = "a body"
+    seen_as: ClassVar[str] = ""  # what the words for a drawing call it, where that is not its name
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the point where its own axes begin
     flat_across: ClassVar[str | None] = None  # the axis across which it is flat, if it is
@@ -85,6 +86,11 @@ class Body:
     def extent(self) -> Expr | Quantity:
         """Its volume (area, length) as it is known; a body for which it must be derived gives the step."""
         raise AttributeError(f"{type(self).__name__} must say how large it is")
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        """The lengths that say how large it is, by what one calls them; several of one sort as a tuple."""
+        return {}
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
         """The step that says what a radius in the limits of a region stands for, where there is one."""
@@ -160,8 +166,48 @@ class Body:
         return {name: column(*(int(name == other) for other in "xyz")) for name in "xyz"}
 
 
+class RoundBody(Body):
+    """A body that is round about the z axis: its profile is how far it reaches from there, between two ends."""
+
+    is_round: ClassVar[bool] = True
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        """Between which z of its own axes it lies."""
+        raise AttributeError(f"{type(self).__name__} must say where it ends")
+
+    def radius_at(self, z: Expr) -> Expr:
+        """How far from the axis it reaches at its own z."""
+        raise AttributeError(f"{type(self).__name__} must say how far it reaches")
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether its side has no curve along the axis."""
+        z = Symbol("z_along", real=True)
+        return bool(self.radius_at(z).diff(z, 2) == 0)
+
+
+class EdgedBody(Body):
+    """A body with flat faces, or one face alone if it is thin."""
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        """In its own axes."""
+        raise AttributeError(f"{type(self).__name__} must say where its corners are")
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        """Each face by its corners in order, from either side."""
+        raise AttributeError(f"{type(self).__name__} must say which faces it has")
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        """The lengths that a drawing tells, each with the edges that have it."""
+        return ()
+
+
 @dataclass(frozen=True)
-class Cuboid(Body):
+class Cuboid(EdgedBody):
     """A uniform block. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
 
     sides   three lengths, along x, y and z
@@ -171,6 +217,7 @@ class Cuboid(Body):
     sides: tuple[Expr, Expr, Expr]
     mass: Expr
     name: ClassVar[str] = "a cuboid"
+    seen_as: ClassVar[str] = "a block"
     reference: ClassVar[str] = "corner"
 
     @property
@@ -183,6 +230,28 @@ class Cuboid(Body):
     @property
     def size(self) -> Expr:
         return reduce(mul, self.sides, Integer(1))
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"edges": self.sides}
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        """Their numbers in binary say which of x, y and z are not zero."""
+        at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
+        return tuple(column(*(end * side for end, side in corner)) for corner in at)
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        across = ((4, 2, 1), (2, 1, 4), (1, 4, 2))
+        return tuple((at, at | a, at | a | b, at | b) for bit, a, b in across for at in (0, bit))
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        return tuple(
+            (side, tuple((i, i | bit) for i in range(8) if not i & bit))
+            for side, bit in zip(self.sides, (4, 2, 1), strict=True)
+        )
 
     @property
     def corner(self) -> Point:

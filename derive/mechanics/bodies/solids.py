@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, pi, sin, solve, sqrt
 
 from derive.algebra.expressions import Factors, column
-from derive.mechanics.bodies.body import Body, Particles
+from derive.mechanics.bodies.body import Particles, RoundBody
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import COORDINATES, Point, Region, solid_of_revolution
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -22,20 +22,10 @@ __all__ = ["Ball", "Cone", "Cylinder", "volume"]
 UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x: z is counted the other way
 
 
-class RoundSolid(Body):
+class RoundSolid(RoundBody):
     """A body that is all points within a certain distance of a piece of the z axis."""
 
-    is_round: ClassVar[bool] = True
     systems: ClassVar[tuple[str, ...]] = ("cylindrical", "cartesian")
-
-    @property
-    def ends(self) -> tuple[Expr, Expr]:
-        """Between which z of its own axes it lies."""
-        raise AttributeError(f"{type(self).__name__} must say where it ends")
-
-    def radius_at(self, z: Expr) -> Expr:
-        """How far from the axis it reaches at its own z."""
-        raise AttributeError(f"{type(self).__name__} must say how far it reaches")
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         return solid_of_revolution(self.radius_at, self.ends, point, coordinates or COORDINATES[1])
@@ -71,7 +61,12 @@ class Cone(RoundSolid):
     height: Expr
     mass: Expr
     name: ClassVar[str] = "a cone"
+    seen_as: ClassVar[str] = "a circular cone"
     reference: ClassVar[str] = "apex"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"base radius": self.radius, "height": self.height}
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -119,7 +114,12 @@ class Cylinder(RoundSolid):
     height: Expr
     mass: Expr
     name: ClassVar[str] = "a cylinder"
+    seen_as: ClassVar[str] = "a circular cylinder"
     reference: ClassVar[str] = "base"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"radius": self.radius, "height": self.height}
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -157,6 +157,10 @@ class Ball(RoundSolid):
     radius: Expr
     mass: Expr
     name: ClassVar[str] = "a ball"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"radius": self.radius}
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -251,7 +255,7 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         lambda _: value,
         {"along": z},
         routes={"edge": lambda r: body.edge_condition(point.along_body(z), r)},
-        outcome="straight" if isinstance(body, Cone) else "curved",
+        outcome="straight" if body.is_straight else "curved",
         kind="length",
         lines=Lines(put_in=None),
         scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sympy import Expr, Integer, Rational, pi
+from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
-from derive.mechanics.bodies.body import Body, Particles
+from derive.mechanics.bodies.body import EdgedBody, Particles, RoundBody
 from derive.mechanics.bodies.regions import Point, Region, box, circle, disc, segment
 from derive.mechanics.bodies.solids import disc_particles
 
@@ -19,7 +20,7 @@ HALF = Rational(1, 2)
 
 
 @dataclass(frozen=True)
-class Rod(Body):
+class Rod(RoundBody):
     """A thin uniform rod along z, from its end at the origin.
 
     length   length
@@ -30,9 +31,20 @@ class Rod(Body):
     length: Expr
     mass: Expr
     name: ClassVar[str] = "a rod"
+    seen_as: ClassVar[str] = "a thin rod"
     filling: ClassVar[str] = "length"
     reference: ClassVar[str] = "end"
-    is_round: ClassVar[bool] = True
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return Integer(0), self.length
+
+    def radius_at(self, z: Expr) -> Expr:
+        return Integer(0)
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"length": self.length}
 
     @property
     def extent(self) -> Expr:
@@ -50,8 +62,30 @@ class Rod(Body):
         return [(share * self.mass, column(0, 0, place * self.length)) for share, place in shares]
 
 
+class _Flat(RoundBody):
+    """Across the z axis, as far as its radius."""
+
+    radius: Expr
+    flat_across: ClassVar[str | None] = "z"
+    systems: ClassVar[tuple[str, ...]] = ("cylindrical",)
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return Integer(0), Integer(0)
+
+    def radius_at(self, z: Expr) -> Expr:
+        return self.radius
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"radius": self.radius}
+
+    def points(self) -> Mapping[str, Point]:
+        return {"centre": Point("centre", column(0, 0, 0)), "rim": Point("rim", column(self.radius, 0, 0))}
+
+
 @dataclass(frozen=True)
-class Disc(Body):
+class Disc(_Flat):
     """A thin uniform circular disc across the z axis, its centre at the origin.
 
     radius   length
@@ -61,17 +95,12 @@ class Disc(Body):
     radius: Expr
     mass: Expr
     name: ClassVar[str] = "a disc"
+    seen_as: ClassVar[str] = "a thin disc"
     filling: ClassVar[str] = "area"
-    flat_across: ClassVar[str | None] = "z"
-    is_round: ClassVar[bool] = True
-    systems: ClassVar[tuple[str, ...]] = ("cylindrical",)
 
     @property
     def extent(self) -> Expr:
         return Factors(pi, self.radius**2)
-
-    def points(self) -> Mapping[str, Point]:
-        return {"centre": Point("centre", column(0, 0, 0)), "rim": Point("rim", column(self.radius, 0, 0))}
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         return disc(self.radius, point, Integer(0))
@@ -81,7 +110,7 @@ class Disc(Body):
 
 
 @dataclass(frozen=True)
-class Hoop(Body):
+class Hoop(_Flat):
     """A thin uniform ring across the z axis, its centre at the origin.
 
     radius   length
@@ -92,16 +121,10 @@ class Hoop(Body):
     mass: Expr
     name: ClassVar[str] = "a hoop"
     filling: ClassVar[str] = "length"
-    flat_across: ClassVar[str | None] = "z"
-    is_round: ClassVar[bool] = True
-    systems: ClassVar[tuple[str, ...]] = ("cylindrical",)
 
     @property
     def extent(self) -> Expr:
         return Factors(2, pi, self.radius)
-
-    def points(self) -> Mapping[str, Point]:
-        return {"centre": Point("centre", column(0, 0, 0)), "rim": Point("rim", column(self.radius, 0, 0))}
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         return circle(self.radius, point)
@@ -113,7 +136,7 @@ class Hoop(Body):
 
 
 @dataclass(frozen=True)
-class Plate(Body):
+class Plate(EdgedBody):
     """A thin uniform rectangular plate in the plane of x and y, edges along the axes from the corner at the origin.
 
     sides    two lengths
@@ -126,6 +149,23 @@ class Plate(Body):
     filling: ClassVar[str] = "area"
     flat_across: ClassVar[str | None] = "z"
     reference: ClassVar[str] = "corner"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"edges": self.sides}
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        a, b = self.sides
+        return column(0, 0, 0), column(a, 0, 0), column(a, b, 0), column(0, b, 0)
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        return ((0, 1, 2, 3),)
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        return (self.sides[0], ((0, 1), (2, 3))), (self.sides[1], ((0, 3), (1, 2)))
 
     @property
     def extent(self) -> Expr:

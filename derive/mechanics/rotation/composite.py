@@ -14,7 +14,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, Ratio, Terms, column, scalar, sympify_number
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.body import Body, density
+from derive.mechanics.bodies.body import RoundBody, density
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.rotation.inertia import entry_weight
@@ -39,7 +39,7 @@ class Part:
     """
 
     name: str
-    body: Body
+    body: RoundBody
     at: Expr
 
     def __post_init__(self) -> None:

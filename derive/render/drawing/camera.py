@@ -9,18 +9,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import acos, cos, hypot, isfinite, pi, radians, sin, sqrt
-from typing import Any, TypeAlias
+from math import cos, hypot, isfinite, pi, radians, sin
+from typing import Any
 
 from sympy import Expr, Float, Symbol
 from sympy.core.function import AppliedUndef
 
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected
-from derive.figures.marks import PLANE, AngleMark, Arrow, Drawing
-
-Vector: TypeAlias = tuple[float, float, float]
-Spot: TypeAlias = tuple[float, float]
+from derive.figures.marks import PLANE, Drawing
+from derive.figures.space import Spot, Vector, angle_of, dot, size_of, unit
 
 ANGLE = pi / 5
 
@@ -70,44 +68,6 @@ def _name(letter: Expr) -> str:
     return letter.func.__name__ if isinstance(letter, AppliedUndef) else str(letter.name)
 
 
-# --- vectors of numbers ----------------------------------------------------------------------------------------------
-
-
-def plus(a: Vector, b: Vector, times: float = 1.0) -> Vector:
-    return a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]
-
-
-def dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def size_of(a: Vector) -> float:
-    return sqrt(dot(a, a))
-
-
-def unit(a: Vector) -> Vector:
-    """The direction of a vector; of one that is zero, zero."""
-    size = size_of(a)
-    return (a[0] / size, a[1] / size, a[2] / size) if size > 0 else a
-
-
-def angle_of(a: Vector, b: Vector) -> float:
-    """The angle between two vectors, from 0 to pi."""
-    return acos(max(-1.0, min(1.0, dot(unit(a), unit(b)))))
-
-
-def across(a: Vector) -> tuple[Vector, Vector]:
-    """Two unit vectors perpendicular to a direction and to each other, right-handed with it."""
-    n = unit(a)
-    helper: Vector = (0.0, 0.0, 1.0) if abs(n[2]) < 0.9 else (1.0, 0.0, 0.0)
-    u = unit(cross(helper, n))
-    return u, cross(n, u)
-
-
 # --- where one looks from --------------------------------------------------------------------------------------------
 
 
@@ -141,13 +101,11 @@ def best_stance(drawing: Drawing, numbers: Numbers) -> Stance:
     """The usual stance, turned where vectors would point at the eye or fall on one another."""
     if drawing.view == PLANE:
         return FLAT
-    vectors = [unit(numbers.vector(mark.value)) for mark in drawing.marks if isinstance(mark, Arrow)]
+    shown = [[unit(numbers.vector(each)) for each in mark.directions] for mark in drawing.marks]
+    vectors = [v for directions in shown if len(directions) == 1 for v in directions if size_of(v)]
     pairs = [
-        (unit(numbers.vector(mark.a)), unit(numbers.vector(mark.b)))
-        for mark in drawing.marks
-        if isinstance(mark, AngleMark)
+        (a, b) for a, b in (directions for directions in shown if len(directions) == 2) if size_of(a) and size_of(b)
     ]
-    vectors, pairs = [v for v in vectors if size_of(v)], [(a, b) for a, b in pairs if size_of(a) and size_of(b)]
     pairs += [pair for pair in combinations(vectors, 2) if pair not in pairs]
     if not vectors and not pairs:
         return USUAL

@@ -23,13 +23,13 @@ from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 from matplotlib.transforms import Affine2D
 
-from derive.render.drawing.camera import Spot
-from derive.render.drawing.hidden_lines import Bullet, Patch, Piece, Stroke
+from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
+from derive.figures.space import Spot
 from derive.render.drawing.labels import Placed, placed
 from derive.render.drawing.mathtext import Run, runs
 from derive.render.notation.notation import Notation
 
-INK, QUIET, LINE = "#1F3A5F", "#5B6370", "#22252A"
+INK, QUIET, LINE, BLANK = "#1F3A5F", "#5B6370", "#22252A", "#FFFFFF"
 MARGIN = 2.0
 LETTERS = 10.0  # the size of labels, in points
 BOLD = 0.45  # the outline that makes a letter bold
@@ -58,7 +58,6 @@ PENS = {
     "angle": Pen(INK, 0.7),
     "turn": Pen(INK, 0.8, head=5.0),
 }
-SHADES = {"paper": "#FFFFFF", "body": "#FFFFFF"}
 SETTINGS: Any = {
     "mathtext.fontset": "cm",
     "svg.hashsalt": "derive",
@@ -123,8 +122,7 @@ def _with_words(svg: str, alt: str) -> str:
 
 
 def _bounds(pieces: Sequence[Piece], labels: Sequence[Placed]) -> tuple[float, float, float, float]:
-    spots = [spot for piece in pieces if isinstance(piece, Stroke | Patch) for spot in piece.spots]
-    spots += [piece.spot for piece in pieces if isinstance(piece, Bullet)]
+    spots = [spot for piece in pieces if not isinstance(piece, Tag) for spot in piece.spots]
     spots += [spot for label in labels for spot in (label.extent[:2], label.extent[2:])]
     left, right = (choice(spot[0] for spot in spots) for choice in (min, max))
     below, above = (choice(spot[1] for spot in spots) for choice in (min, max))
@@ -189,7 +187,7 @@ def _patches(pieces: Sequence[Piece], labels: Sequence[Placed], letters: _Letter
         match piece:
             case Patch():
                 path = Path([*piece.spots, piece.spots[0]], closed=True)
-                found.append(PathPatch(path, facecolor=SHADES[piece.shade], linewidth=0))
+                found.append(PathPatch(path, facecolor=BLANK, linewidth=0))
             case Stroke():
                 found += _stroke(piece)
             case Bullet():

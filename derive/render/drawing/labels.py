@@ -12,8 +12,8 @@ from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, TypeAlias
 
-from derive.render.drawing.camera import Spot
-from derive.render.drawing.hidden_lines import Bullet, Piece, Stroke, Tag
+from derive.figures.pieces import Bullet, Piece, Stroke, Tag
+from derive.figures.space import Spot
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 

@@ -1,0 +1,309 @@
+"""What is drawn over the bodies: axes, arrows, arcs, turns, dimension lines, points and the ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos, cos, degrees, hypot, pi, sin
+from typing import Any, ClassVar
+
+from sympy import MatrixBase
+
+from derive.algebra.expressions import Dot, Norm, explicit
+from derive.algebra.tidy import factored_matrix, tidied
+from derive.figures.marks import Mark, Position, Told
+from derive.figures.pieces import Bullet, Paper, Piece, Stroke, Tag
+from derive.figures.space import ZERO, Spot, Vector, across, angle_of, direction, dot, midway, plus, size_of, unit
+
+PAST = 0.3  # how far axes go past a body, in terms of its size
+ASIDE = 12.0  # points between a body and its dimension line
+SHORT = 3  # operations in the words for a place
+
+
+# --- lines -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Line(Mark):
+    """A line; its pen is `edge`, `construction`, `hidden` or `axis`."""
+
+    start: Position
+    end: Position
+    pen: str = "construction"
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return self.start, self.end
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*(paper.numbers.vector(end) for end in self.ends))
+        along = direction(*spots)
+        return [Stroke(spots, self.pen), Tag(self.label, midway(*spots), (along[1], -along[0]))]
+
+
+@dataclass(frozen=True)
+class Axis(Mark):
+    """A coordinate axis: a thin arrow from where it begins to where it ends, or past the end in a direction."""
+
+    start: Position
+    end: Position
+    past: Position = None
+    together: ClassVar[str | None] = "axes"
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return self.start, self.end
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, end = (paper.numbers.vector(each) for each in self.ends)
+        if self.past is not None:
+            end = plus(end, unit(paper.numbers.vector(self.past)), PAST * paper.reach)
+        spots = paper.spots(start, end)
+        return [Stroke(spots, "axis", head=True), Tag(self.label, spots[1], direction(*spots))]
+
+
+@dataclass(frozen=True)
+class AxisOfRotation(Mark):
+    """The whole line through a point along a direction, a little longer than the body on both sides.
+
+    With a rate an arrow goes round its far end, right-handed if the rate is positive; the label is the rate's.
+    """
+
+    through: Position
+    along: Position
+    rate: Any = None
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        through, along = paper.numbers.vector(self.through), unit(paper.numbers.vector(self.along))
+        if not size_of(along):
+            return []
+        places = [dot(plus(place, through, -1.0), along) for place in (*paper.fixed, through)]
+        far = max(places) + (PAST if self.rate is None else 1.9 * PAST) * paper.reach
+        spots = paper.spots(plus(through, along, min(places) - PAST * paper.reach), plus(through, along, far))
+        line = Stroke(spots, "construction")
+        if self.rate is None:
+            return [line, Tag(self.label, spots[1], direction(*spots))]
+        sense = 1.0 if paper.numbers.of(self.rate) > 0 else -1.0
+        round_end = plus(through, along, far - 0.6 * PAST * paper.reach)
+        return [line, *_circling(round_end, plus(ZERO, along, sense), 0.16 * paper.reach, self.label, paper)]
+
+    def in_words(self) -> Told:
+        names = {"label": self.label, "direction": _components(self.along)}
+        return "axis_of_rotation" if self.rate is None else "turning_axis", names
+
+
+@dataclass(frozen=True)
+class LengthMark(Mark):
+    """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
+    the length `clear` and a little more: by the same distance on paper whatever the scale. None for a length of zero.
+    """
+
+    start: Position
+    end: Position
+    aside: Position | None
+    clear: Any = 0
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return self.start, self.end
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, end = (paper.numbers.vector(each) for each in self.ends)
+        if size_of(plus(end, start, -1.0)) < 1e-9 * paper.reach:
+            return []
+        away = self._away(paper)
+        clear = paper.numbers.of(self.clear) * paper.scale
+
+        def set_off(spot: Spot, share: float) -> Spot:
+            far = clear + share * ASIDE
+            return spot[0] + away[0] * far, spot[1] + away[1] * far
+
+        spots = paper.spots(start, end)
+        extensions = [Stroke((set_off(spot, 0.2), set_off(spot, 1.25)), "thin") for spot in spots]
+        line = (set_off(spots[0], 1), set_off(spots[1], 1))
+        return [*extensions, Stroke(line, "measure", head=True, tail=True), Tag(self.label, midway(*line), away)]
+
+    def _away(self, paper: Paper) -> Spot:
+        if self.aside is None:
+            return -1.0, 0.0
+        x, y = paper.spot(paper.numbers.vector(self.aside))
+        size = hypot(x, y) or 1.0
+        return x / size, y / size
+
+    def in_words(self) -> Told | None:
+        return ("length", {"label": self.label}) if self.label not in (None, 0) else None
+
+
+# --- vectors and angles ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Arrow(Mark):
+    """A vector in its true direction. Vectors of different kinds have no common scale: `size` is for the eye only, the
+    length in terms of the size of the body. A vector that is zero is not drawn.
+    """
+
+    start: Position
+    value: Position
+    size: Any
+    asked: bool = True
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return (self.value,)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))
+        if not size_of(along):
+            return []
+        spots = paper.spots(start, plus(start, along, paper.numbers.of(self.size) * paper.reach))
+        pen = "asked" if self.asked else "given"
+        return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
+
+    def in_words(self) -> Told:
+        names = {"label": self.label, "direction": _components(self.value)}
+        if _vanishes(self.value):
+            return "no_arrow", names
+        return "arrow" if names["direction"] else "arrow_of_letters", names
+
+
+@dataclass(frozen=True)
+class AngleMark(Mark):
+    """The arc between two directions at a vertex, along a great circle; without a radius, as large as the eye needs.
+    There is none where they are parallel.
+    """
+
+    vertex: Position
+    a: Position
+    b: Position
+    radius: Any = None
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return self.a, self.b
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        vertex = paper.numbers.vector(self.vertex)
+        a, b = (unit(paper.numbers.vector(each)) for each in self.directions)
+        size = angle_of(a, b)
+        if not size_of(a) or not size_of(b) or not 0.02 < size < pi - 0.02:
+            return []
+        # A small angle has a large arc, so that there is something to see.
+        comfortable = max(0.3, min(0.8, 0.3 / size))
+        radius = paper.numbers.of(self.radius) if self.radius is not None else paper.reach * comfortable
+        beside = unit(plus(b, a, -dot(a, b)))
+        turned = [size * i / 48 for i in range(49)]
+        spots = paper.spots(*(plus(plus(vertex, a, radius * cos(t)), beside, radius * sin(t)) for t in turned))
+        return [Stroke(spots, "angle"), Tag(self.label, spots[24], direction(paper.spot(vertex), spots[24]), 2.5)]
+
+    def in_words(self) -> Told | None:
+        if self.label is None or any(_vanishes(v) for v in self.directions):
+            return None
+        a, b = (_whole_direction(v) for v in self.directions)
+        if a is None or b is None:
+            return "angle_of_letters", {"label": self.label}
+        cosine = explicit(Dot(a, b)) / explicit(Norm(a) * Norm(b))
+        if abs(cosine) == 1:
+            return None
+        return "angle", {"label": self.label, "size": f"{degrees(acos(float(cosine))):.1f}\u00b0"}
+
+
+@dataclass(frozen=True)
+class Turn(Mark):
+    """An arrow round a direction, right-handed; `size` in terms of the size of the body."""
+
+    centre: Position
+    along: Position
+    size: Any
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        centre, along = paper.numbers.vector(self.centre), unit(paper.numbers.vector(self.along))
+        if not size_of(along):
+            return []
+        return _circling(centre, along, paper.numbers.of(self.size) * paper.reach, self.label, paper)
+
+    def in_words(self) -> Told | None:
+        return ("turn", {"label": self.label}) if self.label not in (None, 0) else None
+
+
+def _circling(centre: Vector, along: Vector, radius: float, label: Any, paper: Paper) -> list[Piece]:
+    """Most of a circle, open towards the side away from the eye, with a head at its right-handed end."""
+    u, v = across(along)
+    front = max(range(360), key=lambda degree: dot(_round(u, v, degree), paper.eye))
+    places = [plus(centre, _round(u, v, front + degree), radius) for degree in range(-125, 126, 5)]
+    spots = paper.spots(*places)
+    outer = max(spots, key=lambda spot: (round(spot[0], 6), spot[1]))
+    return [Stroke(spots, "turn", head=True), Tag(label, outer, (1.0, 0.0))]
+
+
+def _round(u: Vector, v: Vector, degree: float) -> Vector:
+    t = degree * pi / 180
+    return plus((u[0] * cos(t), u[1] * cos(t), u[2] * cos(t)), v, sin(t))
+
+
+# --- points ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PointMark(Mark):
+    """A point."""
+
+    at: Position
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return (self.at,)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(paper.numbers.vector(self.at))
+        return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
+
+    def in_words(self) -> Told | None:
+        """With its place, if that can be said in a few letters."""
+        entries = tuple(tidied(entry) for entry in self.at)
+        is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
+        names = {"label": self.label, "place": entries if is_short else None}
+        return ("point", names) if self.label not in (None, 0) else None
+
+
+@dataclass(frozen=True)
+class Support(Mark):
+    """The fixed ground under a pivot: a pointed stand on hatched ground, as large as it must be to be seen."""
+
+    at: Position
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return (self.at,)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        foot = y - 16
+        stand = Stroke(((x - 5, foot), (x, y), (x + 5, foot)), "edge")
+        ground = Stroke(((x - 13, foot), (x + 13, foot)), "edge")
+        hatches = [Stroke(((x + k, foot), (x + k - 4, foot - 4)), "thin") for k in range(-9, 14, 4)]
+        return [stand, ground, *hatches, Tag(self.label, spot, (-0.9, 0.4), 4.0)]
+
+    def in_words(self) -> Told:
+        return "support", {"label": self.label}
+
+
+# --- in words --------------------------------------------------------------------------------------------------------
+
+
+def _vanishes(vector: Any) -> bool:
+    return all(entry == 0 for entry in explicit(vector))
+
+
+def _whole_direction(vector: Any) -> MatrixBase | None:
+    """The direction of a vector as plain numbers, if its letters are only in front; nothing for the zero vector."""
+    if _vanishes(vector):
+        return None
+    factor, rest = factored_matrix(explicit(vector))
+    if rest.free_symbols or not (factor.is_positive or factor.is_negative):
+        return None
+    return -rest if factor.is_negative else rest
+
+
+def _components(vector: Any) -> tuple[Any, ...] | None:
+    found = _whole_direction(vector)
+    return None if found is None else tuple(found)

@@ -1,0 +1,70 @@
+"""Vectors of numbers, in space and on paper: what places and directions are once the letters have numbers."""
+
+from __future__ import annotations
+
+from math import acos, cos, hypot, pi, sin, sqrt
+from typing import TypeAlias
+
+Vector: TypeAlias = tuple[float, float, float]
+Spot: TypeAlias = tuple[float, float]
+
+ZERO: Vector = (0.0, 0.0, 0.0)
+STEPS = 96  # of a whole circle
+
+
+def plus(a: Vector, b: Vector, times: float = 1.0) -> Vector:
+    return a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]
+
+
+def dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def size_of(a: Vector) -> float:
+    return sqrt(dot(a, a))
+
+
+def unit(a: Vector) -> Vector:
+    """The direction of a vector; of one that is zero, zero."""
+    size = size_of(a)
+    return (a[0] / size, a[1] / size, a[2] / size) if size > 0 else a
+
+
+def angle_of(a: Vector, b: Vector) -> float:
+    """The angle between two vectors, from 0 to pi."""
+    return acos(max(-1.0, min(1.0, dot(unit(a), unit(b)))))
+
+
+def across(a: Vector) -> tuple[Vector, Vector]:
+    """Two unit vectors perpendicular to a direction and to each other, right-handed with it."""
+    n = unit(a)
+    helper: Vector = (0.0, 0.0, 1.0) if abs(n[2]) < 0.9 else (1.0, 0.0, 0.0)
+    u = unit(cross(helper, n))
+    return u, cross(n, u)
+
+
+def circle(centre: Vector, radius: float, normal: Vector) -> list[Vector]:
+    """The places of a circle about a direction, the last of them the first once more."""
+    u, v = across(normal)
+    angles = [2 * pi * i / STEPS for i in range(STEPS + 1)]
+    return [plus(plus(centre, u, radius * cos(t)), v, radius * sin(t)) for t in angles]
+
+
+def mean(places: list[Vector]) -> Vector:
+    x, y, z = (sum(place[k] for place in places) / len(places) for k in range(3))
+    return x, y, z
+
+
+def direction(start: Spot, end: Spot) -> Spot:
+    """The unit vector on paper from one spot to another; upwards if they coincide."""
+    x, y = end[0] - start[0], end[1] - start[1]
+    size = hypot(x, y)
+    return (x / size, y / size) if size > 1e-9 else (0.0, 1.0)
+
+
+def midway(a: Spot, b: Spot) -> Spot:
+    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2

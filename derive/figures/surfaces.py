@@ -1,0 +1,113 @@
+"""The surfaces of bodies: whatever is round about an axis, whatever has flat faces, and what is thin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from derive.figures.marks import BESIDE, Position, Surface, Told
+from derive.figures.pieces import Lengths, Numbers, Paper, Patch, Piece, Stroke
+from derive.figures.space import Spot, Vector, circle
+
+EVERY = 8  # of the places of a circle, one in so many says how large it is
+
+
+@dataclass(frozen=True)
+class Revolved(Surface):
+    """A convex body that is round about an axis.
+
+    profile          heights along the axis and the radius there: two pairs if its side is straight, many if curved
+    through, along   where the height zero is, and the unit vector in which heights are counted
+    """
+
+    profile: tuple[tuple[Any, Any], ...]
+    through: Position
+    along: Position
+
+    def _rings(self, numbers: Numbers) -> tuple[list[Vector], list[float]]:
+        centres = [numbers.vector(self.through + height * self.along) for height, _ in self.profile]
+        return centres, [numbers.of(radius) for _, radius in self.profile]
+
+    def places(self, numbers: Numbers) -> list[Vector]:
+        along, rings = numbers.vector(self.along), list(zip(*self._rings(numbers), strict=True))
+        far = [circle(*ring, along) for ring in (rings if len(rings) == 2 else rings[::EVERY])]
+        return [place for around in far for place in around[:-1:EVERY]]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        return paper.revolved(*self._rings(paper.numbers))
+
+
+@dataclass(frozen=True)
+class Polyhedron(Surface):
+    """A convex body with flat faces, or one face alone.
+
+    faces     each by its corners in order, from either side
+    lengths   names that are written beside one of the edges that have this length
+    """
+
+    corners: tuple[Position, ...]
+    faces: tuple[tuple[int, ...], ...]
+    lengths: Lengths = field(default=(), metadata=BESIDE)
+
+    def places(self, numbers: Numbers) -> list[Vector]:
+        return [numbers.vector(corner) for corner in self.corners]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        return paper.polyhedron(self.places(paper.numbers), self.faces, self.lengths)
+
+
+@dataclass(frozen=True)
+class ThinRod(Surface):
+    """A rod, too thin to show its thickness, or a piece of one."""
+
+    start: Position
+    end: Position
+
+    def places(self, numbers: Numbers) -> list[Vector]:
+        return [numbers.vector(self.start), numbers.vector(self.end)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        return [Stroke(paper.spots(*self.places(paper.numbers)), "rod")]
+
+
+@dataclass(frozen=True)
+class Circle(Surface):
+    """A circle about a direction; `filled` if it bounds a body."""
+
+    centre: Position
+    normal: Position
+    radius: Any
+    filled: bool = False
+
+    def _rim(self, numbers: Numbers) -> list[Vector]:
+        return circle(numbers.vector(self.centre), numbers.of(self.radius), numbers.vector(self.normal))
+
+    def places(self, numbers: Numbers) -> list[Vector]:
+        return self._rim(numbers)[:-1:EVERY]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        return _bounded(paper.spots(*self._rim(paper.numbers)), self.filled)
+
+    def in_words(self) -> Told:
+        return super().in_words() or ("circle", {"radius": self.radius})
+
+
+@dataclass(frozen=True)
+class Polygon(Surface):
+    """A plane outline through its corners."""
+
+    corners: tuple[Position, ...]
+
+    def places(self, numbers: Numbers) -> list[Vector]:
+        return [numbers.vector(corner) for corner in self.corners]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        places = self.places(paper.numbers)
+        return _bounded(paper.spots(*places, places[0]))
+
+    def in_words(self) -> Told:
+        return super().in_words() or ("polygon", {"corners": len(self.corners)})
+
+
+def _bounded(spots: tuple[Spot, ...], filled: bool = True) -> list[Piece]:
+    return [*([Patch(spots)] if filled else []), Stroke(spots, "edge")]
