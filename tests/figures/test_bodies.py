@@ -1,0 +1,210 @@
+"""Bodies that the package does not have, each a class of its own and nothing else: integrated, named and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import acos, cos, degrees, isclose, radians, sqrt
+from typing import Any, ClassVar
+
+import pytest
+import sympy
+from sympy import Expr, Rational, diag, pi
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import Factors, column
+from derive.errors import Rejected
+from derive.figures import drawing, leaning_top, outline
+from derive.figures.annotations import LengthMark, Line
+from derive.figures.encoding import drawings_from_data, drawings_to_data
+from derive.figures.marks import Surface
+from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
+from derive.mechanics import Ball, Composed, Cone, Cylinder, Disc, Hoop, Part, Plate, Rod, inertia_tensor
+from derive.mechanics.bodies.body import EdgedBody, Particles
+from derive.mechanics.bodies.regions import Point, Region
+from derive.mechanics.bodies.solids import RoundSolid
+from derive.page.depiction import alternative
+from derive.page.wording import phrases
+from derive.render.drawing.camera import USUAL
+from derive.render.formats.text_page import inline_text
+from derive.render.notation.notation import Notation
+from tests.courses import ROOT
+from tests.figures.scenery import M, R, a, h, pieces_of, strokes, theta
+
+
+@dataclass(frozen=True)
+class Spheroid(RoundSolid):
+    """A ball of radius R drawn out along z to the half length h."""
+
+    radius: Expr
+    half: Expr
+    mass: Expr
+    name: ClassVar[str] = "a spheroid"
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return -self.half, self.half
+
+    def radius_at(self, z: Expr) -> Expr:
+        return self.radius * sympy.sqrt(self.half**2 - z**2) / self.half
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"radius": self.radius, "length": 2 * self.half}
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(Rational(4, 3), pi, self.radius**2, self.half)
+
+    def points(self) -> Mapping[str, Point]:
+        return {"centre": Point("centre", column(0, 0, 0))}
+
+    def particles(self) -> Particles:
+        ends = [(self.radius, 0, 0), (0, self.radius, 0), (0, 0, self.half)]
+        pairs = [column(*(sign * x for x in end)) for end in ends for sign in (1, -1)]
+        return [(Rational(2, 5) * self.mass, column(0, 0, 0)), *((self.mass / 10, place) for place in pairs)]
+
+
+@dataclass(frozen=True)
+class Pyramid(EdgedBody):
+    """A pyramid of height h on a square of side a, whose middle is the origin."""
+
+    side: Expr
+    height: Expr
+    mass: Expr
+    name: ClassVar[str] = "a square pyramid"
+    reference: ClassVar[str] = "base"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"base edge": self.side, "height": self.height}
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        square = (-1, -1), (1, -1), (1, 1), (-1, 1)
+        return (*(column(x * self.side / 2, y * self.side / 2, 0) for x, y in square), column(0, 0, self.height))
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        return (0, 1, 2, 3), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        return ((self.side, ((0, 1), (1, 2), (2, 3), (0, 3))),)
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(Rational(1, 3), self.side**2, self.height)
+
+    def points(self) -> Mapping[str, Point]:
+        return {"base": Point("base", column(0, 0, 0))}
+
+    def region(self, point: Point, coordinates: str | None = None) -> Region:
+        x, y, z = sympy.symbols("x y z", real=True)
+        p, q, s = point.position
+        half = self.side * (self.height - z - s) / (2 * self.height)
+        limits = ((z, -s, self.height - s), (y, -half - q, half - q), (x, -half - p, half - p))
+        return Region(limits, column(x, y, z))
+
+    def particles(self) -> Particles:
+        """Slices at the apex, a quarter up and the base, the middle two as a square's five."""
+        found = [(self.mass / 20, column(0, 0, self.height))]
+        for share, at, size in ((Rational(4, 5), Rational(1, 4), Rational(3, 4)), (Rational(3, 20), 0, 1)):
+            far, z = size * self.side / 2, at * self.height
+            middles = ((far, 0), (-far, 0), (0, far), (0, -far))
+            found.append((share * self.mass / 3, column(0, 0, z)))
+            found += [(share * self.mass / 6, column(x, y, z)) for x, y in middles]
+        return found
+
+
+SPHEROID, PYRAMID = Spheroid(R, h, M), Pyramid(a, h, M)
+
+
+def in_words(body: object, **options: Any) -> str:
+    found = drawing("one", outline(body, **options))
+    return inline_text(alternative(None, found, None, phrases(ROOT / "templates")), Notation())
+
+
+@pytest.mark.parametrize(
+    ("body", "moments"),
+    [
+        (SPHEROID, (M * (R**2 + h**2) / 5, M * (R**2 + h**2) / 5, 2 * M * R**2 / 5)),
+        (PYRAMID, (M * (a**2 / 20 + h**2 / 10), M * (a**2 / 20 + h**2 / 10), M * a**2 / 10)),
+    ],
+)
+def test_a_body_of_ones_own_has_the_moments_of_the_books(body: Any, moments: tuple[Expr, ...]) -> None:
+    tensor = inertia_tensor(body, body.reference)
+    assert (tensor.value - diag(*moments)).expand() == sympy.zeros(3)
+
+
+def test_a_body_of_ones_own_is_told_by_its_own_name_and_measures() -> None:
+    assert in_words(SPHEROID, named=False) == "A drawing in space of a spheroid of radius R and length 2h."
+    assert in_words(PYRAMID, named=False) == "A drawing in space of a square pyramid of base edge a and height h."
+    assert in_words(Plate((R, h), M)).startswith("A drawing in space of a plate with edges R and h")
+    assert in_words(Ball(R, M)) == "A drawing in space of a ball of radius R and the axes x, y and z."
+
+
+def test_the_outline_of_a_curved_body_is_what_its_shadow_is() -> None:
+    """Of an ellipsoid as wide as R and as high as sqrt((h cos e)^2 + (R sin e)^2), e the elevation of the eye."""
+    (edge,) = strokes(pieces_of(drawing("one", outline(SPHEROID, named=False)), R=1.0, h=2.0), "edge")
+    wide, high = (max(s[k] for s in edge.spots) - min(s[k] for s in edge.spots) for k in (0, 1))
+    e = acos(USUAL.up[2])
+    assert degrees(e) == pytest.approx(18)
+    assert high / wide == pytest.approx(sqrt(4 * cos(e) ** 2 + 1 - cos(e) ** 2), rel=2e-3)
+    assert edge.spots[0] == edge.spots[-1]
+
+
+def test_the_edges_of_a_pyramid_are_hidden_behind_it() -> None:
+    """Seen from x towards y and a little from above, the corner at -x, -y lies behind."""
+    pieces = pieces_of(drawing("one", outline(PYRAMID, named=False)), a=1.0, h=1.0)
+    hidden, seen = strokes(pieces, "hidden"), strokes(pieces, "edge")
+    assert (len(hidden), len(seen)) == (3, 5)
+    behind = set.intersection(*({(round(x, 6), round(y, 6)) for x, y in stroke.spots} for stroke in hidden))
+    assert len(behind) == 1
+    assert isclose(radians(18), acos(USUAL.up[2]))
+
+
+def test_the_measures_of_a_body_of_ones_own_are_written_beside_it() -> None:
+    marks = outline(SPHEROID)
+    (radius,) = [mark for mark in marks if isinstance(mark, Line) and mark.label is not None]
+    assert (radius.label, list(radius.start), list(radius.end)) == (R, [0, R, 0], [0, 0, 0])
+    assert [mark.label for mark in marks if isinstance(mark, LengthMark)] == [2 * h]
+    (solid,) = [mark for mark in outline(PYRAMID) if isinstance(mark, Polyhedron)]
+    assert [length for length, _ in solid.lengths] == [a]
+
+
+def test_a_body_of_ones_own_is_drawn_anywhere_and_kept() -> None:
+    spinning = Composed(Part("rod", Rod(2 * h, M), at=h), Part("wheel", SPHEROID, at=h))
+    top = drawing("top", leaning_top(spinning, theta))
+    solids = [drawing("solid", outline(PYRAMID)), top]
+    assert list(drawings_from_data(drawings_to_data(solids))) == solids
+    assert [mark.name for mark in top.marks if isinstance(mark, Surface)] == ["a thin rod", "", "a spheroid"]
+    assert strokes(pieces_of(top), "edge")
+
+
+# --- bodies of the package -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("body", "kind"),
+    [(Rod(h, M), ThinRod), (Hoop(R, M), Circle), (Disc(R, M), Revolved), (Ball(R, M), Revolved), (PYRAMID, Polyhedron)],
+)
+def test_what_a_body_looks_like_follows_from_its_profile(body: Any, kind: type) -> None:
+    (found,) = outline(body, named=False)
+    assert type(found) is kind
+
+
+def test_only_a_curved_side_needs_more_circles_than_its_ends() -> None:
+    counts = [len(outline(body, named=False)[0].profile) for body in (Cone(R, h, M), Cylinder(R, h, M))]  # type: ignore[attr-defined]
+    assert counts == [2, 2]
+    assert len(outline(Ball(R, M), named=False)[0].profile) > 20  # type: ignore[attr-defined]
+
+
+def test_the_radius_of_a_ball_is_drawn_from_its_centre() -> None:
+    (radius,) = [mark for mark in outline(Ball(R, M)) if isinstance(mark, Line)]
+    assert list(radius.end) == [0, 0, 0]
+
+
+def test_what_is_no_body_has_no_outline() -> None:
+    with pytest.raises(Rejected, match="no outline of a Composed"):
+        outline(Composed(Part("rod", Rod(2 * h, M), at=h)))
