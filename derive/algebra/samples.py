@@ -30,7 +30,7 @@ SPARE = 20  # of the working digits, those that rounding, cancelling and large a
 ORDINARY = (0,)
 TINY, LARGE = (-2, -5, -9, -14), (1, 2, 4, 7)  # powers of ten
 
-Point = Mapping[Expr, Expr]
+SamplePoint = Mapping[Expr, Expr]
 
 
 class Undefined(Exception):
@@ -45,13 +45,13 @@ class NoNumber(Exception):
 class Sample:
     """What two expressions are at a point, and whether they agree there."""
 
-    point: Point
+    point: SamplePoint
     left: Any
     right: Any
     agree: bool
 
 
-def points(letters: set[Expr], seed: int) -> Iterator[Point]:
+def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
     """Without end: two of ordinary size, of opposite signs, then all scales in turn, and each letter of its own."""
     ordered = sorted(letters, key=str)
     source = Random(seed)
@@ -61,7 +61,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[Point]:
         yield from _of_both_signs(ordered, [source.choice(TINY + 4 * ORDINARY + LARGE) for _ in ordered], source)
 
 
-def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[Point]:
+def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
     """Two points: each letter that may be negative is so in one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
@@ -101,7 +101,7 @@ def seed_of(*exprs: Expr) -> int:
     return crc32(" ".join(marks).encode())
 
 
-def compared_at(left: Expr, right: Expr, point: Point, thoroughly: bool = False) -> Sample:
+def compared_at(left: Expr, right: Expr, point: SamplePoint, thoroughly: bool = False) -> Sample:
     """What both sides are at a point; raises `Undefined` or `NoNumber`.
 
     A difference is believed once more digits give the same one. To be thorough is to ask the same of agreement: each
@@ -137,7 +137,7 @@ def _shrinks(before: Any, now: Any) -> bool:
     return bool(now <= before * mp.mpf(10) ** -20)
 
 
-def value_at(expr: Expr, point: Point) -> Expr:
+def value_at(expr: Expr, point: SamplePoint) -> Expr:
     """What an expression is at a point, in as many digits as two of these confirm: more where much cancels.
 
     Zero where every digit more makes it smaller. Raises `Undefined`, or `NoNumber` where no digits confirm another.
@@ -206,7 +206,7 @@ _ONE_ARGUMENT = {
 class Values:
     """What expressions are at one point, in the digits that mpmath now works with; common parts are taken once."""
 
-    def __init__(self, point: Point) -> None:
+    def __init__(self, point: SamplePoint) -> None:
         self.cancelled = False  # whether terms took away all digits of a sum, which may be zero or not
         self.known: dict[Expr, Any] = {}
         for letter, value in point.items():

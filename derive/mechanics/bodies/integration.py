@@ -76,7 +76,7 @@ def _wrapped(parts: Sequence[Expr], limits: Sequence[OneVariable], inner: Expr) 
     return inner
 
 
-Term = tuple[Nested | Expr, ...]
+Separated = tuple[Nested | Expr, ...]
 
 
 def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> list[Form]:
@@ -96,7 +96,7 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
     return [*lines, *_mass_collected(region, integrand, sign, rho, volume, len(terms) > 1)]
 
 
-def _separated(term: Expr, limits: Sequence[OneVariable]) -> Term:
+def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
     """Each group of variables with its own factor of the term; a number goes with the first that occurs."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
@@ -119,7 +119,7 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
     return groups
 
 
-def _outwards(terms: list[Term], front: Expr) -> list[Form]:
+def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
     """From the innermost integrals outwards, a line for the antiderivatives and one for what the limits give."""
     nested = _are_nested(terms)
     # One term that is nested reads much as it did before it was split.
@@ -138,7 +138,7 @@ def _outwards(terms: list[Term], front: Expr) -> list[Form]:
     ]
 
 
-def _are_nested(terms: list[Term]) -> bool:
+def _are_nested(terms: list[Separated]) -> bool:
     return any(isinstance(part, Nested) and len(part.limits) > 1 for term in terms for part in term)
 
 
@@ -146,7 +146,7 @@ def _one_further(part: Nested | Expr) -> Nested | Expr:
     return part.carried_out() if isinstance(part, Nested) else part
 
 
-def _collected(term: Term) -> Term:
+def _collected(term: Separated) -> Separated:
     """What no longer depends on a variable in front of the integrals that are left."""
     front: Expr = Integer(1)
     rest: list[Nested | Expr] = []
@@ -160,11 +160,11 @@ def _collected(term: Term) -> Term:
     return (front, *rest) if front != 1 else tuple(rest)
 
 
-def _line(front: Expr, terms: list[Term], how: Callable[[Nested], Expr], because: str, level: Level) -> Form:
+def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], because: str, level: Level) -> Form:
     return Form(_times(front, [_product(term, how) for term in terms]), because, level)
 
 
-def _product(term: Term, how: Callable[[Nested], Expr]) -> Expr:
+def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
     """Lengths of plain integrals and values first, then what is still to be integrated."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))

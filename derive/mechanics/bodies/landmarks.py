@@ -15,10 +15,8 @@ from derive.algebra.expressions import column
 from derive.mechanics.bodies.regions import Point, Region
 from derive.steps.step import is_zero
 
-Body = Any  # a `derive.mechanics.bodies.body.Body`, which asks here
 
-
-def is_where_named(body: Body, point: Point) -> bool:
+def is_where_named(body: Any, point: Point) -> bool:
     """Whether a point is where its name says; its axes are right-handed in any case."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     test = _TESTS.get(point.name)
@@ -27,7 +25,7 @@ def is_where_named(body: Body, point: Point) -> bool:
     return test(body, body.region(Point("origin", column(0, 0, 0))).with_section_put_in(), point.position)
 
 
-def _is_corner(body: Body, region: Region, at: Any) -> bool:
+def _is_corner(body: Any, region: Region, at: Any) -> bool:
     """Of each coordinate one of the two limits; what has no limits is zero."""
     limits = {x: ends for x, *ends in region.limits}
     return all(
@@ -35,7 +33,7 @@ def _is_corner(body: Body, region: Region, at: Any) -> bool:
     )
 
 
-def _is_centre(body: Body, region: Region, at: Any) -> bool:
+def _is_centre(body: Any, region: Region, at: Any) -> bool:
     return is_zero(body.over_mass(lambda r: r, Point("origin", column(0, 0, 0))) - body.mass * at)
 
 
@@ -49,21 +47,21 @@ def _radius(region: Region, z: Expr) -> Expr:
     return edge.subs(height, z)
 
 
-def _is_apex(body: Body, region: Region, at: Any) -> bool:
+def _is_apex(body: Any, region: Region, at: Any) -> bool:
     return _on_axis_at_end(region, at) and is_zero(_radius(region, at[2]))
 
 
-def _is_base(body: Body, region: Region, at: Any) -> bool:
+def _is_base(body: Any, region: Region, at: Any) -> bool:
     return _on_axis_at_end(region, at) and not is_zero(_radius(region, at[2]))
 
 
-def _is_on_rim(body: Body, region: Region, at: Any) -> bool:
+def _is_on_rim(body: Any, region: Region, at: Any) -> bool:
     """As far from the axis as any of its places: the element of length of a circle is its radius too."""
     outermost = region.limits[-1][2] if len(region.limits) > 1 else region.element
     return is_zero(at[0] ** 2 + at[1] ** 2 - outermost**2) and is_zero(at[2] - region.position[2])
 
 
-_TESTS: dict[str, Callable[[Body, Region, Any], bool]] = {
+_TESTS: dict[str, Callable[[Any, Region, Any], bool]] = {
     "corner": _is_corner,
     "end": _is_corner,
     "centre": _is_centre,

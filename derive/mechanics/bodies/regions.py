@@ -16,7 +16,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.expressions import MassIntegral, bound, column, scalar, vector
 from derive.errors import Complaint, Rejected
 
-Limits = tuple[tuple[Symbol, Expr, Expr], ...]
+Bounds = tuple[tuple[Symbol, Expr, Expr], ...]
 
 COORDINATES = ("cartesian", "cylindrical")
 
@@ -37,7 +37,7 @@ class Point:
         return ImmutableDenseMatrix((self.axes.T * (place - self.position)).expand())
 
     def interval(self, lower: Expr, upper: Expr) -> tuple[Expr, Expr]:
-        """Limits along the body's z as limits of z from here."""
+        """Bounds along the body's z as limits of z from here."""
         ends = [self.seen(column(self.position[0], self.position[1], end))[2] for end in (lower, upper)]
         return (ends[0], ends[1]) if self.axes[2, 2] == 1 else (ends[1], ends[0])
 
@@ -48,12 +48,12 @@ class Point:
 
 @dataclass(frozen=True)
 class Region:
-    """Limits, outermost first; the position of a point and the element of volume in the same coordinates.
+    """Bounds, outermost first; the position of a point and the element of volume in the same coordinates.
 
     section     the name in the limits for the radius of a cross-section, and what it stands for, if there is one
     """
 
-    limits: Limits
+    limits: Bounds
     position: ImmutableMatrix
     element: Expr = field(default_factory=lambda: Integer(1))
     section: tuple[Symbol, Expr] | None = None
@@ -109,7 +109,7 @@ def solid_of_revolution(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Exp
     if kind == "cylindrical":
         r, theta = coordinates(("r", "theta"), taken)
         edge = radius_at(point.along_body(z))
-        limits: Limits = ((z, lower, upper), (theta, Integer(0), 2 * pi), (r, Integer(0), edge))
+        limits: Bounds = ((z, lower, upper), (theta, Integer(0), 2 * pi), (r, Integer(0), edge))
         return Region(limits, column(*_from_axis(r * cos(theta), r * sin(theta), point), z), r)
     x, y = coordinates("xy", taken)
     _check_sign(radius_at, ends)
@@ -135,7 +135,7 @@ def disc(radius: Expr, point: Point, height: Expr) -> Region:
     """A flat disc about the z axis, at a height of the body's z."""
     r, theta = coordinates(("r", "theta"), radius.free_symbols)
     place = _from_axis(r * cos(theta), r * sin(theta), point)
-    limits: Limits = ((theta, Integer(0), 2 * pi), (r, Integer(0), radius))
+    limits: Bounds = ((theta, Integer(0), 2 * pi), (r, Integer(0), radius))
     return Region(limits, column(*place, height - point.position[2]), r)
 
 
