@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, MatrixExpr
+from sympy import Expr
 from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension
-from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, Value, explicit
+from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, Value, explicit
 
 
 class Amount(ScalarNode):
@@ -27,7 +27,7 @@ class Amount(ScalarNode):
         return f"({text(self.args[0])}*{text(self.args[2])})"
 
 
-class MatrixAmount(Node, MatrixExpr):
+class MatrixAmount(MatrixNode):
     """A vector or tensor of numbers with one unit. Arguments: the numbers, the unit as text, the factor to the SI."""
 
     def __new__(cls, numbers: Any, unit: str | Str, factor: Expr) -> MatrixAmount:
@@ -39,9 +39,6 @@ class MatrixAmount(Node, MatrixExpr):
 
     def doit(self, **hints: Any) -> Value:
         return explicit(self.args[0]) * self.args[2]
-
-    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
-        return explicit(self)[i, j]
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
         return None

@@ -7,7 +7,7 @@ vector and (3, 3) for a tensor. A *node* is an operation that is shown before it
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -23,8 +23,9 @@ from sympy import (
     MatrixExpr,
     MatrixSymbol,
     Symbol,
-    Tuple,
+    cos,
     diff,
+    sin,
     sqrt,
 )
 from sympy.core.symbol import Str
@@ -36,7 +37,7 @@ from derive.algebra.dimensions import Dimension, common, dimension_of_kind, powe
 from derive.algebra.mass_integral import MassIntegral as MassIntegral
 from derive.algebra.node import (
     DimensionOf,
-    Node,
+    MatrixNode,
     ScalarNode,
     TextOf,
     Value,
@@ -154,7 +155,7 @@ class CarriedRate(VectorNode):
             return ImmutableDenseMatrix(in_body)
         t = Dummy("t", real=True)  # counted from now: A and omega are those of this moment
         to_z = _rotation_onto_z(omega / rate)
-        turn = Matrix([[_c(rate * t), -_s(rate * t), 0], [_s(rate * t), _c(rate * t), 0], [0, 0, 1]])
+        turn = Matrix([[cos(rate * t), -sin(rate * t), 0], [sin(rate * t), cos(rate * t), 0], [0, 0, 1]])
         # The turn alone depends on that time, so it alone is differentiated.
         return ImmutableDenseMatrix(in_body + to_z.T * diff(turn, t).subs(t, 0) * to_z * Matrix(a))
 
@@ -164,18 +165,6 @@ class CarriedRate(VectorNode):
     def lowered(self, text: TextOf) -> str:
         a, omega = (_entries(arg, text) for arg in self.args[:2])
         return f"({a}.diff(t) + {omega}.cross({a}))"
-
-
-def _c(x: Expr) -> Expr:
-    from sympy import cos
-
-    return cos(x)
-
-
-def _s(x: Expr) -> Expr:
-    from sympy import sin
-
-    return sin(x)
 
 
 def _rotation_onto_z(n: Matrix) -> Matrix:
@@ -296,6 +285,10 @@ class Bracket(ScalarNode):
         f = explicit(antiderivative)
         return f.subs(x, upper) - f.subs(x, lower)
 
+    @property
+    def variables(self) -> tuple[Any, ...]:
+        return (self.args[1],)
+
     def dimension(self, of: DimensionOf) -> Dimension | None:
         antiderivative, x, *limits = self.args
         return of(antiderivative, {x: common(limits, of)})
@@ -384,16 +377,13 @@ class Truncated(ScalarNode):
         return text(self.args[0])
 
 
-class Outer(Node, MatrixExpr):
+class Outer(MatrixNode):
     """The dyad a b: entries a_i b_j."""
 
     shape = (Integer(3), Integer(3))
 
     def _evaluated(self, a: Matrix, b: Matrix) -> Value:
         return ImmutableDenseMatrix(Matrix(a) * Matrix(b).T)
-
-    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
-        return explicit(self)[i, j]
 
     dimension = product_of_dimensions
 
@@ -420,7 +410,3 @@ def scaled(factor: Expr, v: Value) -> MatMul:
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
     """The expression with names replaced by what they stand for."""
     return expr.xreplace(dict(values)) if values else expr
-
-
-def tuple_of_limits(limits: Sequence[tuple[Symbol, Expr, Expr]]) -> list[Tuple]:
-    return [Tuple(*limit) for limit in limits]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, Integral, MatrixExpr
+from sympy import Integral
 
 from derive.algebra.dimensions import Dimension, common, product
-from derive.algebra.node import DimensionOf, Node, TextOf, Value, explicit
+from derive.algebra.node import DimensionOf, MatrixNode, TextOf, Value, explicit
 
 
-class MassIntegral(Node, MatrixExpr):
+class MassIntegral(MatrixNode):
     """The integral of f(r) dm over a body, f a vector or a tensor.
 
     Arguments: f in terms of the vector name r; r; the density; the position and the volume element's factor in the
@@ -21,14 +21,15 @@ class MassIntegral(Node, MatrixExpr):
     def shape(self) -> tuple[Any, Any]:
         return self.args[0].shape  # type: ignore[no-any-return]
 
+    @property
+    def variables(self) -> tuple[Any, ...]:
+        return tuple(x for x, *_ in self.args[5:])
+
     def doit(self, **hints: Any) -> Value:
         integrand, r, density, position, jacobian, *limits = self.args
         at = explicit(integrand.xreplace({r: position}))
         outside, inside = density.as_independent(*(x for x, *_ in limits), as_Add=False)
         return at.applyfunc(lambda f: outside * explicit(Integral(inside * f * jacobian, *limits)))
-
-    def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
-        return explicit(self)[i, j]
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
         integrand, r, density, position, jacobian, *limits = self.args

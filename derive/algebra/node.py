@@ -51,6 +51,11 @@ class Node(Basic):
         """Its dimension; raises `Inhomogeneous` where its terms differ."""
         raise AttributeError(f"{type(self).__name__} must say what dimension it has")
 
+    @property
+    def variables(self) -> tuple[Any, ...]:
+        """What it binds, so that it is no name of its own."""
+        return ()
+
     def lowered(self, text: TextOf) -> str:
         """What SymPy alone has for it, as text that may stand as a factor."""
         raise AttributeError(f"{type(self).__name__} must say what it is to SymPy")
@@ -72,13 +77,17 @@ class ScalarNode(Node, Expr, abstract=True):
     is_real = True
 
 
-class VectorNode(Node, MatrixExpr, abstract=True):
-    """A node whose value is a column of three."""
-
-    shape = (Integer(3), Integer(1))
+class MatrixNode(Node, MatrixExpr, abstract=True):
+    """A node whose value is a vector or a tensor."""
 
     def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
         return explicit(self)[i, j]
+
+
+class VectorNode(MatrixNode, abstract=True):
+    """A node whose value is a column of three."""
+
+    shape = (Integer(3), Integer(1))
 
 
 def explicit(expr: Value) -> Value:

@@ -10,29 +10,46 @@ from sympy import MatrixBase
 
 from derive.algebra.expressions import Dot, Norm, explicit
 from derive.algebra.tidy import factored_matrix, tidied
-from derive.figures.marks import Mark, Position, Told
+from derive.figures.marks import InWords, Mark, Position
 from derive.figures.pieces import Bullet, Paper, Piece, Stroke, Tag
-from derive.figures.space import ZERO, Spot, Vector, across, angle_of, direction, dot, midway, plus, size_of, unit
+from derive.figures.space import NOUGHT, Spot, Vector, across, angle_of, direction, dot, midway, plus, size_of, unit
 
 PAST = 0.3  # how far axes go past a body, in terms of its size
 ASIDE = 12.0  # points between a body and its dimension line
 SHORT = 3  # operations in the words for a place
 
 
-# --- lines -----------------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
-class Line(Mark):
-    """A line; its pen is `edge`, `construction`, `hidden` or `axis`."""
+class _Between(Mark):
+    """From one place to another."""
 
     start: Position
     end: Position
-    pen: str = "construction"
 
     @property
     def ends(self) -> tuple[Position, ...]:
         return self.start, self.end
+
+
+@dataclass(frozen=True)
+class _Single(Mark):
+    """At one place."""
+
+    at: Position
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return (self.at,)
+
+
+# --- lines -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Line(_Between):
+    """A line; its pen is `edge`, `construction`, `hidden` or `axis`."""
+
+    pen: str = "construction"
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*(paper.numbers.vector(end) for end in self.ends))
@@ -41,17 +58,11 @@ class Line(Mark):
 
 
 @dataclass(frozen=True)
-class Axis(Mark):
+class Axis(_Between):
     """A coordinate axis: a thin arrow from where it begins to where it ends, or past the end in a direction."""
 
-    start: Position
-    end: Position
     past: Position = None
     together: ClassVar[str | None] = "axes"
-
-    @property
-    def ends(self) -> tuple[Position, ...]:
-        return self.start, self.end
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, end = (paper.numbers.vector(each) for each in self.ends)
@@ -84,27 +95,21 @@ class AxisOfRotation(Mark):
             return [line, Tag(self.label, spots[1], direction(*spots))]
         sense = 1.0 if paper.numbers.of(self.rate) > 0 else -1.0
         round_end = plus(through, along, far - 0.6 * PAST * paper.reach)
-        return [line, *_circling(round_end, plus(ZERO, along, sense), 0.16 * paper.reach, self.label, paper)]
+        return [line, *_circling(round_end, plus(NOUGHT, along, sense), 0.16 * paper.reach, self.label, paper)]
 
-    def in_words(self) -> Told:
+    def in_words(self) -> InWords:
         names = {"label": self.label, "direction": _components(self.along)}
         return "axis_of_rotation" if self.rate is None else "turning_axis", names
 
 
 @dataclass(frozen=True)
-class LengthMark(Mark):
+class LengthMark(_Between):
     """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
     the length `clear` and a little more: by the same distance on paper whatever the scale. None for a length of zero.
     """
 
-    start: Position
-    end: Position
     aside: Position | None
     clear: Any = 0
-
-    @property
-    def ends(self) -> tuple[Position, ...]:
-        return self.start, self.end
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, end = (paper.numbers.vector(each) for each in self.ends)
@@ -129,8 +134,8 @@ class LengthMark(Mark):
         size = hypot(x, y) or 1.0
         return x / size, y / size
 
-    def in_words(self) -> Told | None:
-        return ("length", {"label": self.label}) if self.label not in (None, 0) else None
+    def in_words(self) -> InWords | None:
+        return self._if_named("length")
 
 
 # --- vectors and angles ----------------------------------------------------------------------------------------------
@@ -159,7 +164,7 @@ class Arrow(Mark):
         pen = "asked" if self.asked else "given"
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
 
-    def in_words(self) -> Told:
+    def in_words(self) -> InWords:
         names = {"label": self.label, "direction": _components(self.value)}
         if _vanishes(self.value):
             return "no_arrow", names
@@ -195,7 +200,7 @@ class AngleMark(Mark):
         spots = paper.spots(*(plus(plus(vertex, a, radius * cos(t)), beside, radius * sin(t)) for t in turned))
         return [Stroke(spots, "angle"), Tag(self.label, spots[24], direction(paper.spot(vertex), spots[24]), 2.5)]
 
-    def in_words(self) -> Told | None:
+    def in_words(self) -> InWords | None:
         if self.label is None or any(_vanishes(v) for v in self.directions):
             return None
         a, b = (_whole_direction(v) for v in self.directions)
@@ -221,14 +226,14 @@ class Turn(Mark):
             return []
         return _circling(centre, along, paper.numbers.of(self.size) * paper.reach, self.label, paper)
 
-    def in_words(self) -> Told | None:
-        return ("turn", {"label": self.label}) if self.label not in (None, 0) else None
+    def in_words(self) -> InWords | None:
+        return self._if_named("turn")
 
 
 def _circling(centre: Vector, along: Vector, radius: float, label: Any, paper: Paper) -> list[Piece]:
     """Most of a circle, open towards the side away from the eye, with a head at its right-handed end."""
     u, v = across(along)
-    front = max(range(360), key=lambda degree: dot(_round(u, v, degree), paper.eye))
+    front = max(range(360), key=lambda degree: dot(_round(u, v, degree), paper.stance.eye))
     places = [plus(centre, _round(u, v, front + degree), radius) for degree in range(-125, 126, 5)]
     spots = paper.spots(*places)
     outer = max(spots, key=lambda spot: (round(spot[0], 6), spot[1]))
@@ -244,36 +249,23 @@ def _round(u: Vector, v: Vector, degree: float) -> Vector:
 
 
 @dataclass(frozen=True)
-class PointMark(Mark):
+class PointMark(_Single):
     """A point."""
-
-    at: Position
-
-    @property
-    def ends(self) -> tuple[Position, ...]:
-        return (self.at,)
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(paper.numbers.vector(self.at))
         return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
-    def in_words(self) -> Told | None:
+    def in_words(self) -> InWords | None:
         """With its place, if that can be said in a few letters."""
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
-        names = {"label": self.label, "place": entries if is_short else None}
-        return ("point", names) if self.label not in (None, 0) else None
+        return self._if_named("point", place=entries if is_short else None)
 
 
 @dataclass(frozen=True)
-class Support(Mark):
+class Support(_Single):
     """The fixed ground under a pivot: a pointed stand on hatched ground, as large as it must be to be seen."""
-
-    at: Position
-
-    @property
-    def ends(self) -> tuple[Position, ...]:
-        return (self.at,)
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))
@@ -283,7 +275,7 @@ class Support(Mark):
         hatches = [Stroke(((x + k, foot), (x + k - 4, foot - 4)), "thin") for k in range(-9, 14, 4)]
         return [stand, ground, *hatches, Tag(self.label, spot, (-0.9, 0.4), 4.0)]
 
-    def in_words(self) -> Told:
+    def in_words(self) -> InWords:
         return "support", {"label": self.label}
 
 

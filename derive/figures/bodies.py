@@ -43,14 +43,13 @@ def outline(body: Any, about: str | None = None, named: bool = True) -> list[Mar
 def _with_edges(body: EdgedBody, point: Point, named: bool) -> list[Mark]:
     """With a name beside one edge of each length; beside a flat one dimension lines, in its plane."""
     corners = tuple(point.seen(corner) for corner in body.corners)
-    is_flat = len(body.faces) == 1
-    lengths = tuple((length if named and not is_flat else None, edges) for length, edges in body.edges)
+    lengths = tuple((length if named and body.faces else None, edges) for length, edges in body.edges)
     marks: list[Mark] = [Polyhedron(corners, body.faces, lengths, **_words(body))]
     if named:
         reaches = (max((corner[k] for corner in body.corners), key=in_units) for k in range(3))
         ends = [point.seen(reach * along) for reach, along in zip(reaches, UNIT, strict=True)]
         marks += [Axis(end, end, along, label=scalar(name)) for end, along, name in zip(ends, UNIT, AXES, strict=True)]
-    if named and is_flat:
+    if named and not body.faces:
         middle = sum(corners, ORIGIN) / len(corners)
         ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in body.edges)
         marks += [LengthMark(a, b, (a + b) / 2 - middle, label=length) for length, a, b in ends_of]

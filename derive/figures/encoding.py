@@ -9,7 +9,7 @@ from typing import Any
 from sympy import Basic, MatrixBase
 
 from derive.algebra.encoding import decoded, encoded
-from derive.figures.marks import MARKS, Drawing, Plot, Recorded
+from derive.figures.marks import MARK_CLASSES, Drawing, Plot, Recorded
 
 _SCENES: dict[str, Any] = {each.__name__: each for each in (Drawing, Plot)}
 
@@ -47,4 +47,4 @@ def _from_data(data: Any) -> Any:
 
 
 def _class_of(name: str) -> Any:
-    return MARKS.get(name) or _SCENES.get(name)
+    return MARK_CLASSES.get(name) or _SCENES.get(name)

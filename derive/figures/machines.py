@@ -15,7 +15,7 @@ from derive.algebra.expressions import column, scalar
 from derive.figures.annotations import AngleMark, Arrow, Axis, LengthMark, Line, PointMark, Support, Turn
 from derive.figures.bodies import ORIGIN, Y, Z, in_units, is_line, round_outline
 from derive.figures.marks import Mark
-from derive.figures.surfaces import Circle, Polygon, ThinRod
+from derive.figures.surfaces import Circle, Polyhedron, ThinRod
 from derive.mechanics.rotation.composite import Composed, Part
 from derive.steps.step import Quantity
 
@@ -109,7 +109,7 @@ def slab_on_cylinder(
     corners = [foot + s * reach * along + h * across for s, h in ((-1, 0), (1, 0), (1, thickness), (-1, thickness))]
     marks: list[Mark] = [
         Circle(ORIGIN, Z, radius, True),
-        Polygon(tuple(corners)),
+        Polyhedron(tuple(corners)),
         Line(ORIGIN, Rational(13, 10) * radius * Y + thickness * Y, "construction"),
         Line(ORIGIN, contact, "construction", label=radius),
         PointMark(ORIGIN, label=Symbol("O", real=True)),

@@ -15,16 +15,16 @@ from typing import Any, ClassVar, TypeAlias
 from sympy import Symbol
 
 from derive.errors import Complaint, Rejected
-from derive.figures.pieces import Numbers, Paper, Piece
+from derive.figures.pieces import InNumbers, Paper, Piece
 from derive.figures.space import Vector
 from derive.steps.record import current_run
 
 Position: TypeAlias = Any  # a column of three expressions
-Told: TypeAlias = tuple[str, dict[str, Any]]  # by which phrase a mark is told, and what it may name
+InWords: TypeAlias = tuple[str, dict[str, Any]]  # by which phrase a mark is told, and what it may name
 SPACE, PLANE = "space", "plane"
 
 BESIDE = {"beside": True}  # of a field: it is written beside a mark, and does not decide how that is drawn
-MARKS: dict[str, type[Mark]] = {}  # every kind of mark by its name
+MARK_CLASSES: dict[str, type[Mark]] = {}  # every kind of mark by its name
 
 _DRAWING_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
@@ -40,7 +40,7 @@ class Mark:
     together: ClassVar[str | None] = None  # the phrase by which all such marks are told at once, by their labels
 
     def __init_subclass__(cls) -> None:
-        MARKS[cls.__name__] = cls
+        MARK_CLASSES[cls.__name__] = cls
 
     def pieces(self, paper: Paper) -> list[Piece]:
         """What it is on paper; nothing where there is nothing to see."""
@@ -56,9 +56,12 @@ class Mark:
         """One that must not point at the eye, or two between which an angle must be seen."""
         return ()
 
-    def in_words(self) -> Told | None:
+    def in_words(self) -> InWords | None:
         """How it is told to those who do not see it; nothing for a line that only helps the eye."""
         return None
+
+    def _if_named(self, phrase: str, **names: Any) -> InWords | None:
+        return (phrase, {"label": self.label, **names}) if self.label not in (None, 0) else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,11 +75,11 @@ class Surface(Mark):
     name: str = ""
     measures: tuple[tuple[str, Any], ...] = field(default=(), metadata=BESIDE)
 
-    def places(self, numbers: Numbers) -> list[Vector]:
+    def places(self, numbers: InNumbers) -> list[Vector]:
         """The outermost places that it reaches."""
         raise AttributeError(f"{type(self).__name__} must say how far it reaches")
 
-    def in_words(self) -> Told | None:
+    def in_words(self) -> InWords | None:
         return ("body", {"name": self.name, "measures": self.measures}) if self.name else None
 
 

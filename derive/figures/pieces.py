@@ -5,11 +5,12 @@ These few pieces are all that `derive.render.drawing` knows: a mark says of itse
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
-from derive.figures.space import Spot, Vector
+from derive.figures.space import NOUGHT, Spot, Stance, Vector
 
 
 @dataclass(frozen=True)
@@ -56,10 +57,10 @@ class Tag:
 
 Piece: TypeAlias = Stroke | Patch | Bullet | Tag
 Edge: TypeAlias = tuple[int, int]  # two corners, by their places in a list
-Lengths: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # a name, and the edges that are of this length
+EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # a name, and the edges that are of this length
 
 
-class Numbers(Protocol):
+class InNumbers(Protocol):
     """The values of expressions, by the numbers of their letters."""
 
     def of(self, expr: Any) -> float: ...
@@ -67,32 +68,30 @@ class Numbers(Protocol):
     def vector(self, column: Any) -> Vector: ...
 
 
-class Paper(Protocol):
-    """What a mark needs to be drawn: numbers, the direction to the eye, points per unit of length, the body's size, the
-    places that say how large it is; spots for places; and the outlines of surfaces, which hide what is behind them.
+@dataclass(frozen=True)
+class Paper(ABC):
+    """What a mark needs to be drawn: numbers, the direction one looks from, points per unit of length, the size of the
+    bodies, their middle and far ends; and outlines of surfaces, which hide what is behind them.
     """
 
-    @property
-    def numbers(self) -> Numbers: ...
+    numbers: InNumbers
+    stance: Stance
+    scale: float = 1.0
+    reach: float = 1.0
+    middle: Vector = NOUGHT
+    fixed: tuple[Vector, ...] = field(default=(), repr=False)
 
-    @property
-    def eye(self) -> Vector: ...
+    def spot(self, place: Vector) -> Spot:
+        right, up = self.stance.spot(place)
+        return right * self.scale, up * self.scale
 
-    @property
-    def scale(self) -> float: ...
+    def spots(self, *places: Vector) -> tuple[Spot, ...]:
+        return tuple(self.spot(place) for place in places)
 
-    @property
-    def reach(self) -> float: ...
+    @abstractmethod
+    def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
+        """What has flat faces, each given by its corners, with names beside some of its edges."""
 
-    @property
-    def fixed(self) -> tuple[Vector, ...]: ...
-
-    def spot(self, place: Vector) -> Spot: ...
-
-    def spots(self, *places: Vector) -> tuple[Spot, ...]: ...
-
-    def polyhedron(
-        self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: Lengths
-    ) -> list[Piece]: ...
-
-    def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]: ...
+    @abstractmethod
+    def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
+        """What is round about an axis, as circles from one end to the other."""

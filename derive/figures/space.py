@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import acos, cos, hypot, pi, sin, sqrt
 from typing import TypeAlias
 
 Vector: TypeAlias = tuple[float, float, float]
 Spot: TypeAlias = tuple[float, float]
 
-ZERO: Vector = (0.0, 0.0, 0.0)
+NOUGHT: Vector = (0.0, 0.0, 0.0)
 STEPS = 96  # of a whole circle
 
 
@@ -47,7 +48,7 @@ def across(a: Vector) -> tuple[Vector, Vector]:
     return u, cross(n, u)
 
 
-def circle(centre: Vector, radius: float, normal: Vector) -> list[Vector]:
+def rim(centre: Vector, radius: float, normal: Vector) -> list[Vector]:
     """The places of a circle about a direction, the last of them the first once more."""
     u, v = across(normal)
     angles = [2 * pi * i / STEPS for i in range(STEPS + 1)]
@@ -68,3 +69,15 @@ def direction(start: Spot, end: Spot) -> Spot:
 
 def midway(a: Spot, b: Spot) -> Spot:
     return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
+
+
+@dataclass(frozen=True)
+class Stance:
+    """A parallel projection: the directions on paper that are right and up, and the one to the eye."""
+
+    right: Vector
+    up: Vector
+    eye: Vector
+
+    def spot(self, place: Vector) -> Spot:
+        return dot(place, self.right), dot(place, self.up)

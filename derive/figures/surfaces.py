@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from derive.figures.marks import BESIDE, Position, Surface, Told
-from derive.figures.pieces import Lengths, Numbers, Paper, Patch, Piece, Stroke
-from derive.figures.space import Spot, Vector, circle
+from derive.figures.marks import BESIDE, InWords, Position, Surface
+from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Stroke
+from derive.figures.space import Spot, Vector, rim
 
 EVERY = 8  # of the places of a circle, one in so many says how large it is
 
@@ -24,13 +24,13 @@ class Revolved(Surface):
     through: Position
     along: Position
 
-    def _rings(self, numbers: Numbers) -> tuple[list[Vector], list[float]]:
+    def _rings(self, numbers: InNumbers) -> tuple[list[Vector], list[float]]:
         centres = [numbers.vector(self.through + height * self.along) for height, _ in self.profile]
         return centres, [numbers.of(radius) for _, radius in self.profile]
 
-    def places(self, numbers: Numbers) -> list[Vector]:
+    def places(self, numbers: InNumbers) -> list[Vector]:
         along, rings = numbers.vector(self.along), list(zip(*self._rings(numbers), strict=True))
-        far = [circle(*ring, along) for ring in (rings if len(rings) == 2 else rings[::EVERY])]
+        far = [rim(*ring, along) for ring in (rings if len(rings) == 2 else rings[::EVERY])]
         return [place for around in far for place in around[:-1:EVERY]]
 
     def pieces(self, paper: Paper) -> list[Piece]:
@@ -39,21 +39,27 @@ class Revolved(Surface):
 
 @dataclass(frozen=True)
 class Polyhedron(Surface):
-    """A convex body with flat faces, or one face alone.
+    """A convex body with flat faces, or a plane figure.
 
-    faces     each by its corners in order, from either side
+    faces     each by its corners in order, from either side; none if the corners are those of one face alone
     lengths   names that are written beside one of the edges that have this length
     """
 
     corners: tuple[Position, ...]
-    faces: tuple[tuple[int, ...], ...]
-    lengths: Lengths = field(default=(), metadata=BESIDE)
+    faces: tuple[tuple[int, ...], ...] = ()
+    lengths: EdgeNames = field(default=(), metadata=BESIDE)
 
-    def places(self, numbers: Numbers) -> list[Vector]:
+    def places(self, numbers: InNumbers) -> list[Vector]:
         return [numbers.vector(corner) for corner in self.corners]
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        return paper.polyhedron(self.places(paper.numbers), self.faces, self.lengths)
+        places = self.places(paper.numbers)
+        if self.faces:
+            return paper.polyhedron(places, self.faces, self.lengths)
+        return _bounded(paper.spots(*places, places[0]))
+
+    def in_words(self) -> InWords | None:
+        return super().in_words() or (None if self.faces else ("polygon", {"corners": len(self.corners)}))
 
 
 @dataclass(frozen=True)
@@ -63,7 +69,7 @@ class ThinRod(Surface):
     start: Position
     end: Position
 
-    def places(self, numbers: Numbers) -> list[Vector]:
+    def places(self, numbers: InNumbers) -> list[Vector]:
         return [numbers.vector(self.start), numbers.vector(self.end)]
 
     def pieces(self, paper: Paper) -> list[Piece]:
@@ -79,34 +85,17 @@ class Circle(Surface):
     radius: Any
     filled: bool = False
 
-    def _rim(self, numbers: Numbers) -> list[Vector]:
-        return circle(numbers.vector(self.centre), numbers.of(self.radius), numbers.vector(self.normal))
+    def _rim(self, numbers: InNumbers) -> list[Vector]:
+        return rim(numbers.vector(self.centre), numbers.of(self.radius), numbers.vector(self.normal))
 
-    def places(self, numbers: Numbers) -> list[Vector]:
+    def places(self, numbers: InNumbers) -> list[Vector]:
         return self._rim(numbers)[:-1:EVERY]
 
     def pieces(self, paper: Paper) -> list[Piece]:
         return _bounded(paper.spots(*self._rim(paper.numbers)), self.filled)
 
-    def in_words(self) -> Told:
+    def in_words(self) -> InWords:
         return super().in_words() or ("circle", {"radius": self.radius})
-
-
-@dataclass(frozen=True)
-class Polygon(Surface):
-    """A plane outline through its corners."""
-
-    corners: tuple[Position, ...]
-
-    def places(self, numbers: Numbers) -> list[Vector]:
-        return [numbers.vector(corner) for corner in self.corners]
-
-    def pieces(self, paper: Paper) -> list[Piece]:
-        places = self.places(paper.numbers)
-        return _bounded(paper.spots(*places, places[0]))
-
-    def in_words(self) -> Told:
-        return super().in_words() or ("polygon", {"corners": len(self.corners)})
 
 
 def _bounded(spots: tuple[Spot, ...], filled: bool = True) -> list[Piece]:

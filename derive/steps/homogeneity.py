@@ -121,13 +121,13 @@ def _opened_names(step: Step, table: Table) -> Table:
     """Names that a definition brings in, such as the components of any angular velocity, have its kind's dimension."""
     if step.kind is None or all(e.grade is not Grade.DEFINITION for e in step.evidence):
         return {}
-    free: set[Basic] = set().union(*(form.expr.free_symbols - _integrated(form.expr) for form in step.chain))
+    free: set[Basic] = set().union(*(_free(form.expr) for form in step.chain))
     return {name: dimension_of_kind(step.kind) for name in free if name not in table}
 
 
-def _integrated(expr: Any) -> set[Basic]:
-    """The variables of integration of an integral over the mass, which are no names of its own."""
-    return {x for whole in expr.atoms(ex.MassIntegral) for x, *_ in whole.args[5:]}
+def _free(expr: Any) -> set[Basic]:
+    bound = {x for node in expr.atoms(Node) for x in node.variables}
+    return {name for name in expr.free_symbols if name not in bound}
 
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:

@@ -33,7 +33,7 @@ from sympy import (
 
 from derive.algebra import expressions as ex
 from derive.algebra.encoding import decoded, encoded
-from derive.algebra.node import NODES
+from derive.algebra.node import NODES, Node
 from derive.algebra.rounding import Rounded
 from tests.mechanics.block import known_block
 
@@ -83,7 +83,7 @@ EXPRESSIONS = [
 ]
 
 
-class Unsaid(ex.Node, abstract=True):
+class Unsaid(Node, abstract=True):
     """A node that says nothing of itself."""
 
 
@@ -102,7 +102,7 @@ def test_an_expression_comes_back_unchanged(expr: Any) -> None:
 def test_every_node_says_its_dimension_and_what_it_is_to_sympy_and_is_encoded(name: str) -> None:
     kind = NODES[name]
     for what in ("dimension", "lowered"):
-        assert getattr(kind, what) is not getattr(ex.Node, what), f"{name} says nothing of its {what}"
+        assert getattr(kind, what) is not getattr(Node, what), f"{name} says nothing of its {what}"
     examples = [e for expr in EXPRESSIONS for e in preorder_traversal(expr) if type(e) is kind]
     assert examples, f"no expression of this test holds a {name}"
     for example in examples:
@@ -119,7 +119,7 @@ def test_a_node_that_says_nothing_of_itself_is_found_out() -> None:
 
 def test_two_nodes_of_one_name_are_refused() -> None:
     with pytest.raises(TypeError, match="there already is a node Dot"):
-        type("Dot", (ex.Node,), {})
+        type("Dot", (Node,), {})
 
 
 def test_symbols_come_back_with_what_is_assumed_of_them() -> None:

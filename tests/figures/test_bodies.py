@@ -76,10 +76,6 @@ class Pyramid(EdgedBody):
     reference: ClassVar[str] = "base"
 
     @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"base edge": self.side, "height": self.height}
-
-    @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
         square = (-1, -1), (1, -1), (1, 1), (-1, 1)
         return (*(column(x * self.side / 2, y * self.side / 2, 0) for x, y in square), column(0, 0, self.height))
@@ -139,7 +135,7 @@ def test_a_body_of_ones_own_has_the_moments_of_the_books(body: Any, moments: tup
 
 def test_a_body_of_ones_own_is_told_by_its_own_name_and_measures() -> None:
     assert in_words(SPHEROID, named=False) == "A drawing in space of a spheroid of radius R and length 2h."
-    assert in_words(PYRAMID, named=False) == "A drawing in space of a square pyramid of base edge a and height h."
+    assert in_words(PYRAMID, named=False) == "A drawing in space of a square pyramid of side a and height h."
     assert in_words(Plate((R, h), M)).startswith("A drawing in space of a plate with edges R and h")
     assert in_words(Ball(R, M)) == "A drawing in space of a ball of radius R and the axes x, y and z."
 

@@ -12,7 +12,7 @@ from derive.errors import Rejected
 from derive.figures import arc, arrow, drawing, outline, plot, point, slab_on_cylinder
 from derive.figures.annotations import AngleMark, Arrow, LengthMark, PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
-from derive.figures.surfaces import Circle, Polygon, Polyhedron, Revolved, ThinRod
+from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
 from derive.mechanics import Ball, Coordinate, Cuboid, Cylinder, Hoop, Plate, rolled_centre
 from derive.steps.record import recorded
 from tests.figures.scenery import CONE, M, R, a, h, leaning, theta, vectors_of_block
@@ -138,7 +138,7 @@ def test_the_centre_of_a_rolled_slab_is_where_rolling_takes_it() -> None:
     """x = (R + a/2) sin q - R q cos q, y = (R + a/2) cos q + R q sin q; the corners are about that centre."""
     marks = slab_on_cylinder(R, a, theta)
     x, y = (R + a / 2) * sin(theta) - R * theta * cos(theta), (R + a / 2) * cos(theta) + R * theta * sin(theta)
-    corners = next(mark.corners for mark in marks if isinstance(mark, Polygon))
+    corners = next(mark.corners for mark in marks if isinstance(mark, Polyhedron))
     mean = sum((Matrix(corner) for corner in corners), Matrix([0, 0, 0])) / 4
     assert (mean - Matrix([x, y, 0])).expand() == Matrix([0, 0, 0])
 
@@ -157,7 +157,7 @@ def test_the_point_of_contact_is_on_the_cylinder_and_on_the_face_of_the_slab() -
     marks = slab_on_cylinder(R, a, theta, rolled_centre(R, a / 2, Coordinate(theta, "angle")))
     contact = Matrix(next(mark.at for mark in marks if isinstance(mark, PointMark) and str(mark.label) == "P"))
     assert (contact.dot(contact) - R**2).simplify() == 0
-    corners = next(mark.corners for mark in marks if isinstance(mark, Polygon))
+    corners = next(mark.corners for mark in marks if isinstance(mark, Polyhedron))
     face = Matrix(corners[1]) - Matrix(corners[0])
     assert (Matrix(corners[0]) - contact).cross(face).applyfunc(lambda e: e.simplify()) == Matrix([0, 0, 0])
 

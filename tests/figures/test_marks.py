@@ -10,7 +10,7 @@ from sympy import Symbol
 from derive.algebra.expressions import column
 from derive.figures import drawing, outline
 from derive.figures.encoding import drawings_from_data, drawings_to_data
-from derive.figures.marks import Mark, Position, Told
+from derive.figures.marks import InWords, Mark, Position
 from derive.figures.pieces import Paper, Piece, Stroke
 from derive.page.depiction import alternative
 from derive.page.wording import phrases
@@ -42,7 +42,7 @@ class Spring(Mark):
         parts = [i / self.turns for i in range(self.turns + 1)]
         return [Stroke(tuple((x + (u - x) * t, y + (v - y) * t + i % 2) for i, t in enumerate(parts)), "thin")]
 
-    def in_words(self) -> Told:
+    def in_words(self) -> InWords:
         return "body", {"name": "a spring", "measures": (("length", self.label),)}
 
 

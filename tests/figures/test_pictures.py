@@ -14,7 +14,7 @@ from derive.figures.annotations import AngleMark, Turn
 from derive.figures.marks import Drawing
 from derive.figures.pieces import Bullet, Patch, Tag
 from derive.figures.space import dot, size_of, unit
-from derive.figures.surfaces import Polygon, Revolved
+from derive.figures.surfaces import Polyhedron, Revolved
 from derive.mechanics import Coordinate, Cuboid, rolled_centre
 from derive.render.drawing.camera import Numbers, best_stance, stance_from, stand_ins
 from derive.render.drawing.canvas import sheet_of
@@ -142,7 +142,7 @@ def test_a_length_of_zero_has_no_dimension_line() -> None:
 @pytest.mark.parametrize(("along", "sense"), [((0, 0, 1), 1), ((0, 0, -1), -1)])
 def test_a_turn_is_right_handed(along: tuple[int, ...], sense: int) -> None:
     """Seen from above, from where z points, a right-handed turn about z goes round anticlockwise."""
-    square = Polygon(tuple(column(*p, 0) for p in ((0, 0), (4, 0), (4, 4), (0, 4))))
+    square = Polyhedron(tuple(column(*p, 0) for p in ((0, 0), (4, 0), (4, 4), (0, 4))))
     found = plane(square, Turn(column(2, 2, 0), column(*along), Rational(1, 4)))
     assert area(strokes(pieces_of(found), "turn")[0]) * sense > 0
 

@@ -31,6 +31,7 @@ from sympy.core.function import AppliedUndef
 
 from derive.algebra import expressions as ex
 from derive.algebra.expressions import AXES, explicit
+from derive.algebra.node import Node
 from derive.algebra.rounding import Rounded
 from derive.course.units import read_unit
 
@@ -44,7 +45,7 @@ def meaning(value: Any) -> Any:
             return carried_out(value)
     if not value.args or isinstance(value, Symbol):
         return value
-    if isinstance(value, ex.Node):
+    if isinstance(value, Node):
         return explicit(value._evaluated(*(meaning(arg) for arg in value.args)))
     return value.func(*(meaning(arg) for arg in value.args))
 

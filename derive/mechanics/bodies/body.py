@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, reduce
 from itertools import product
 from operator import mul
@@ -90,7 +90,8 @@ class Body:
     @property
     def measures(self) -> Mapping[str, Any]:
         """The lengths that say how large it is, by what one calls them; several of one sort as a tuple."""
-        return {}
+        own: Any = self
+        return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
         """The step that says what a radius in the limits of a region stands for, where there is one."""
@@ -188,7 +189,7 @@ class RoundBody(Body):
 
 
 class EdgedBody(Body):
-    """A body with flat faces, or one face alone if it is thin."""
+    """A body with flat faces, or of one face alone."""
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
@@ -197,8 +198,8 @@ class EdgedBody(Body):
 
     @property
     def faces(self) -> tuple[tuple[int, ...], ...]:
-        """Each face by its corners in order, from either side."""
-        raise AttributeError(f"{type(self).__name__} must say which faces it has")
+        """Each face by its corners in order, from either side; none if they are those of one face alone."""
+        return ()
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:

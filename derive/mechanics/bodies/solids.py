@@ -118,10 +118,6 @@ class Cylinder(RoundSolid):
     reference: ClassVar[str] = "base"
 
     @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"radius": self.radius, "height": self.height}
-
-    @property
     def ends(self) -> tuple[Expr, Expr]:
         return Integer(0), self.height
 
@@ -157,10 +153,6 @@ class Ball(RoundSolid):
     radius: Expr
     mass: Expr
     name: ClassVar[str] = "a ball"
-
-    @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"radius": self.radius}
 
     @property
     def ends(self) -> tuple[Expr, Expr]:

@@ -43,10 +43,6 @@ class Rod(RoundBody):
         return Integer(0)
 
     @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"length": self.length}
-
-    @property
     def extent(self) -> Expr:
         return self.length
 
@@ -75,10 +71,6 @@ class _Flat(RoundBody):
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius
-
-    @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"radius": self.radius}
 
     def points(self) -> Mapping[str, Point]:
         return {"centre": Point("centre", column(0, 0, 0)), "rim": Point("rim", column(self.radius, 0, 0))}
@@ -158,10 +150,6 @@ class Plate(EdgedBody):
     def corners(self) -> tuple[ImmutableMatrix, ...]:
         a, b = self.sides
         return column(0, 0, 0), column(a, 0, 0), column(a, b, 0), column(0, b, 0)
-
-    @property
-    def faces(self) -> tuple[tuple[int, ...], ...]:
-        return ((0, 1, 2, 3),)
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:

@@ -7,7 +7,6 @@ the order in which they are declared (times what the numbers of that kind are li
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from math import cos, hypot, isfinite, pi, radians, sin
 from typing import Any
@@ -18,7 +17,7 @@ from sympy.core.function import AppliedUndef
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected
 from derive.figures.marks import PLANE, Drawing
-from derive.figures.space import Spot, Vector, angle_of, dot, size_of, unit
+from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
 
@@ -69,18 +68,6 @@ def _name(letter: Expr) -> str:
 
 
 # --- where one looks from --------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Stance:
-    """A parallel projection: the directions on paper that are right and up, and the one to the eye."""
-
-    right: Vector
-    up: Vector
-    eye: Vector
-
-    def spot(self, place: Vector) -> Spot:
-        return dot(place, self.right), dot(place, self.up)
 
 
 def stance_from(azimuth: float, elevation: float) -> Stance:

@@ -6,63 +6,39 @@ Every surface is convex, so that an edge is hidden where both faces that meet in
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from itertools import pairwise
 from math import atan2, hypot
 
-from derive.figures.pieces import Edge, Lengths, Patch, Piece, Stroke, Tag
-from derive.figures.space import ZERO, Spot, Vector, circle, cross, direction, dot, mean, midway, plus, size_of, unit
-from derive.render.drawing.camera import Numbers, Stance
+from derive.figures.pieces import Edge, EdgeNames, Paper, Patch, Piece, Stroke, Tag
+from derive.figures.space import NOUGHT, Spot, Vector, cross, direction, dot, mean, midway, plus, rim, size_of, unit
 
 FLAT = 0.25  # what is flatter, in terms of its radius, hides too little to be dashed
 
 
-@dataclass(frozen=True)
-class OnPaper:
-    """Numbers, the direction one looks from, points per unit of length, the body's size, middle and far ends."""
-
-    numbers: Numbers
-    stance: Stance
-    scale: float = 1.0
-    reach: float = 1.0
-    middle: Vector = ZERO
-    fixed: tuple[Vector, ...] = field(default=(), repr=False)
-
-    @property
-    def eye(self) -> Vector:
-        return self.stance.eye
-
-    def spot(self, place: Vector) -> Spot:
-        right, up = self.stance.spot(place)
-        return right * self.scale, up * self.scale
-
-    def spots(self, *places: Vector) -> tuple[Spot, ...]:
-        return tuple(self.spot(place) for place in places)
+class OnPaper(Paper):
+    """Paper that knows what hides what."""
 
     # --- flat faces ---
 
-    def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: Lengths) -> list[Piece]:
+    def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
         """An edge between two faces is seen if one of them faces the eye, and on the outline if the other does not."""
         middle = mean(list(corners))
-        facing: dict[Edge, list[bool]] = {edge: [] for _, edges in lengths for edge in edges}
+        named = [(name, [(min(edge), max(edge)) for edge in edges]) for name, edges in lengths]
+        facing: dict[Edge, list[bool]] = {edge: [] for _, edges in named for edge in edges}
         for face in faces:
             a, b, c = (corners[i] for i in face[:3])
             normal = unit(cross(plus(b, a, -1.0), plus(c, a, -1.0)))
             outward = 1.0 if dot(normal, plus(a, middle, -1.0)) > 0 else -1.0
             for i, j in pairwise([*face, face[0]]):
-                facing.setdefault((min(i, j), max(i, j)), []).append(outward * dot(normal, self.eye) > 1e-9)
+                facing.setdefault((min(i, j), max(i, j)), []).append(outward * dot(normal, self.stance.eye) > 1e-9)
         lines = {(i, j): self.spots(corners[i], corners[j]) for i, j in facing}
-        hidden = [edge for edge, flags in facing.items() if len(flags) == 2 and not any(flags)]
+        hidden = [edge for edge, flags in facing.items() if not any(flags)]
         outer = {edge for edge, flags in facing.items() if any(flags) and not all(flags)}
         return [
             Patch(hull(self.spots(*corners))),
             *(Stroke(lines[edge], "hidden") for edge in hidden),
             *(Stroke(line, "edge") for edge, line in lines.items() if edge not in hidden),
-            *(
-                self._beside(name, [lines[e] for e in edges if e in outer])
-                for name, edges in lengths
-                if outer & {*edges}
-            ),
+            *(self._beside(name, [lines[e] for e in edges if e in outer]) for name, edges in named if outer & {*edges}),
         ]
 
     def _beside(self, name: object, lines: Sequence[tuple[Spot, ...]]) -> Tag:
@@ -78,27 +54,25 @@ class OnPaper:
         """
         wide, narrow = (0, -1) if radii[0] >= radii[-1] else (-1, 0)
         normal = plus(centres[narrow], centres[wide], -1.0)
-        rings = [circle(centre, radius, normal) for centre, radius in zip(centres, radii, strict=True)]
-        outwards = circle(ZERO, 1.0, normal)
+        rings = [rim(centre, radius, normal) for centre, radius in zip(centres, radii, strict=True)]
+        outwards, eye = rim(NOUGHT, 1.0, normal), self.stance.eye
         axis = unit(plus(centres[-1], centres[0], -1.0))
 
         def side(k: int) -> list[float]:
             """How the side between one ring and the next faces the eye, all the way round."""
             height, widening = size_of(plus(centres[k + 1], centres[k], -1.0)), radii[k + 1] - radii[k]
-            return [height * dot(outward, self.eye) - widening * dot(axis, self.eye) for outward in outwards]
+            return [height * dot(outward, eye) - widening * dot(axis, eye) for outward in outwards]
 
         is_flat = size_of(normal) < FLAT * max(radii)
         pieces: list[Piece] = [Patch(hull(self.spots(*(place for ring in rings for place in ring))))]
         for end, sense, facing in ((0, -1.0, side(0)), (-1, 1.0, side(len(rings) - 2))):
             if radii[end]:
-                seen = [sense * dot(axis, self.eye) > 0 or at >= 0 for at in facing]
+                seen = [sense * dot(axis, eye) > 0 or at >= 0 for at in facing]
                 pieces += [stroke for stroke in self._rim(rings[end], seen) if stroke.pen == "edge" or not is_flat]
         if len(rings) > 2:
             return [*pieces, Stroke((*pieces[0].spots, pieces[0].spots[0]), "edge")]
-        return [
-            *pieces,
-            *(Stroke(self.spots(*(_between(ring, *turn) for ring in rings)), "edge") for turn in _turns(side(0))),
-        ]
+        sides = ([_between(ring, *turn) for ring in rings] for turn in _turns(side(0)))
+        return [*pieces, *(Stroke(self.spots(*side), "edge") for side in sides)]
 
     def _rim(self, rim: Sequence[Vector], seen: Sequence[bool]) -> list[Stroke]:
         """A closed curve as strokes, dashed where it is hidden; hidden ones first."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from derive.figures.marks import SPACE, Drawing, Mark, Surface
 from derive.figures.pieces import Piece, Tag
-from derive.figures.space import ZERO, dot, mean, plus, size_of
+from derive.figures.space import NOUGHT, dot, mean, plus, size_of
 from derive.render.drawing.camera import Numbers, best_stance
 from derive.render.drawing.hidden_lines import OnPaper
 
@@ -26,7 +26,7 @@ def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> 
 
 def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
     fixed = [place for mark in drawing.marks if isinstance(mark, Surface) for place in mark.places(numbers)]
-    fixed = fixed or [numbers.vector(end) for mark in drawing.marks for end in mark.ends] or [ZERO]
+    fixed = fixed or [numbers.vector(end) for mark in drawing.marks for end in mark.ends] or [NOUGHT]
     low, high = ([choice(place[k] for place in fixed) for k in range(3)] for choice in (min, max))
     middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
     reach = max(size_of(plus(place, middle, -1.0)) for place in fixed) or 1.0
@@ -36,7 +36,7 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
 def _pieces(drawing: Drawing, paper: OnPaper) -> list[Piece]:
     surfaces = [mark for mark in drawing.marks if isinstance(mark, Surface)]
     if drawing.view == SPACE:
-        surfaces.sort(key=lambda mark: dot(mean(mark.places(paper.numbers)), paper.eye))
+        surfaces.sort(key=lambda mark: dot(mean(mark.places(paper.numbers)), paper.stance.eye))
     ordered: list[Mark] = [*surfaces, *(mark for mark in drawing.marks if not isinstance(mark, Surface))]
     pieces = [piece for mark in ordered for piece in mark.pieces(paper)]
     return [piece for piece in pieces if not (isinstance(piece, Tag) and piece.label is None)]
