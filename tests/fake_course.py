@@ -62,6 +62,8 @@ def rendered(
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
         counts={},
+        steps=7,
+        compared=3,
         agreed=said != "differs",
         files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),)
         if draws and said.startswith("draws")

@@ -6,7 +6,6 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +33,7 @@ from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
 from derive.render.rendered import Rendered
 from derive.steps import record
-from derive.steps.derivation import Derivation, derivation_of, returned_quantities, with_ancestors
+from derive.steps.derivation import Derivation, derivation_of, returned_quantities, standing_in, with_ancestors
 from derive.steps.homogeneity import dimension_table
 from derive.steps.numeric import coefficient_of, comparison_of, value_of
 from derive.steps.step import Level, Quantity, Step
@@ -53,7 +52,6 @@ def rendered(
     words = phrases(template_folder(root))
     solved, failures = _solved(problem, kept)
     derivation, values = solved.derivation, solved.values
-    problem = _answered_by(problem, derivation.steps)
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
     level = Level(detail or "standard")
@@ -80,6 +78,8 @@ def rendered(
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),
         counts=document.checks.counts(),
+        steps=len(derivation.steps) + len(values),
+        compared=len(solved.compared),
         agreed=not failures,
         files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
     )
@@ -133,34 +133,19 @@ def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Q
     run = record.Run()
     answers = returned_quantities(run_solve(problem, run), problem.script.returns)
     known = with_ancestors(answers, problem.script.returns)
-    problem = _answered_by(problem, (quantity.step for quantity in known.values()))
-    _check_answers(problem, known)
+    instead = standing_in(quantity.step for quantity in known.values())
+    asked = [{instead.get(key, key): key for key in part.answers} for part in problem.parts]
+    _check_answers(problem, known, asked)
     _check_letters(problem, known)
-    derivation = derivation_of([part.answers for part in problem.parts], known, run)
+    derivation = derivation_of(asked, known, run)
     values: dict[str, Step] = {}
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
-    for part in problem.parts:
-        for key in part.answers:
-            value = _value(problem, part, known[key], dimensions)
+    for part, answers_of_part in zip(problem.parts, asked, strict=True):
+        for key, as_asked in answers_of_part.items():
+            value = _value(problem, part, known[key], as_asked, dimensions)
             if value is not None and not _compared_before(value.step, values.values()):
                 values[key] = value.step
     return derivation, values, known, run
-
-
-def _answered_by(problem: Problem, steps: Iterable[Step]) -> Problem:
-    """The problem with each answer that has no step of its own answered by the step that stands for it."""
-    found = list(steps)
-    own = {step.key for step in found}
-    instead = {key: step.key for step in found for key in step.stands_for if key not in own}
-    if not instead:
-        return problem
-
-    def answered(part: Part) -> Part:
-        places = {instead.get(key, key): place for key, place in part.places.items()}
-        forms = {instead.get(key, key) if key else None: form for key, form in part.forms.items()}
-        return replace(part, answers=tuple(places), places=places, forms=forms)
-
-    return replace(problem, parts=tuple(answered(part) for part in problem.parts))
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
@@ -168,17 +153,17 @@ def _compared_before(step: Step, others: Iterable[Step]) -> bool:
     return step.rule == "numbers.comparison" and step.chain in [other.chain for other in others]
 
 
-def _check_answers(problem: Problem, known: dict[str, Quantity]) -> None:
+def _check_answers(problem: Problem, known: dict[str, Quantity], asked: list[dict[str, str]]) -> None:
     faults = [
         Complaint(
             "no-such-answer",
             f"`solve()` returns nothing called `{key}`",
-            part.place_of(key),
+            part.place_of(keys[key]),
             help=did_you_mean(key, known)
             or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
         )
-        for part in problem.parts
-        for key in part.answers
+        for part, keys in zip(problem.parts, asked, strict=True)
+        for key in keys
         if key not in known
     ]
     if faults:
@@ -193,25 +178,25 @@ def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
 
 
 def _value(
-    problem: Problem, part: Part, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
+    problem: Problem, part: Part, answer: Quantity, asked: str, dimensions: Mapping[Any, Dimension | None]
 ) -> Quantity | None:
-    """The number of an answer: in the unit and to the figures that the part asks for."""
-    form = part.form_of(answer.key)
+    """The number of an answer: in the unit and to the figures that the part asks for, by the key that it asks for."""
+    form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
         # An inequality may well be solved for a letter once other values are given: its unit waits for that.
         never = answer.value.mark == "=" and answer.coordinates
-        if form.places and never and (answer.key in part.forms or len(part.answers) == 1):
+        if form.places and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between things that move: no number of it could have a unit"
             raise Rejected(Complaint("wrong-unit", message, form.places[0], help="leave its `unit` out"))
         return None
     kind, dimension = _kind_of(problem, answer, dimensions)
     units: list[tuple[str, Expr]] = []
     for unit, place in zip(form.units, form.places, strict=True):
-        asked = read_unit(unit, place)
-        wrong = misfit(asked, kind, dimension)
+        read = read_unit(unit, place)
+        wrong = misfit(read, kind, dimension)
         if wrong:
             raise Rejected(Complaint(wrong.code, f"`{answer.key}` {wrong.why}", place, help=wrong.help))
-        units.append((unit, asked.factor))
+        units.append((unit, read.factor))
     first, *more = units or [(unit_of_kind(kind) if kind else unit_of_dimension(dimension), Integer(1))]
     figures = form.figures or problem.figures
     # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import errno
-import json
 import os
 import signal
 import sys
@@ -293,10 +292,9 @@ def _row(problem_id: str, outcome: Outcome) -> tuple[str, ...]:
         codes = dict.fromkeys(c.code for c in getattr(outcome.error, "complaints", ())) or ["internal error"]
         return (problem_id, "", *("" for _ in _GRADES), "", seconds, f"failed: {', '.join(codes)}")
     rendered: Rendered = outcome.value
-    facts = json.loads(rendered.json)
     grades = [str(rendered.grades.get(grade, 0)) for grade in _GRADES]
     verdict = "ok" if rendered.agreed else "differs from its reference"
-    return (problem_id, str(len(facts["steps"])), *grades, str(len(facts["reference"])), seconds, verdict)
+    return (problem_id, str(rendered.steps), *grades, str(rendered.compared), seconds, verdict)
 
 
 def _verdict_code(outcome: Outcome) -> int:

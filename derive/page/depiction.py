@@ -148,7 +148,8 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
 
 def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
     """The part that asks for a step, else that which shows it; nothing where none does, so that it is not drawn."""
-    asked = [index for index, part in enumerate(problem.parts) if key in part.answers]
+    answered = [derivation.answering(part.answers) for part in problem.parts]
+    asked = [index for index, steps in enumerate(answered) if key in [step.key for step in steps]]
     shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
     return next(iter([*asked, *shown]), None)
 

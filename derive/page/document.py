@@ -208,7 +208,7 @@ class _Writer:
         self.converted: set[Any] = set()
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
-        answered = [derivation.step(key) for part in problem.parts for key in part.answers]
+        answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.notes = notes_apart(answered, words)
 
     def document(self, compared: Sequence[Told]) -> Document:
@@ -284,10 +284,11 @@ class _Writer:
             self._append(blocks, self.derivation.step(key))
             ends[key] = len(blocks)
         steps = len(blocks)
-        values = [v for key in part.answers if (v := self.values.get(key)) and v.key not in self.numbers]
+        answers = self.derivation.answering(part.answers)
+        values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
         for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0)
-        blocks.append(Answers(tuple(self._answer(key) for key in part.answers)))
+        blocks.append(Answers(tuple(self._answer(step) for step in answers)))
         own = [illustration for illustration in illustrations if illustration.at == label]
         return PartPage(
             label, self._told(part.ask.pieces), part.points, _illustrated(_punctuated(blocks), own, ends, steps)
@@ -295,16 +296,15 @@ class _Writer:
 
     def _found_before(self, part: Part) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""
-        before = [self.derivation.step(key) for key in part.answers if key in self.shown_in]
+        before = [step for step in self.derivation.answering(part.answers) if step.key in self.shown_in]
         return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.numbers, self.words)]
 
     @property
     def _and(self) -> str:
         return str(self.words.labels["and"])
 
-    def _answer(self, key: str) -> Answer:
-        step = self.derivation.step(key)
-        value = self.values.get(key)
+    def _answer(self, step: Step) -> Answer:
+        key, value = step.key, self.values.get(step.key)
         forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
         numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
         if isinstance(step.result, Truncated):

@@ -25,6 +25,7 @@ class Rendered:
 
     latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked
     counts                  the numbers of how it was checked, see `Checks.counts`
+    steps, compared         how many steps there are, and how many statements of the reference
     """
 
     id: str
@@ -40,6 +41,8 @@ class Rendered:
     inputs: tuple[str, ...]
     grades: dict[str, int]
     counts: dict[str, int]
+    steps: int
+    compared: int
     agreed: bool
     files: Files = ()
 
@@ -65,6 +68,8 @@ class Rendered:
                 inputs=tuple(_text(path) for path in data["inputs"]),
                 grades=_counts(data["grades"]),
                 counts=_counts(data["counts"]),
+                steps=int(data["steps"]),
+                compared=int(data["compared"]),
                 agreed=data["agreed"] is True,
                 files=tuple((_text(name), base64.b64decode(content)) for name, content in data["files"]),
             )

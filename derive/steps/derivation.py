@@ -6,7 +6,7 @@ A part shows, depth first, the steps behind its answers that no earlier part has
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,6 +31,11 @@ class Derivation:
 
     def step(self, key: str) -> Step:
         return next(step for step in self.steps if step.key == key)
+
+    def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
+        """The steps that answer what a part asks for, each once: those of these keys, or which stand for them."""
+        instead = standing_in(self.steps)
+        return tuple(self.step(key) for key in dict.fromkeys(instead.get(key, key) for key in asked))
 
     @property
     def warnings(self) -> tuple[Complaint, ...]:
@@ -108,7 +113,13 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
     return found
 
 
-def derivation_of(answers: Sequence[Sequence[str]], known: dict[str, Quantity], run: Run | None = None) -> Derivation:
+def standing_in(steps: Iterable[Step]) -> dict[str, str]:
+    """For each key that has no step of its own, and for which a step stands, the key of that step."""
+    found = {step.key: step for step in steps}
+    return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
+
+
+def derivation_of(answers: Iterable[Iterable[str]], known: dict[str, Quantity], run: Run | None = None) -> Derivation:
     """Divide the steps among the parts; `answers` holds the keys that each part asks for."""
     shown: dict[str, Step] = {}
     parts = []

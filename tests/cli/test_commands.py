@@ -134,9 +134,9 @@ def test_check_prints_a_table_and_fails_with_any_problem(course: Course, capfd: 
     rows = [re.sub(r"\d+\.\d", "t", line).split() for line in out.splitlines()]
     assert rows == [
         ["problem", "steps", "proved", "sampled", "definition", "approximation", "references", "seconds", "verdict"],
-        ["hw1/four", "2", "2", "0", "1", "0", "0", "t", "ok"],
-        ["hw1/one", "2", "2", "0", "1", "0", "0", "t", "ok"],
-        ["hw1/three", "2", "2", "0", "1", "0", "0", "t", "differs", "from", "its", "reference"],
+        ["hw1/four", "7", "2", "0", "1", "0", "3", "t", "ok"],
+        ["hw1/one", "7", "2", "0", "1", "0", "3", "t", "ok"],
+        ["hw1/three", "7", "2", "0", "1", "0", "3", "t", "differs", "from", "its", "reference"],
         ["hw1/two", "t", "failed:", "wrong-kind"],
     ]
     assert "error[wrong-kind]" in err

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from derive.building.solution import _answered_by, _derived
+from derive.building.solution import _derived
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.wording import phrases
@@ -43,8 +43,9 @@ class Solved:
     @property
     def page(self) -> str:
         """The whole page as text, in full detail."""
-        problem = _answered_by(self.problem, self.derivation.steps)
-        document, faults = document_of(problem, self.derivation, self.values, WORDS, Level.FULL, drawings=self.drawings)
+        document, faults = document_of(
+            self.problem, self.derivation, self.values, WORDS, Level.FULL, drawings=self.drawings
+        )
         if faults:
             raise ValueError(faults)
         return page_text(document, WORDS, Notation(document.dimensions))

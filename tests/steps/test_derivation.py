@@ -56,6 +56,12 @@ def test_what_no_answer_rests_on_is_not_shown_but_named() -> None:
     assert "side" not in derivation.keys
 
 
+def test_a_step_answers_for_itself_and_for_those_it_stands_for_each_once() -> None:
+    both = replace(TOP, step=replace(TOP.step, stands_for=("fast", "slow", "side")))
+    derivation = derivation_of([["top", "side"]], with_ancestors([both, SIDE]))
+    assert [step.key for step in derivation.answering(["slow", "fast", "side"])] == ["top", "side"]
+
+
 def test_every_step_of_the_block_comes_after_its_inputs() -> None:
     keys = list(with_ancestors(known_block().values()))
     for key in keys:

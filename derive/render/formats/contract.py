@@ -44,7 +44,7 @@ def contract(
     reference: Sequence[Mapping[str, Any]] = (),
 ) -> str:
     """The JSON text."""
-    answers = {key: derivation.step(key) for part in problem.parts for key in part.answers}
+    answered = [derivation.answering(part.answers) for part in problem.parts]
     page = Page([*derivation.steps, *values.values()])
     data = {
         "problem": problem.id,
@@ -52,13 +52,14 @@ def contract(
         "points": _points(problem.points),
         "given": {given.name: _given(given) for given in problem.givens},
         "parts": [
-            {"label": page.label, "points": _points(page.points), "answers": list(part.answers)}
-            for page, part in zip(document.parts, problem.parts, strict=True)
+            {"label": page.label, "points": _points(page.points), "answers": [step.key for step in steps]}
+            for page, steps in zip(document.parts, answered, strict=True)
         ],
         "assumed": [sympy_text(condition) for condition in derivation.assumed],
         "answers": {
-            key: _answer(page.names_of(step), values.get(key), document.dimensions.get(step.symbol), notation)
-            for key, step in answers.items()
+            step.key: _answer(page.names_of(step), values.get(step.key), document.dimensions.get(step.symbol), notation)
+            for steps in answered
+            for step in steps
         },
         "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
         "steps": [_step(page.names_of(step), notation) for step in page.steps],
