@@ -14,7 +14,6 @@ from sympy import Expr, Symbol
 
 from derive.algebra.dimensions import Dimension
 from derive.course.expression import Declared, read_expression
-from derive.course.latex import Side, read_latex
 from derive.course.problem import Problem, ProblemReader, problem_ids
 from derive.course.schema import ENTRY_KEYS, ERRATUM_KEYS, GROUP_KEYS, MAX_FIGURES, check_keys, read_text, wrong_type
 from derive.course.units import Unit, read_unit
@@ -238,9 +237,11 @@ class _EntryReader:
         if not isinstance(node, Scalar) or node.empty:
             wrong_type(self.faults, key, "a formula in LaTeX", node)
             return None
+        from derive.course.latex import read_latex  # a grammar that few files need
+
         with self.faults:
             read = read_latex(node, self.printed, homogeneous=homogeneous)
-            sides = tuple(_of_side(side, homogeneous) for side in read.sides)
+            sides = tuple(Stated(s.branches, s.shape, s.text, s.place, homogeneous) for s in read.sides)
             return Statement(sides, read.marks, " ".join(node.text.split()), node.place)
         return None
 
@@ -270,10 +271,6 @@ class _EntryReader:
             else:
                 names.append(known.symbol.name)
         return tuple(names)
-
-
-def _of_side(side: Side, homogeneous: bool) -> Stated:
-    return Stated(side.branches, side.shape, side.text, side.place, homogeneous)
 
 
 def _place(node: Mapping, key: str) -> Place:
