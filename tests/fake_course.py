@@ -142,8 +142,9 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 
 def replace_derivation(monkeypatch: Any) -> None:
-    """Put the stand-ins where `derive.building.solution` and `derive.building.set_document` are imported from."""
-    modules = {"solution": (rendered, headline), "set_document": (problem_document, set_document, sheet_document)}
+    """Put the stand-ins where the modules of `derive.building` that have these functions are imported from."""
+    documents = (problem_document, set_document, sheet_document)
+    modules = {"solution": (rendered,), "headline": (headline,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")
         for function in functions:

@@ -10,7 +10,7 @@ from typing import Any
 
 from derive.building.solution import template_folder
 from derive.course.parts import points_text
-from derive.course.problem import ProblemSet
+from derive.course.problem_set import ProblemSet
 from derive.page.wording import Phrases, phrases
 from derive.render.formats.latex_page import dotted, whole_latex
 from derive.render.rendered import Rendered, Tex

@@ -34,7 +34,7 @@ from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, j
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 
 if TYPE_CHECKING:
-    from derive.course.problem import ProblemSet
+    from derive.course.problem_set import ProblemSet
     from derive.render.rendered import Files, Rendered
 
 SET_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
@@ -104,7 +104,7 @@ def built_set(root: Path, set_id: str, options: Options, tell: Callable[[str], N
     """Build one set. `tell` shows what is under way to someone who waits."""
     engine = chosen_engine(options.engine)
     if set_id not in set_names(root):
-        from derive.course.problem import problem_set
+        from derive.course.problem_set import problem_set
 
         if (root / "problems" / set_id / "set.yaml").is_file() and (why := wrong_set_name(set_id)):
             raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
@@ -166,7 +166,7 @@ class _Build:
         return result
 
     def _rebuild(self) -> None:
-        from derive.course.problem import problem_set
+        from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
         reading = partial(problem_set, self.root, self.set_id)

@@ -17,14 +17,16 @@ from derive.algebra.expressions import Relation
 from derive.building.drawn import drawing_files
 from derive.building.stored import Solved, keep, key_of, recalled
 from derive.course.parts import Part, points_text
-from derive.course.problem import Problem, load_problem, problem_set, run_solve
+from derive.course.problem import Problem, load_problem, run_solve
+from derive.course.problem_set import problem_set
 from derive.course.prose import PROBLEM
 from derive.course.reference.comparison import comparisons
 from derive.course.reference.statements import reference_path
 from derive.course.units import misfit, read_unit
+from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
-from derive.page.wording import AXIS_NAMES, Text, given_words, phrases, told
+from derive.page.wording import phrases
 from derive.render.formats.contract import contract
 from derive.render.formats.latex_page import problem_latex
 from derive.render.formats.text_page import inline_text, page_text
@@ -104,11 +106,11 @@ def _check_characters(problem: Problem) -> None:
     """Prose may only have characters that can be printed."""
     faults = []
     for prose in problem.texts:
-        at = unprintable(prose.scalar.text)
+        at = unprintable(prose.text)
         if at is not None:
-            message = f"`{prose.scalar.text[at]}` cannot be printed"
+            message = f"`{prose.text[at]}` cannot be printed"
             help_line = "the fonts of the page have Latin and Greek letters and the usual signs"
-            faults.append(Complaint("character", message, prose.scalar.place_within(at), help=help_line))
+            faults.append(Complaint("character", message, prose.place_within(at, 1), help=help_line))
     if faults:
         raise Rejected(faults)
 
@@ -117,25 +119,14 @@ def _refers_to_problems(problem: Problem) -> bool:
     return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
 
 
-def headline(root: Path, problem_id: str) -> tuple[str, str]:
-    """A problem's points and title without deriving it; a step that the title mentions is named by its key."""
-    problem = load_problem(root, problem_id)
-    words = phrases(template_folder(root))
-    names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
-    names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
-    title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None)
-    points = "" if problem.points is None else points_text(problem.points)
-    return points, inline_text(title, Notation(problem.dimensions))
-
-
 def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
     run = record.Run()
     answers = returned_quantities(run_solve(problem, run), problem.script.returns)
     known = with_ancestors(answers, problem.script.returns)
     instead = standing_in(quantity.step for quantity in known.values())
-    asked = [{instead.get(key, key): key for key in part.answers} for part in problem.parts]
-    _check_answers(problem, known, asked)
+    asked = [{instead.get(key, str(key)): key for key in part.answers} for part in problem.parts]
+    _check_answers(known, asked)
     _check_letters(problem, known)
     derivation = derivation_of(asked, known, run)
     values: dict[str, Step] = {}
@@ -153,16 +144,16 @@ def _compared_before(step: Step, others: Iterable[Step]) -> bool:
     return step.rule == "numbers.comparison" and step.chain in [other.chain for other in others]
 
 
-def _check_answers(problem: Problem, known: dict[str, Quantity], asked: list[dict[str, str]]) -> None:
+def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> None:
     faults = [
         Complaint(
             "no-such-answer",
             f"`solve()` returns nothing called `{key}`",
-            part.place_of(keys[key]),
+            keys[key].place,
             help=did_you_mean(key, known)
             or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
         )
-        for part, keys in zip(problem.parts, asked, strict=True)
+        for keys in asked
         for key in keys
         if key not in known
     ]
@@ -185,17 +176,17 @@ def _value(
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
         # An inequality may well be solved for a letter once other values are given: its unit waits for that.
         never = answer.value.mark == "=" and answer.coordinates
-        if form.places and never and (asked in part.forms or len(part.answers) == 1):
+        if form.units and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between things that move: no number of it could have a unit"
-            raise Rejected(Complaint("wrong-unit", message, form.places[0], help="leave its `unit` out"))
+            raise Rejected(Complaint("wrong-unit", message, form.units[0].place, help="leave its `unit` out"))
         return None
     kind, dimension = _kind_of(problem, answer, dimensions)
     units: list[tuple[str, Expr]] = []
-    for unit, place in zip(form.units, form.places, strict=True):
-        read = read_unit(unit, place)
+    for unit in form.units:
+        read = read_unit(unit, unit.place)
         wrong = misfit(read, kind, dimension)
         if wrong:
-            raise Rejected(Complaint(wrong.code, f"`{answer.key}` {wrong.why}", place, help=wrong.help))
+            raise Rejected(Complaint(wrong.code, f"`{answer.key}` {wrong.why}", unit.place, help=wrong.help))
         units.append((unit, read.factor))
     first, *more = units or [(unit_of_kind(kind) if kind else unit_of_dimension(dimension), Integer(1))]
     figures = form.figures or problem.figures

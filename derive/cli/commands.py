@@ -132,9 +132,9 @@ def _problem_id(text: str) -> str:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    from derive.building.solution import headline
+    from derive.building.headline import headline
     from derive.building.workers import done, job_of
-    from derive.course.problem import problem_ids
+    from derive.course.problem_set import problem_ids
 
     root = _root(arguments)
     _warn_of_names(root)
@@ -159,7 +159,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     from derive.building.set_document import problem_document
     from derive.building.solution import rendered
     from derive.building.workers import Job, done, job_of
-    from derive.course.problem import problem_set
+    from derive.course.problem_set import problem_set
 
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     _check_output(arguments.output, root)
@@ -259,7 +259,7 @@ def _check(arguments: argparse.Namespace) -> int:
     from derive.building.sets import set_names
     from derive.building.solution import rendered
     from derive.building.workers import Crew, job_of
-    from derive.course.problem import problem_ids
+    from derive.course.problem_set import problem_ids
 
     root = _root(arguments)
     _warn_of_names(root)

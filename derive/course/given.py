@@ -19,7 +19,7 @@ from derive.algebra.expressions import TIME, Amount
 from derive.algebra.kinds import DIRECTION, POSITIVE, SIGNED, Kind, plural
 from derive.course.expression import RESERVED, Declared, rational, read_expression
 from derive.course.units import begins_with_unit, misfit, read_unit
-from derive.course.yaml_tree import Node, Scalar, Sequence, shape_of
+from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 DIRECTION_NAMES = ("diagonal", "x", "y", "z")
@@ -101,7 +101,7 @@ def symbol_of_kind(name: str, kind: str) -> Symbol:
 
 
 def read_givens(
-    nodes: Mapping[str, Node],
+    nodes: Mapping[str, Tree],
     kinds: Mapping[str, Kind],
     symbols: Mapping[str, Declared],
     faults: Faults,
@@ -125,27 +125,27 @@ def read_givens(
     return tuple(_given(name, kinds[name], value, letters) for name, value in read.items()), letters.symbols
 
 
-def read_measured(key: Scalar, node: Node, symbols: Mapping[str, Declared]) -> Measured:
+def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Measured:
     """An entry of `values:`: a number, with its unit, for a declared symbol."""
-    declared = symbols.get(key.text)
+    declared = symbols.get(name)
     if declared is None:
-        help_line = did_you_mean(key.text, symbols) or "declare it under `symbols:`"
-        rejected("undeclared-symbol", f"`{key.text}` is not declared", key.place, help_line)
+        help_line = did_you_mean(name, symbols) or "declare it under `symbols:`"
+        rejected("undeclared-symbol", f"`{name}` is not declared", name.place, help_line)
     if declared.symbol == TIME:
-        rejected("time", "`t` is the time, which passes: it has no number", key.place, "use another letter: `t_1`")
-    wanted = _Wanted(key.text, declared.kind)
-    scalar = _scalar(node, wanted, key.place)
+        rejected("time", "`t` is the time, which passes: it has no number", name.place, "use another letter: `t_1`")
+    wanted = _Wanted(str(name), declared.kind)
+    scalar = _scalar(node, wanted, name.place)
     value = _value(scalar, wanted, symbols)
     if not isinstance(value, _Number):
         if not value.is_Rational:
-            wanted.refuse("wrong-kind", f"`{key.text}` needs a number here", scalar.place, _unit_example(declared.kind))
+            wanted.refuse("wrong-kind", f"`{name}` needs a number here", scalar.place, _unit_example(declared.kind))
         value = _Number(value, "", value)
     if declared.symbol.is_positive and not value.number > 0:
-        wanted.refuse("not-positive", f"`{key.text}` must be positive, but `{scalar.text}` is not", scalar.place)
+        wanted.refuse("not-positive", f"`{name}` must be positive, but `{scalar.text}` is not", scalar.place)
     return Measured(declared.symbol, value.number, value.unit, value.si)
 
 
-def read_value(name: str, node: Node, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
+def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
     """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
     wanted = _Wanted(name, kind, notes)
     value = _value(_scalar(node, wanted), wanted, symbols)
@@ -157,7 +157,7 @@ def _wanted(name: str, kind: Kind, notes: tuple[str, ...], numbers: Mapping[Symb
 
 
 def _read_one(
-    node: Node, kind: Kind, wanted: _Wanted, symbols: Mapping[str, Declared]
+    node: Tree, kind: Kind, wanted: _Wanted, symbols: Mapping[str, Declared]
 ) -> tuple[Expr | _Number, ...] | Direction:
     if kind is DIRECTION:
         return _direction(node, wanted, symbols)
@@ -173,7 +173,7 @@ def _read_one(
     return tuple(values)
 
 
-def _three(node: Node, wanted: _Wanted, what: str, help: str) -> tuple[Node, ...]:
+def _three(node: Tree, wanted: _Wanted, what: str, help: str) -> tuple[Tree, ...]:
     if not isinstance(node, Sequence):
         wanted.refuse("wrong-kind", f"`{wanted.name}` must be {what}, but it is {shape_of(node)}", node.place, help)
     if (n := len(node.items)) != 3:
@@ -184,7 +184,7 @@ def _three(node: Node, wanted: _Wanted, what: str, help: str) -> tuple[Node, ...
     return node.items
 
 
-def _scalar(node: Node, wanted: _Wanted, where: Place | None = None) -> Scalar:
+def _scalar(node: Tree, wanted: _Wanted, where: Place | None = None) -> Scalar:
     if isinstance(node, Scalar) and not node.empty:
         return node
     if isinstance(node, Scalar):
@@ -270,7 +270,7 @@ def _unit_example(kind: str) -> str:
     return f"write it as `1.5 {unit}`" if unit else "write it as `1.5`"
 
 
-def _direction(node: Node, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Direction:
+def _direction(node: Tree, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Direction:
     names = ", ".join(f"`{name}`" for name in DIRECTION_NAMES)
     if isinstance(node, Scalar) and not node.empty:
         if node.text not in DIRECTION_NAMES:

@@ -7,10 +7,12 @@ Text is data. It has no mathematics, TeX or template commands of its own; whoeve
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import cached_property
 
-from derive.course.yaml_tree import Node, Scalar, abridged, shape_of
+from derive.course.schema import TEXT, Reader, wrong_type
+from derive.course.yaml_tree import Scalar, Tree, abridged, shape_of
 from derive.errors import Faults, Place
 
 EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
@@ -35,29 +37,26 @@ class Mention:
 
 @dataclass(frozen=True)
 class Prose:
-    """Text with mentions; `pieces` is all of it in order, so that nobody needs to parse it again."""
+    """Text with mentions; `pieces` is all of it in order, so that nobody needs to parse it again.
 
-    scalar: Scalar
+    `place_within` is where so many characters from an index of the text stand.
+    """
 
-    @property
-    def text(self) -> str:
-        return self.scalar.text.strip()
-
-    @property
-    def place(self) -> Place:
-        return self.scalar.place
+    text: str
+    place: Place
+    place_within: Callable[[int, int], Place] = field(repr=False, compare=False)
 
     @cached_property
     def pieces(self) -> tuple[str | Mention, ...]:
         pieces: list[str | Mention] = []
         end = 0
-        for match in _MENTION.finditer(self.scalar.text):
-            pieces.append(self.scalar.text[end : match.start()])
-            place = self.scalar.place_within(match.start(), len(match[0]))
+        for match in _MENTION.finditer(self.text):
+            pieces.append(self.text[end : match.start()])
+            place = self.place_within(match.start(), len(match[0]))
             of = PROBLEM if match["problem"] else match["of"] or ""
             pieces.append(Mention(match["name"] or match["problem"] or "", place, of))
             end = match.end()
-        pieces.append(self.scalar.text[end:])
+        pieces.append(self.text[end:])
         return tuple(piece for piece in pieces if piece)
 
     @property
@@ -69,7 +68,7 @@ class Prose:
         return next((mention.place for mention in self.mentions if mention.name == name), self.place)
 
 
-def read_prose(node: Node, what: str, faults: Faults) -> Prose | None:
+def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
     """The prose of a node, or nothing after a complaint."""
     if not isinstance(node, Scalar):
         faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
@@ -83,4 +82,14 @@ def read_prose(node: Node, what: str, faults: Faults) -> Prose | None:
         place = node.source.place(node.end + comment.end() - 1)
         help_line = "put the whole text in quotes"
         faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
-    return Prose(node)
+    return Prose(node.text, node.place, node.place_within)
+
+
+def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
+    if isinstance(node, Scalar) and node.empty:
+        wrong_type(faults, f"`{what}`", "text", node)
+    return read_prose(node, what, faults)
+
+
+PROSE = Reader(TEXT.schema, _some_prose)
+PROSE_OR_NOTHING = Reader(TEXT.schema, read_prose)

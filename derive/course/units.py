@@ -10,48 +10,51 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-
-from sympy import Expr, Integer, Rational, pi
+from typing import TYPE_CHECKING
 
 from derive.algebra.dimensions import NUMBER, Dimension, angles_of_kind, dimension_of_kind, kind_with_article, named
 from derive.errors import Place, did_you_mean, rejected
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 _MASS, _LENGTH, _TIME = (dimension_of_kind(kind) for kind in ("mass", "length", "time"))
 _FORCE, _ENERGY = dimension_of_kind("force"), dimension_of_kind("energy")
 MAX_TEXT = 40
 MAX_EXPONENT = 9
 
-# name -> (exact SI value, dimension, power of an angle). A radian is 1 and `Hz` is 1/s: a turn is said as `rev`.
-_UNITS: dict[str, tuple[Expr, Dimension, int]] = {
-    "m": (Integer(1), _LENGTH, 0),
-    "mm": (Rational(1, 1000), _LENGTH, 0),
-    "cm": (Rational(1, 100), _LENGTH, 0),
-    "km": (Integer(1000), _LENGTH, 0),
-    "in": (Rational("0.0254"), _LENGTH, 0),
-    "ft": (Rational("0.3048"), _LENGTH, 0),
-    "kg": (Integer(1), _MASS, 0),
-    "g": (Rational(1, 1000), _MASS, 0),
-    "t": (Integer(1000), _MASS, 0),
-    "lb": (Rational("0.45359237"), _MASS, 0),
-    "s": (Integer(1), _TIME, 0),
-    "ms": (Rational(1, 1000), _TIME, 0),
-    "min": (Integer(60), _TIME, 0),
-    "h": (Integer(3600), _TIME, 0),
-    "rad": (Integer(1), NUMBER, 1),
-    "deg": (pi / 180, NUMBER, 1),
-    "degree": (pi / 180, NUMBER, 1),
-    "degrees": (pi / 180, NUMBER, 1),
-    "rev": (2 * pi, NUMBER, 1),
-    "rpm": (pi / 30, NUMBER / _TIME, 1),
-    "Hz": (Integer(1), NUMBER / _TIME, 0),
-    "N": (Integer(1), _FORCE, 0),
-    "kN": (Integer(1000), _FORCE, 0),
-    "J": (Integer(1), _ENERGY, 0),
-    "kJ": (Integer(1000), _ENERGY, 0),
-    "W": (Integer(1), _ENERGY / _TIME, 0),
-    "kW": (Integer(1000), _ENERGY / _TIME, 0),
-    "Pa": (Integer(1), _FORCE / _LENGTH**2, 0),
-    "kPa": (Integer(1000), _FORCE / _LENGTH**2, 0),
+# name -> (its SI value as a fraction and a power of pi, dimension, power of an angle). A radian is 1 and `Hz` is 1/s: a
+# turn is said as `rev`.
+_UNITS: dict[str, tuple[Fraction, int, Dimension, int]] = {
+    "m": (Fraction(1), 0, _LENGTH, 0),
+    "mm": (Fraction(1, 1000), 0, _LENGTH, 0),
+    "cm": (Fraction(1, 100), 0, _LENGTH, 0),
+    "km": (Fraction(1000), 0, _LENGTH, 0),
+    "in": (Fraction("0.0254"), 0, _LENGTH, 0),
+    "ft": (Fraction("0.3048"), 0, _LENGTH, 0),
+    "kg": (Fraction(1), 0, _MASS, 0),
+    "g": (Fraction(1, 1000), 0, _MASS, 0),
+    "t": (Fraction(1000), 0, _MASS, 0),
+    "lb": (Fraction("0.45359237"), 0, _MASS, 0),
+    "s": (Fraction(1), 0, _TIME, 0),
+    "ms": (Fraction(1, 1000), 0, _TIME, 0),
+    "min": (Fraction(60), 0, _TIME, 0),
+    "h": (Fraction(3600), 0, _TIME, 0),
+    "rad": (Fraction(1), 0, NUMBER, 1),
+    "deg": (Fraction(1, 180), 1, NUMBER, 1),
+    "degree": (Fraction(1, 180), 1, NUMBER, 1),
+    "degrees": (Fraction(1, 180), 1, NUMBER, 1),
+    "rev": (Fraction(2), 1, NUMBER, 1),
+    "rpm": (Fraction(1, 30), 1, NUMBER / _TIME, 1),
+    "Hz": (Fraction(1), 0, NUMBER / _TIME, 0),
+    "N": (Fraction(1), 0, _FORCE, 0),
+    "kN": (Fraction(1000), 0, _FORCE, 0),
+    "J": (Fraction(1), 0, _ENERGY, 0),
+    "kJ": (Fraction(1000), 0, _ENERGY, 0),
+    "W": (Fraction(1), 0, _ENERGY / _TIME, 0),
+    "kW": (Fraction(1000), 0, _ENERGY / _TIME, 0),
+    "Pa": (Fraction(1), 0, _FORCE / _LENGTH**2, 0),
+    "kPa": (Fraction(1000), 0, _FORCE / _LENGTH**2, 0),
 }
 UNIT_NAMES = tuple(_UNITS)
 _OF_ANOTHER_KIND = {"torque": ("J", "kJ")}  # a torque is in N m; in joules it would be an energy
@@ -68,10 +71,18 @@ class Unit:
     """A unit as written, its exact value in the SI, its dimension and power of an angle, and its factors."""
 
     text: str
-    factor: Expr
+    rational: Fraction
+    power_of_pi: int
     dimension: Dimension
     factors: tuple[tuple[str, int], ...] = ()
     angles: int = 0
+
+    @property
+    def factor(self) -> Expr:
+        """What one of it is in the SI, for whoever calculates."""
+        from sympy import Rational, pi  # a unit is read, and refused, without it
+
+        return Rational(self.rational.numerator, self.rational.denominator) * pi**self.power_of_pi
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -84,13 +95,12 @@ def read_unit(text: str, place: Place | None = None) -> Unit:
     if not text or len(text) > MAX_TEXT:
         rejected("unknown-unit", "a unit is missing" if not text else "this unit is too long", place)
     factors = tuple(_factors(text, place))
-    factor: Expr = Integer(1)
-    dimension, angles = NUMBER, 0
+    rational, power_of_pi, dimension, angles = Fraction(1), 0, NUMBER, 0
     for name, power in factors:
-        value, its_dimension, its_angles = _UNITS[name]
-        factor, dimension = factor * value**power, dimension * its_dimension ** Fraction(power)
-        angles += its_angles * power
-    return Unit(text, factor, dimension, factors, angles)
+        value, its_power_of_pi, its_dimension, its_angles = _UNITS[name]
+        rational, dimension = rational * value**power, dimension * its_dimension ** Fraction(power)
+        power_of_pi, angles = power_of_pi + its_power_of_pi * power, angles + its_angles * power
+    return Unit(text, rational, power_of_pi, dimension, factors, angles)
 
 
 @dataclass(frozen=True)

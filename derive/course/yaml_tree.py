@@ -80,6 +80,18 @@ class Source:
         return self.place(min(self._starts[line - 1] + max(0, column - 1), len(self.text)), width)
 
 
+class Word(str):
+    """A word of a file, and where it stands."""
+
+    place: Place
+
+    @classmethod
+    def at(cls, text: str, place: Place) -> Word:
+        word = cls(text)
+        word.place = place
+        return word
+
+
 @dataclass(frozen=True)
 class Scalar:
     """Text, and how it was written; `style` is YAML's: `''` plain, `'`, `"`, `>` or `|`."""
@@ -102,6 +114,10 @@ class Scalar:
     @property
     def place(self) -> Place:
         return self.source.place(self.start, self.end - self.start)
+
+    @property
+    def word(self) -> Word:
+        return Word.at(self.text, self.place)
 
     def place_within(self, offset: int, width: int = 1) -> Place:
         """The place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
@@ -149,20 +165,20 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
 
 @dataclass(frozen=True)
 class Sequence:
-    items: tuple[Node, ...]
+    items: tuple[Tree, ...]
     place: Place
 
 
 @dataclass(frozen=True)
 class Mapping:
-    pairs: tuple[tuple[Scalar, Node], ...]
+    pairs: tuple[tuple[Scalar, Tree], ...]
     place: Place
 
     @cached_property
-    def _by_name(self) -> dict[str, tuple[Scalar, Node]]:
+    def _by_name(self) -> dict[str, tuple[Scalar, Tree]]:
         return {key.text: (key, value) for key, value in self.pairs}
 
-    def get(self, key: str) -> Node | None:
+    def get(self, key: str) -> Tree | None:
         return self._by_name[key][1] if key in self._by_name else None
 
     def key(self, name: str) -> Scalar | None:
@@ -170,14 +186,17 @@ class Mapping:
         return self._by_name[name][0] if name in self._by_name else None
 
     @property
-    def names(self) -> tuple[str, ...]:
-        return tuple(k.text for k, _ in self.pairs)
+    def places(self) -> dict[str, Place]:
+        """Where each key stands, and each key within it, `show.spin`."""
+        found = {key.text: key.place for key, _ in self.pairs}
+        inner = ((key.text, value.places) for key, value in self.pairs if isinstance(value, Mapping))
+        return found | {f"{key}.{name}": place for key, places in inner for name, place in places.items()}
 
 
-Node: TypeAlias = Scalar | Sequence | Mapping
+Tree: TypeAlias = Scalar | Sequence | Mapping
 
 
-def shape_of(node: Node) -> str:
+def shape_of(node: Tree) -> str:
     """What a node is, in words for a message."""
     if isinstance(node, Scalar):
         return "empty" if node.empty and not node.quoted else f"`{abridged(node.text)}`"
@@ -216,12 +235,12 @@ def read_source(path: Path, shown_as: str, *, limit: int = MAX_BYTES) -> Source:
     return Source(shown_as, text)
 
 
-def read_yaml(path: Path, shown_as: str) -> Node:
+def read_yaml(path: Path, shown_as: str) -> Tree:
     """The tree of a YAML file; `shown_as` is its path in messages."""
     return yaml_tree(read_source(path, shown_as))
 
 
-def yaml_tree(source: Source) -> Node:
+def yaml_tree(source: Source) -> Tree:
     """The tree of a YAML text, or one `Rejected` with every fault of its form."""
     faults = Faults()
     for odd in islice(_ODD.finditer(source.text), 5):
@@ -245,8 +264,8 @@ class _Reader:
         self.odd_lines: set[int] = set()
         self.events: Iterator[Any] = iter(yaml.parse(source.text, Loader=yaml.SafeLoader))
 
-    def tree(self) -> Node:
-        root: Node | None = None
+    def tree(self) -> Tree:
+        root: Tree | None = None
         try:
             for event in self.events:
                 if isinstance(event, yaml.DocumentStartEvent) and root is not None:
@@ -272,7 +291,7 @@ class _Reader:
         self.odd_lines.add(place.line)
         self.faults.error(code, message, place, help=help)
 
-    def node(self, event: Any, depth: int) -> Node:
+    def node(self, event: Any, depth: int) -> Tree:
         start, end = event.start_mark.index, event.end_mark.index
         if depth > MAX_DEPTH:
             self.refuse("too-deep", f"this is nested more than {MAX_DEPTH} deep", event, 1)
@@ -293,7 +312,7 @@ class _Reader:
         return Scalar(event.value, event.style or "", start, end, self.source)
 
     def mapping(self, start: int, depth: int) -> Mapping:
-        pairs: dict[str, tuple[Scalar, Node]] = {}
+        pairs: dict[str, tuple[Scalar, Tree]] = {}
         while not isinstance(event := next(self.events), yaml.MappingEndEvent):
             key = self.node(event, depth + 1)
             value = self.node(next(self.events), depth + 1)

@@ -16,8 +16,9 @@ from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import LEAST_SURE_FIRST, Grade
 from derive.algebra.expressions import Amount, Relation, Truncated
 from derive.course.parts import Part
-from derive.course.problem import ANY_OUTCOME, Problem
+from derive.course.problem import Problem
 from derive.course.reference.comparison import Told
+from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.checks import Checks, checks_of

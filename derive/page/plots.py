@@ -11,7 +11,7 @@ from typing import Any
 from sympy import Expr, Symbol, pi
 
 from derive.algebra.expressions import explicit
-from derive.course.given import Measured, read_value
+from derive.course.given import Measured
 from derive.course.placement import Placement
 from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected
@@ -62,9 +62,8 @@ def _unit(kind: str) -> str:
 def _range(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[Expr, Expr]:
     ends = [plot.lower, plot.upper]
     place = placement.place if placement else problem.place_of("solve")
-    if placement and placement.ends:
-        ends = [read_value("range", end, plot.of, {}) for end in placement.ends]
-        place = placement.ends[0].place
+    if placement and placement.range:
+        ends, place = placement.range.of_kind(plot.of), placement.range.place
     lower, upper = ends
     if not (lower.is_number and upper.is_number and lower < upper):
         raise Rejected(

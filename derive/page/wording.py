@@ -21,8 +21,9 @@ from derive.algebra.dimensions import Dimension, unit_of_dimension, unit_of_kind
 from derive.algebra.expressions import AXES, Amount, scalar
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
-from derive.course.problem import ANY_OUTCOME, Problem
+from derive.course.problem import Problem
 from derive.course.prose import Mention
+from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, read_phrases
 from derive.steps.derivation import Derivation

@@ -26,8 +26,8 @@ from derive.building.tex import chosen_engine, typeset
 from derive.building.workers import Job, done, job_of, memory_limit
 from derive.cli.options import main
 from derive.cli.terminal import complain
-from derive.course import problem
-from derive.course.problem import ProblemSet, problem_set
+from derive.course import problem_set as sets_of_problems
+from derive.course.problem_set import ProblemSet, problem_set
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Rejected
 from derive.page.phrasebook import read_phrases
 from derive.page.wording import phrases
@@ -321,7 +321,7 @@ def test_a_name_that_make_cannot_have_is_left_out_with_one_warning(
 
 
 def test_names_of_sets_are_read_alike_in_both_places() -> None:
-    assert build.SET_NAME.pattern == problem._ID.pattern
+    assert build.SET_NAME.pattern == sets_of_problems._ID.pattern
 
 
 def test_the_makefile_has_the_same_reserved_names() -> None:
@@ -537,5 +537,5 @@ def test_the_heading_of_a_set_is_read_by_a_worker(course: Course, monkeypatch: p
         assert os.getpid() != parent
         return read(root, set_id)
 
-    monkeypatch.setattr(problem, "problem_set", watched)
+    monkeypatch.setattr(sets_of_problems, "problem_set", watched)
     assert not built(course).failed

@@ -10,7 +10,7 @@ from pypdf import PdfReader
 
 from derive.building.set_document import problem_document, set_document
 from derive.building.tex import chosen_engine, typeset
-from derive.course.problem import problem_set
+from derive.course.problem_set import problem_set
 from tests.courses import course_in, rendered_once
 
 

@@ -15,8 +15,8 @@ from derive.building import tex as engine_runs
 from derive.building.set_document import COLUMNS, problem_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
-from derive.course import problem
-from derive.course.problem import problem_set
+from derive.course import problem_set as sets_of_problems
+from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered
 from tests.building.test_pages import squeezed
@@ -307,4 +307,4 @@ def test_an_empty_set_is_told_to_be_empty(tmp_path: Path) -> None:
 
 
 def test_no_problem_takes_the_name_of_a_document() -> None:
-    assert problem.DOCUMENTS == manifest.DOCUMENTS
+    assert sets_of_problems.DOCUMENTS == manifest.DOCUMENTS

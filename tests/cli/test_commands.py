@@ -6,6 +6,7 @@ import json
 import os
 import pty
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from fake_course import Course, stand_in_course
 
 import derive
 from derive.cli.options import main
+from tests.courses import course_in
 
 PACKAGE = Path(derive.__file__).resolve().parent.parent
 
@@ -41,7 +43,11 @@ def command(*arguments: str) -> list[str]:
 
 
 def alone(course: Course) -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": str(PACKAGE)}
+    return alone_in(course.root)
+
+
+def alone_in(root: Path) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(PACKAGE), "DERIVE_ROOT": str(root)}
 
 
 def test_help_and_version_import_no_heavy_package() -> None:
@@ -200,6 +206,24 @@ def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: py
     assert heading.split() == ["problem", "points", "title"]
     assert first.split() == ["hw1/one", "3", "A", "block"]
     assert second.split(maxsplit=1) == ["hw1/two", "(does not read: `mass` must be a mass)"]
+
+
+def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -> None:
+    title = {"about <<axis>>\nsolve": "about its axis\nsolve"}
+    root = course_in(tmp_path, title)
+    course_in(tmp_path / "wrong", {**title, "answer: inertia_tensor": "answers: inertia_tensor"})
+    shutil.copytree(tmp_path / "wrong" / "problems" / "hw9", tmp_path / "problems" / "hw8")
+    code = (
+        "import sys; from derive.building.headline import headline; from pathlib import Path\n"
+        "print(headline(Path.cwd(), 'hw9/block'), sorted({'sympy', 'derive.course.latex'} & set(sys.modules)))\n"
+        "from derive.cli.options import main; main(['list']); print('sympy' in sys.modules)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=alone_in(root), cwd=root)
+    first, _, wrong, right, last = done.stdout.splitlines()
+    assert first == "('10', 'A block turning about its axis') []"
+    assert wrong.split(maxsplit=1) == ["hw8/block", "(does not read: a part has no key `answers`)"]
+    assert right.split(maxsplit=2) == ["hw9/block", "10", "A block turning about its axis"]
+    assert last == "False"
 
 
 def test_the_root_is_found_above_and_by_name(

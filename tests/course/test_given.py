@@ -227,7 +227,9 @@ def test_a_direction_is_a_name_or_components_of_one_dimension() -> None:
 def measured(text: str) -> Measured:
     node = yaml_tree(Source("p.yaml", text))
     assert isinstance(node, Mapping)
-    return read_measured(*node.pairs[0], declared({**BLOCK, "n": "number", "theta": "angle", "tau": "torque"}))
+    return read_measured(
+        node.pairs[0][0].word, node.pairs[0][1], declared({**BLOCK, "n": "number", "theta": "angle", "tau": "torque"})
+    )
 
 
 def test_a_number_is_attached_to_a_declared_letter() -> None:

@@ -13,9 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational, pi
 
-from derive.course.problem import ANY_OUTCOME, Problem, load_problem, problem_ids, problem_set, run_solve, set_ids
+from derive.course.problem import Problem, load_problem, run_solve
+from derive.course.problem_set import problem_ids, problem_set, set_ids
 from derive.course.prose import Mention, read_prose
-from derive.course.schema import PROBLEM_KEYS, problem_schema, reference_schema
+from derive.course.reference.statements import reference_schema
+from derive.course.schema import keys_of
+from derive.course.written import ANY_OUTCOME, ProblemKeys, problem_schema
 from derive.course.yaml_tree import Scalar, Source
 from derive.errors import DeriveError, Faults, Misused, Rejected
 
@@ -157,7 +160,7 @@ def test_what_prose_mentions_is_placed(tmp_path: Path) -> None:
 def test_prose_is_data_and_tex_in_it_is_text(tmp_path: Path) -> None:
     text = r"100% of _it_ # \input{/etc/passwd} \write18{x} $x$ {{ 7*7 }} ~ ^ &"
     problem = loaded(tmp_path, ("  at the rate <<rate>>.", f"  {text}"))
-    assert problem.statement.text.endswith(text)
+    assert problem.statement.text.endswith(f"{text}\n")
 
 
 def test_pieces_of_prose_are_all_of_it_in_order() -> None:
@@ -351,7 +354,7 @@ def test_a_set_that_does_not_exist_is_met_with_the_nearest(tmp_path: Path) -> No
 
 def test_the_schema_for_editors_is_current() -> None:
     file = Path(__file__).parents[2] / "templates" / "problem.schema.json"
-    assert file.read_text(encoding="utf-8") == problem_schema(), "write `schema.problem_schema()` to that file"
+    assert file.read_text(encoding="utf-8") == problem_schema(), "write what `problem_schema()` gives to it"
 
 
 def test_the_schema_of_references_is_current() -> None:
@@ -361,5 +364,5 @@ def test_the_schema_of_references_is_current() -> None:
 
 def test_the_schema_knows_every_key_and_what_is_required() -> None:
     schema = json.loads(problem_schema())
-    assert set(schema["properties"]) == set(PROBLEM_KEYS)
+    assert set(schema["properties"]) == set(keys_of(ProblemKeys))
     assert schema["required"] == ["title", "solve", "statement", "parts"]

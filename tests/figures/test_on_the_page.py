@@ -13,7 +13,7 @@ from derive.building import drawn
 from derive.building.set_document import problem_document
 from derive.building.sets import Options, built_set
 from derive.building.solution import rendered
-from derive.course.problem import problem_set
+from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered
 from tests.building.test_stored import forbid_deriving

@@ -14,10 +14,32 @@ from sympy import Expr, Symbol
 
 from derive.algebra.dimensions import Dimension
 from derive.course.expression import Declared, read_expression
-from derive.course.problem import Problem, ProblemReader, problem_ids
-from derive.course.schema import ENTRY_KEYS, ERRATUM_KEYS, GROUP_KEYS, MAX_FIGURES, check_keys, read_text, wrong_type
+from derive.course.parts import UNIT
+from derive.course.problem import Problem, pinned_by
+from derive.course.problem_set import problem_ids
+from derive.course.schema import (
+    FIGURES,
+    MAX_FIGURES,
+    SCALAR,
+    TEXT,
+    Reader,
+    Record,
+    as_written,
+    check_keys,
+    key,
+    keys_of,
+    list_of,
+    mapping_of,
+    object_schema,
+    one_or_more,
+    read_record,
+    record_of,
+    schema_for_editors,
+    wrong_type,
+)
 from derive.course.units import Unit, read_unit
-from derive.course.yaml_tree import Mapping, Node, Scalar, Sequence, read_yaml
+from derive.course.written import GIVEN, SYMBOLS, VALUES
+from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml
 from derive.errors import Faults, Place, did_you_mean
 
 _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9_]+)?")
@@ -81,6 +103,80 @@ class Entry:
     times: Statement | None = None
 
 
+SCALAR_TEXT = Reader(SCALAR.schema, TEXT.read)
+_ANY_VALUE = as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 3, "maxItems": 3}]})
+
+
+@dataclass(frozen=True)
+class ErratumKeys(Record):
+    """The keys of `erratum:`."""
+
+    why: str = key("what is wrong, in a few words", TEXT, required=True, absent=str)
+    right: Tree | None = key("the value that it should state", _ANY_VALUE, required=True)
+
+
+@dataclass(frozen=True)
+class EntryKeys(Record):
+    """The keys of one of `entries:`."""
+
+    part: Word | None = key("the part of the document", SCALAR_TEXT)
+    answer: Word | None = key("the key of the step that has this value", TEXT, required=True)
+    states: Tree | None = key("the value: an expression, 3 of them, or 3 rows of 3", _ANY_VALUE)
+    latex: Tree | None = key(
+        "the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared", SCALAR
+    )
+    to: Tree | None = key(
+        "decimals agree to so many figures; a list has one number for each entry, or for each of two branches",
+        as_written(one_or_more(FIGURES.schema)),
+    )
+    unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
+    put_in: Tree | None = key(
+        "letters for which the document has put in numbers; those of `values` are put in on both sides",
+        as_written(one_or_more(TEXT.schema)),
+        called="with",
+    )
+    times: Tree | None = key("the document's equation is the derived one multiplied by this", SCALAR)
+    erratum: ErratumKeys | None = key(
+        "the document is wrong here", record_of(ErratumKeys, "an erratum", "a mapping with `why` and `right`", "`{}`")
+    )
+
+
+_ENTRY = record_of(EntryKeys, "an entry", "a mapping with `answer` and `states` or `latex`")
+
+
+@dataclass(frozen=True)
+class GroupKeys(Record):
+    """The keys of a group."""
+
+    problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
+    symbols: dict[Word, str] = key(
+        "letters of the document and their kinds, also those that steps bring in", SYMBOLS, absent=dict
+    )
+    given: dict[Word, Tree] | None = key(
+        "what the document starts from, as in the problem's file", GIVEN, required=True
+    )
+    letters: dict[Word, Tree] = key(
+        "letters of the document that are called otherwise here: `I_1: I_xx`",
+        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
+        absent=dict,
+    )
+    values: dict[Word, Tree] = key(
+        "numbers for letters, put in where a stated value lacks the letter", VALUES, absent=dict
+    )
+    entries: tuple[EntryKeys, ...] = key(
+        "the values that the document states",
+        list_of(_ENTRY, "a list of entries"),
+        required=True,
+        absent=tuple,
+    )
+
+
+def reference_schema() -> str:
+    """The JSON schema of what a document states."""
+    groups = {"type": "array", "items": object_schema(GroupKeys), "minItems": 1}
+    return schema_for_editors("What a document states", groups)
+
+
 def reference_path(problem: Problem) -> str:
     """Where the references of its set are, whether or not there are any; relative to the root."""
     return f"problems/{problem.set_id}/reference.yaml"
@@ -105,74 +201,49 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     return groups
 
 
-def _group(node: Node, problem: Problem, ids: list[str], faults: Faults) -> tuple[Problem, list[Entry]] | None:
+def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tuple[Problem, list[Entry]] | None:
     if not isinstance(node, Mapping):
         wrong_type(faults, "a group", "a mapping with `problem`, `given` and `entries`", node)
         return None
-    name = read_text(node, "problem", faults)
-    if name is not None and f"{problem.set_id}/{name}" not in ids:
-        place = node.get("problem")
+    named = node.get("problem")
+    name = TEXT.read(named, "problem", faults) if named else None
+    if name is None:
+        check_keys(node, keys_of(GroupKeys), "a group", faults)
+    elif f"{problem.set_id}/{name}" not in ids:
         help_line = did_you_mean(name, (i.partition("/")[2] for i in ids if i.startswith(f"{problem.set_id}/")))
-        message = f"there is no problem `{name}` in this set"
-        faults.error("no-such-problem", message, place.place if place else node.place, help=help_line)
-    elif name is None:
-        check_keys(node, GROUP_KEYS, "a group", faults)
+        faults.error("no-such-problem", f"there is no problem `{name}` in this set", name.place, help=help_line)
     elif f"{problem.set_id}/{name}" == problem.id:
-        check_keys(node, GROUP_KEYS, "a group", faults)
-        pinned = _pinned(problem, node, faults)
-        return pinned, _entries(node, pinned, faults)
+        group = read_record(GroupKeys, node, "a group", faults)
+        # Its parts and its words do not matter here.
+        pinned = replace(problem, places=group.places, **vars(pinned_by(group, problem.script, faults)))
+        return pinned, _entries(group, pinned, faults)
     return None
 
 
-def _pinned(problem: Problem, node: Mapping, faults: Faults) -> Problem:
-    """The problem with the symbols, the given and the values of a group; its parts and its words do not matter here."""
-    loader = ProblemReader(problem.root, problem.id, reference_path(problem), node)
-    loader.faults = faults
-    symbols = loader.symbols()
-    values = loader.values(symbols)
-    givens, symbols = loader.givens(problem.script, symbols, values) if node.get("given") else ((), symbols)
-    measured = (*values, *(measured for given in givens for measured in given.measured))
-    return replace(problem, symbols=symbols, givens=givens, measured=measured, places=loader.places)
-
-
-def _entries(group: Mapping, pinned: Problem, faults: Faults) -> list[Entry]:
-    node = group.get("entries")
-    if node is None:
-        return []
-    if not isinstance(node, Sequence):
-        wrong_type(faults, "`entries`", "a list of entries", node)
-        return []
-    if not node.items:
-        faults.error("missing-value", "`entries` must be a list of entries, but it is empty", node.place)
+def _entries(group: GroupKeys, pinned: Problem, faults: Faults) -> list[Entry]:
     # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
     # the derivation knows of it comes back when the two are compared.
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in pinned.symbols.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
-    reader = _EntryReader(
-        letters, {**letters, **_called_otherwise(group.get("letters"), letters, faults)}, numbers, faults
-    )
-    return [entry for item in node.items if (entry := reader.entry(item))]
+    printed = {**letters, **_called_otherwise(group.letters, letters, faults)}
+    reader = _EntryReader(letters, printed, numbers, faults)
+    return [entry for written in group.entries if (entry := reader.entry(written))]
 
 
-def _called_otherwise(node: Node | None, letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
+def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
     """The letters that the document has for ours: `I_1: I_xx`."""
-    if node is None:
-        return {}
-    if not isinstance(node, Mapping):
-        wrong_type(faults, "`letters`", "a mapping such as `I_1: I_xx`", node)
-        return {}
     found: dict[str, Declared] = {}
-    for key, value in node.pairs:
+    for name, value in written.items():
         ours = value.text if isinstance(value, Scalar) else ""
-        if not _LETTER.fullmatch(key.text):
-            faults.error("letter", f"`{key.text}` is not a letter or a name such as `omega_1`", key.place)
-        elif (twice := next((name for name, known in found.items() if known is letters.get(ours)), None)) is not None:
-            message = f"`{twice}` and `{key.text}` both stand for `{ours}`, so that one could be taken for the other"
+        if not _LETTER.fullmatch(name):
+            faults.error("letter", f"`{name}` is not a letter or a name such as `omega_1`", name.place)
+        elif (twice := next((other for other, known in found.items() if known is letters.get(ours)), None)) is not None:
+            message = f"`{twice}` and `{name}` both stand for `{ours}`, so that one could be taken for the other"
             faults.error("letter-clash", message, value.place)
         elif ours in letters:
-            found[key.text] = letters[ours]
+            found[str(name)] = letters[ours]
         elif not ours:
-            wrong_type(faults, f"`{key.text}`", "one of our letters", value)
+            wrong_type(faults, f"`{name}`", "one of our letters", value)
         else:
             help_line = did_you_mean(ours, letters) or "declare it under `symbols:`"
             faults.error("undeclared-symbol", f"`{ours}` is not declared", value.place, help=help_line)
@@ -188,49 +259,43 @@ class _EntryReader:
         self.numbers = numbers
         self.faults = faults
 
-    def entry(self, node: Node) -> Entry | None:
-        if not isinstance(node, Mapping):
-            wrong_type(self.faults, "an entry", "a mapping with `answer` and `states` or `latex`", node)
-            return None
-        check_keys(node, ENTRY_KEYS, "an entry", self.faults)
-        answer, part, unit = (read_text(node, key, self.faults) for key in ("answer", "part", "in"))
-        put_in = self.put_in(node.get("with"))
-        states = self.statement(node, put_in)
-        why, right = self.erratum(node, put_in)
-        factor = self.factor(node)
-        read = None
+    def entry(self, written: EntryKeys) -> Entry | None:
+        put_in = self.put_in(written.put_in)
+        states = self.statement(written, put_in)
+        why, right = self.erratum(written, put_in)
+        factor = self.factor(written)
+        unit = None
         with self.faults:
-            read = read_unit(unit, _place(node, "in")) if unit else None
-        figures = _figures(node.get("to"), states, self.faults)
-        if answer is None or states is None:
+            unit = read_unit(written.unit, written.unit.place) if written.unit else None
+        figures = _figures(written.to, states, self.faults)
+        if written.answer is None or states is None:
             return None
-        return Entry(answer, part, states, right, why, figures, read, _place(node, "answer"), put_in, factor)
+        place = written.answer.place
+        return Entry(written.answer, written.part, states, right, why, figures, unit, place, put_in, factor)
 
-    def factor(self, entry: Mapping) -> Statement | None:
-        node = entry.get("times")
+    def factor(self, entry: EntryKeys) -> Statement | None:
+        node = entry.times
         if node is None:
             return None
-        read = self.one(node, "`times`", entry.get("latex") is not None, True)
+        read = self.one(node, "`times`", entry.latex is not None, True)
         if read and (len(read.sides) > 1 or read.sides[0].shape or len(read.sides[0].branches) > 1):
             self.faults.error("wrong-type", "`times` must be one scalar", node.place)
         return read
 
-    def statement(self, node: Mapping, put_in: tuple[str, ...]) -> Statement | None:
+    def statement(self, entry: EntryKeys, put_in: tuple[str, ...]) -> Statement | None:
         """What the entry states, in the one notation or the other; a slip of the document need not be homogeneous."""
-        plain, printed = node.get("states"), node.get("latex")
+        plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:
-            key = node.key("latex")
-            message = "an entry has `states` or `latex`, not both"
-            self.faults.error("two-values", message, key.place if key else node.place)
+            self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])
         elif plain is None and printed is None:
-            if not any(key.text not in ENTRY_KEYS for key, _ in node.pairs):  # a mistyped key is one fault, not two
-                message = f"an entry needs `states` or `latex`: {ENTRY_KEYS['states'].meaning}"
-                self.faults.error("missing-key", message, node.place)
+            if entry.values_at.keys() <= keys.keys():  # a mistyped key is one fault, not two
+                message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
+                self.faults.error("missing-key", message, entry.places[""])
         elif printed is not None:
-            return self.one(printed, "`latex`", True, node.get("erratum") is None and not put_in)
+            return self.one(printed, "`latex`", True, "erratum" not in entry.values_at and not put_in)
         return self.one(plain, "`states`", False, True) if plain is not None else None
 
-    def one(self, node: Node, key: str, printed: bool, homogeneous: bool) -> Statement | None:
+    def one(self, node: Tree, key: str, printed: bool, homogeneous: bool) -> Statement | None:
         if not printed:
             value = _stated(node, key, self.letters, self.faults)
             return Statement.of(value) if value else None
@@ -245,19 +310,13 @@ class _EntryReader:
             return Statement(sides, read.marks, " ".join(node.text.split()), node.place)
         return None
 
-    def erratum(self, entry: Mapping, put_in: tuple[str, ...]) -> tuple[str, Statement | None]:
-        node = entry.get("erratum")
-        if node is None:
-            return "", None
-        if not isinstance(node, Mapping):
-            wrong_type(self.faults, "`erratum`", "a mapping with `why` and `right`", node)
-            return "", None
-        check_keys(node, ERRATUM_KEYS, "an erratum", self.faults)
-        right = node.get("right")
-        why = read_text(node, "why", self.faults) or ""
-        return why, self.one(right, "`right`", entry.get("latex") is not None, not put_in) if right else None
+    def erratum(self, entry: EntryKeys, put_in: tuple[str, ...]) -> tuple[str, Statement | None]:
+        written = entry.erratum
+        if written is None or written.right is None:
+            return written.why if written else "", None
+        return written.why, self.one(written.right, "`right`", entry.latex is not None, not put_in)
 
-    def put_in(self, node: Node | None) -> tuple[str, ...]:
+    def put_in(self, node: Tree | None) -> tuple[str, ...]:
         """The letters whose numbers the document has put in; each must have a number of its own."""
         names = []
         for item in _items(node) if node is not None else ():
@@ -273,12 +332,7 @@ class _EntryReader:
         return tuple(names)
 
 
-def _place(node: Mapping, key: str) -> Place:
-    value = node.get(key)
-    return value.place if value else node.place
-
-
-def _stated(node: Node, key: str, letters: Table[str, Declared], faults: Faults) -> Stated | None:
+def _stated(node: Tree, key: str, letters: Table[str, Declared], faults: Faults) -> Stated | None:
     rows = [_items(item) for item in _items(node)]
     nested = any(isinstance(item, Sequence) for item in _items(node))
     lengths = [len(row) for row in rows]
@@ -299,17 +353,17 @@ def _stated(node: Node, key: str, letters: Table[str, Declared], faults: Faults)
     return None if len(entries) < len(scalars) else Stated((tuple(entries),), shape, _text(node), node.place)
 
 
-def _items(node: Node) -> tuple[Node, ...]:
+def _items(node: Tree) -> tuple[Tree, ...]:
     return node.items if isinstance(node, Sequence) else (node,)
 
 
-def _text(node: Node) -> str:
+def _text(node: Tree) -> str:
     if isinstance(node, Sequence):
         return "[" + ", ".join(_text(item) for item in node.items) + "]"
     return " ".join(node.text.split()) if isinstance(node, Scalar) else ""
 
 
-def _figures(node: Node | None, states: Statement | None, faults: Faults) -> tuple[int, ...]:
+def _figures(node: Tree | None, states: Statement | None, faults: Faults) -> tuple[int, ...]:
     if node is None:
         return ()
     items = _items(node)

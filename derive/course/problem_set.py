@@ -1,0 +1,130 @@
+"""Which problems and sets there are, and what a set's own file says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence as List
+from dataclasses import dataclass
+from pathlib import Path
+
+from derive.course.schema import TEXT, Record, as_written, key, read_record, wrong_type
+from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
+from derive.errors import Complaint, Faults, Misused, Rejected, did_you_mean, nearest
+
+DOCUMENTS = ("solutions", "problems")  # what a build calls the documents of the whole set
+_NOT_PROBLEMS = ("set", "reference")
+_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+
+
+@dataclass(frozen=True)
+class ProblemSet:
+    """The heading of a set, and the ids of its problems (`hw9/block`) in order."""
+
+    id: str
+    course: str
+    title: str
+    date: str | None
+    instructor: str | None
+    problems: tuple[str, ...]
+    inputs: tuple[str, ...]
+
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The number of each problem in the set, by its name."""
+        return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
+
+
+@dataclass(frozen=True)
+class SetKeys(Record):
+    """The keys of a set's file."""
+
+    course: Word | None = key("the course", TEXT, required=True)
+    title: Word | None = key("the heading of the set", TEXT, required=True)
+    date: Word | None = key("the date as it is to be printed", TEXT)
+    instructor: Word | None = key("who teaches the course", TEXT)
+    problems: Tree | None = key("names of the problems in order", as_written({}), required=True)
+
+
+def problem_ids(root: Path) -> list[str]:
+    """`hw9/block` for every problem file below the root."""
+    files = sorted((root / "problems").glob("*/*.yaml"))
+    return [f"{file.parent.name}/{file.stem}" for file in files if file.stem not in _NOT_PROBLEMS and _named_well(file)]
+
+
+def _named_well(file: Path) -> bool:
+    return bool(_ID.fullmatch(file.stem) and _ID.fullmatch(file.parent.name))
+
+
+def path_of(root: Path, problem_id: str) -> str:
+    """The problem's file, relative to the root, if there is such a problem."""
+    known = problem_ids(root)
+    if problem_id not in known:
+        raise Misused(
+            Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=_meant(problem_id, known))
+        )
+    return f"problems/{problem_id}.yaml"
+
+
+def _meant(problem_id: str, known: list[str]) -> str:
+    """The nearest id, by the whole or by the name after the set."""
+    by_name = {full.partition("/")[2]: full for full in reversed(known)}
+    close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
+    return f"did you mean `{close}`?" if close else "`derive list` shows the problems"
+
+
+def set_ids(root: Path) -> list[str]:
+    """Every folder below `problems/` that says it is a set."""
+    folders = sorted(file.parent.name for file in (root / "problems").glob("*/set.yaml"))
+    return [name for name in folders if _ID.fullmatch(name)]
+
+
+def problem_set(root: Path, set_id: str) -> ProblemSet:
+    """The set, or one `Rejected` with every fault of its file."""
+    known = set_ids(root)
+    if set_id not in known:
+        help_line = did_you_mean(set_id, known) or "`derive list` shows the sets"
+        raise Misused(Complaint("no-such-set", f"there is no set `{set_id}`", help=help_line))
+    path = f"problems/{set_id}/set.yaml"
+    faults = Faults()
+    written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
+    problems = _listed(written.problems, set_id, problem_ids(root), faults)
+    faults.stop()
+    return ProblemSet(
+        set_id, written.course or "", written.title or "", written.date, written.instructor, problems, (path,)
+    )
+
+
+def mapping_in(root: Path, path: str, what: str) -> Mapping:
+    """The mapping that a file must be."""
+    node = read_yaml(root / path, path)
+    if not isinstance(node, Mapping):
+        raise Rejected(Complaint("wrong-type", f"{what} must be a mapping, but this is {shape_of(node)}", node.place))
+    return node
+
+
+def _listed(node: Tree | None, set_id: str, known: List[str], faults: Faults) -> tuple[str, ...]:
+    if node is None:
+        return ()
+    if not isinstance(node, Sequence) or not node.items:
+        wrong_type(faults, "`problems`", "a list of names", node)
+        return ()
+    names = [full.partition("/")[2] for full in known if full.startswith(f"{set_id}/")]
+    found: list[str] = []
+    for item in node.items:
+        if not isinstance(item, Scalar) or item.empty:
+            wrong_type(faults, "a problem of the set", "a name", item)
+        elif item.text in DOCUMENTS:
+            message = f"a problem cannot be called `{item.text}`, for a document of the set has that name"
+            faults.error("reserved-name", message, item.place, help="rename its files")
+        elif item.text not in names:
+            help_line = did_you_mean(item.text, names)
+            message = f"there is no problem `{item.text}` in this set"
+            if item.text in known and not item.text.startswith(f"{set_id}/"):
+                message = f"`{item.text}` is a problem of another set"
+                help_line = f"copy its files to `problems/{set_id}/` and list it by its name alone"
+            faults.error("no-such-problem", message, item.place, help=help_line)
+        elif f"{set_id}/{item.text}" in found:
+            faults.error("duplicate-problem", f"`{item.text}` is listed twice", item.place)
+        else:
+            found.append(f"{set_id}/{item.text}")
+    return tuple(found)

@@ -1,0 +1,137 @@
+"""What a problem's file says, before its script is run and its expressions are read: all that needs no mathematics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping as Table
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from derive.algebra.dimensions import KINDS
+from derive.course.parts import PARTS, POINTS, Part, points_in_all
+from derive.course.problem_set import mapping_in, path_of
+from derive.course.prose import PROSE, PROSE_OR_NOTHING, Prose, read_prose
+from derive.course.schema import (
+    FIGURES,
+    SCALAR,
+    TEXT,
+    Reader,
+    Record,
+    as_written,
+    key,
+    list_of,
+    mapping_of,
+    object_schema,
+    one_of,
+    read_record,
+    record_of,
+    schema_for_editors,
+)
+from derive.course.yaml_tree import Mapping, Scalar, Tree, Word, shape_of
+from derive.errors import Faults, nearest
+
+ANY_OUTCOME = ""
+CHAIN = "chain"  # what a sentence calls the lines of its step
+_NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
+
+
+def _kind(node: Tree, name: str, faults: Faults) -> str:
+    """A kind; of one that is mistyped what was meant, so that the slip is not told again at every use."""
+    kind = node.text if isinstance(node, Scalar) else ""
+    if kind in KINDS:
+        return kind
+    close = nearest(kind, KINDS)
+    help_line = f"did you mean `{close}`?" if close else f"the kinds are {', '.join(KINDS)}"
+    message = f"the kind of `{name}` must be one that is known, but it is {shape_of(node)}"
+    faults.error("unknown-kind", message, node.place, help=help_line)
+    return close or "number"
+
+
+def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
+    """The words of a step, by outcome or for any."""
+    entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
+    read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
+    found = {outcome: prose for outcome, prose in read.items() if prose}
+    for prose in found.values():
+        for again in [mention for mention in prose.mentions if mention.name == CHAIN and not mention.of][1:]:
+            message = f"`<<{CHAIN}>>` stands for the lines of the step, which are printed once"
+            faults.error("twice", message, again.place, help="leave all but one of them out")
+    return found
+
+
+SYMBOLS = mapping_of(Reader({"enum": list(KINDS)}, _kind))
+GIVEN = mapping_of(as_written({"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema}]}))
+VALUES = mapping_of(SCALAR)
+_TEXTS = {"type": "object", "additionalProperties": TEXT.schema}
+
+
+@dataclass(frozen=True)
+class DrawingKeys(Record):
+    """The keys of one of `drawings:`."""
+
+    at: Tree | None = key(
+        "where it stands: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
+        as_written(TEXT.schema),
+    )
+    caption: Prose | None = key("what it shows, in prose", PROSE_OR_NOTHING)
+    width: Tree | None = key("how wide it is without its labels, such as `5 cm`", as_written(TEXT.schema))
+    values: dict[Word, Tree] = key(
+        "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS), absent=dict
+    )
+    ends: tuple[Tree, ...] | None = key(
+        "the two ends of a plot, such as `[-60 deg, 60 deg]`",
+        list_of(SCALAR, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2),
+        called="range",
+    )
+    cases: tuple[dict[Word, Tree], ...] = key(
+        "the numbers of each curve of a plot, panel by panel",
+        list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
+        absent=tuple,
+    )
+
+
+_DRAWING = record_of(DrawingKeys, "a drawing", "a mapping with `at`, `caption` or `width`", "the drawing `{}`")
+
+
+@dataclass(frozen=True)
+class ProblemKeys(Record):
+    """The keys of a problem's file."""
+
+    title: Prose | None = key("the heading of the problem", PROSE, required=True)
+    solve: Word | None = key("the script beside this file whose `solve()` derives the answers", TEXT, required=True)
+    points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
+    symbols: dict[Word, str] = key("letters and their kinds: `M: mass`", SYMBOLS, absent=dict)
+    given: dict[Word, Tree] = key(
+        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them",
+        GIVEN,
+        absent=dict,
+    )
+    values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES, absent=dict)
+    statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
+    parts: tuple[Part, ...] = key("the questions", PARTS, required=True, absent=tuple)
+    wording: Table[str, Table[str, Prose]] = key(
+        "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
+        mapping_of(Reader({"anyOf": [TEXT.schema, _TEXTS]}, _sentences)),
+        absent=dict,
+    )
+    show: Table[str, str] = key(
+        "how much of a step is shown, by the step's key", mapping_of(one_of(("full", "result", "hidden"))), absent=dict
+    )
+    figures: int | None = key("significant figures where `form` says nothing", FIGURES)
+    drawings: dict[Word, DrawingKeys] = key(
+        "where the drawings of the script stand, by their names", mapping_of(_DRAWING), absent=dict
+    )
+    note: Prose | None = key("a remark after the last part, in prose", PROSE)
+
+    def points_in_all(self, faults: Faults) -> Fraction | None:
+        return points_in_all(self.points, self.values_at.get("points"), self.parts, faults)
+
+
+def written_problem(root: Path, problem_id: str, faults: Faults) -> ProblemKeys:
+    """What the file says; `faults` takes all that is wrong with its keys and their shapes."""
+    return read_record(ProblemKeys, mapping_in(root, path_of(root, problem_id), "a problem"), "a problem", faults)
+
+
+def problem_schema() -> str:
+    """The JSON schema of a problem's file."""
+    return schema_for_editors("A problem", object_schema(ProblemKeys))
