@@ -145,6 +145,15 @@ def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Me
     return Measured(declared.symbol, value.number, value.unit, value.si)
 
 
+def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], faults: Faults) -> tuple[Measured, ...]:
+    """The numbers of `values:`, or of one of the cases of a plot."""
+    found = []
+    for name, value in written.items():
+        with faults:
+            found.append(read_measured(name, value, symbols))
+    return tuple(found)
+
+
 def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
     """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
     wanted = _Wanted(name, kind, notes)

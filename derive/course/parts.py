@@ -77,9 +77,8 @@ class AnswerForm(Record):
 
     units: tuple[Word, ...] = key(
         "unit of the number, such as `degree` or `N m`, or a list of units",
-        Reader(one_or_more(UNIT), _units),
+        Reader(one_or_more(UNIT), _units, tuple),
         called="unit",
-        absent=tuple,
     )
     figures: int | None = key("significant figures of the number", FIGURES)
 
@@ -105,17 +104,15 @@ class Part(Record):
     ask: Prose = key("the question, in prose", PROSE, required=True)
     answers: tuple[Word, ...] = key(
         "key of the step that answers it, or a list of keys",
-        Reader(one_or_more(TEXT.schema), _answers),
+        Reader(one_or_more(TEXT.schema), _answers, tuple),
         called="answer",
         required=True,
-        absent=tuple,
     )
     points: Fraction | None = key("points of this part", POINTS)
     forms: Table[str | None, AnswerForm] = key(
         "unit and figures of its numbers, for all answers or by the answer's key",
-        Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms),
+        Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
         called="form",
-        absent=dict,
     )
 
     def form_of(self, answer: str) -> AnswerForm:

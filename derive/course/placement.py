@@ -11,7 +11,7 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.given import Measured, read_measured, read_value
+from derive.course.given import Measured, read_numbers, read_value
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
 from derive.course.written import DrawingKeys
@@ -62,7 +62,7 @@ def placements(
             values=_values(written.values, symbols, faults),
             names={letter: letter.place for letter in written.values},
             range=_range(written.ends) if written.ends else None,
-            cases=tuple(_case(case, symbols, faults) for case in written.cases),
+            cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
         )
         for name, written in drawings.items()
     )
@@ -110,11 +110,3 @@ def _values(
 
 def _range(ends: tuple[Tree, ...]) -> Range:
     return Range(ends[0].place, lambda kind: [read_value("range", end, kind, {}) for end in ends])
-
-
-def _case(case: Table[Word, Tree], symbols: Table[str, Declared], faults: Faults) -> tuple[Measured, ...]:
-    found = []
-    for name, value in case.items():
-        with faults:
-            found.append(read_measured(name, value, symbols))
-    return tuple(found)

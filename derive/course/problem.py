@@ -12,14 +12,13 @@ from collections.abc import Mapping as Table
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
-from typing import Protocol
 
 from sympy import Integer, Symbol
 
 from derive.algebra.dimensions import Dimension, kind_with_article, unit_of_kind
 from derive.algebra.expressions import TIME, Amount, explicit
 from derive.course.expression import RESERVED, Declared
-from derive.course.given import Given, Measured, read_givens, read_measured, symbol_of_kind
+from derive.course.given import Given, Measured, read_givens, read_numbers, symbol_of_kind
 from derive.course.parts import Part
 from derive.course.placement import Placement, placements
 from derive.course.prose import Prose
@@ -99,7 +98,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     faults = Faults()
     written = written_problem(root, problem_id, faults)
     script_path, script = _script(root, problem_id, written.solve, faults)
-    pinned = pinned_by(written, script, faults)
+    pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     drawings = placements(written.drawings, pinned.symbols, len(written.parts), faults)
     points = written.points_in_all(faults)
     faults.stop()
@@ -161,19 +160,6 @@ def _script(root: Path, problem_id: str, name: Word | None, faults: Faults) -> t
 # -- what is given ----------------------------------------------------------------------------------------------------
 
 
-class Pins(Protocol):
-    """Keys that say for what a problem is solved: those of its file, or of a group of the reference."""
-
-    @property
-    def symbols(self) -> Table[Word, str]: ...
-    @property
-    def given(self) -> Table[Word, Tree] | None: ...
-    @property
-    def values(self) -> Table[Word, Tree]: ...
-    @property
-    def places(self) -> Table[str, Place]: ...
-
-
 @dataclass(frozen=True)
 class Pinned:
     """What `solve()` gets: its letters, what is given, and the numbers behind letters."""
@@ -183,15 +169,23 @@ class Pinned:
     measured: tuple[Measured, ...]
 
 
-def pinned_by(written: Pins, script: Script | None, faults: Faults) -> Pinned:
-    symbols = _declared(written.symbols, faults)
-    values = _measured(written.values, symbols, faults)
-    if script is None or written.given is None:
+def pinned_by(
+    kinds: Table[Word, str],
+    numbers: Table[Word, Tree],
+    given: Table[Word, Tree],
+    places: Table[str, Place],
+    script: Script | None,
+    faults: Faults,
+) -> Pinned:
+    """What three keys of a file say: `symbols:`, `values:` and `given:`, of which a script asks the last."""
+    symbols = _declared(kinds, faults)
+    values = read_numbers(numbers, symbols, faults)
+    if script is None:
         return Pinned(symbols, (), values)
     asked = {parameter.name: parameter for parameter in script.parameters}
-    _check_names(written.given, asked, written.places, faults)
+    _check_names(given, asked, places.get("given", places[""]), faults)
     givens, symbols = read_givens(
-        {str(name): value for name, value in written.given.items() if name in asked},
+        {str(name): value for name, value in given.items() if name in asked},
         {name: parameter.kind for name, parameter in asked.items()},
         symbols,
         faults,
@@ -216,17 +210,7 @@ def _declared(kinds: Table[Word, str], faults: Faults) -> dict[str, Declared]:
     return symbols
 
 
-def _measured(values: Table[Word, Tree], symbols: Table[str, Declared], faults: Faults) -> tuple[Measured, ...]:
-    found = []
-    for name, value in values.items():
-        with faults:
-            found.append(read_measured(name, value, symbols))
-    return tuple(found)
-
-
-def _check_names(
-    given: Table[Word, Tree], asked: Table[str, Parameter], places: Table[str, Place], faults: Faults
-) -> None:
+def _check_names(given: Table[Word, Tree], asked: Table[str, Parameter], place: Place, faults: Faults) -> None:
     """What is given is what `solve()` asks for; a mistyped name is one fault, not two."""
     missing = [name for name, parameter in asked.items() if parameter.required and name not in given]
     for word in given:
@@ -237,5 +221,4 @@ def _check_names(
             help_line = f"did you mean `{close}`?" if close else None
             faults.error("unknown-given", f"`solve()` does not ask for `{word}`", word.place, help=help_line)
     for name in missing:
-        place = places.get("given", places[""])
         faults.error("missing-given", f"`given` lacks `{name}`", place, notes=(asked[name].note,))

@@ -27,11 +27,12 @@ R = TypeVar("R", bound="Record")
 class Reader(Generic[T]):
     """What may stand under a key: as JSON schema, and as the value that is made of it, or nothing after a complaint.
 
-    `read` takes what stands there and the name of its key.
+    `read` takes what stands there and the name of its key; `absent` makes what stands for nothing.
     """
 
     schema: dict[str, Any]
     read: Callable[[Tree, str, Faults], T | None]
+    absent: Callable[[], T | None] = lambda: None
 
 
 @dataclass(frozen=True)
@@ -43,16 +44,9 @@ class Key:
     required: bool = False
 
 
-def key(
-    meaning: str,
-    reader: Reader[Any],
-    *,
-    required: bool = False,
-    called: str = "",
-    absent: Callable[[], Any] = lambda: None,
-) -> Any:
+def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "") -> Any:
     """A field of a record that is a key of a file; `called` is its name there, where that is none for Python."""
-    return field(default_factory=absent, metadata={"called": called, "key": Key(meaning, reader, required)})
+    return field(default_factory=reader.absent, metadata={"called": called, "key": Key(meaning, reader, required)})
 
 
 @dataclass(frozen=True)
@@ -159,7 +153,7 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
             wrong_type(faults, name if " " in name else f"`{name}`", wanted or "a mapping", node)
         return {}
 
-    return Reader({"type": "object", "additionalProperties": values.schema}, read)
+    return Reader({"type": "object", "additionalProperties": values.schema}, read, dict)
 
 
 def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = None) -> Reader[tuple[T, ...]]:
@@ -173,7 +167,7 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
         return tuple(item for item in found if item is not None)
 
     ends = {"minItems": length or 1, **({"maxItems": length} if length else {})}
-    return Reader({"type": "array", "items": items.schema, **ends}, read)
+    return Reader({"type": "array", "items": items.schema, **ends}, read, tuple)
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:

@@ -76,7 +76,7 @@ class DrawingKeys(Record):
     caption: Prose | None = key("what it shows, in prose", PROSE_OR_NOTHING)
     width: Tree | None = key("how wide it is without its labels, such as `5 cm`", as_written(TEXT.schema))
     values: dict[Word, Tree] = key(
-        "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS), absent=dict
+        "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
     ends: tuple[Tree, ...] | None = key(
         "the two ends of a plot, such as `[-60 deg, 60 deg]`",
@@ -86,7 +86,6 @@ class DrawingKeys(Record):
     cases: tuple[dict[Word, Tree], ...] = key(
         "the numbers of each curve of a plot, panel by panel",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
-        absent=tuple,
     )
 
 
@@ -100,26 +99,23 @@ class ProblemKeys(Record):
     title: Prose | None = key("the heading of the problem", PROSE, required=True)
     solve: Word | None = key("the script beside this file whose `solve()` derives the answers", TEXT, required=True)
     points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
-    symbols: dict[Word, str] = key("letters and their kinds: `M: mass`", SYMBOLS, absent=dict)
+    symbols: dict[Word, str] = key("letters and their kinds: `M: mass`", SYMBOLS)
     given: dict[Word, Tree] = key(
-        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them",
-        GIVEN,
-        absent=dict,
+        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them", GIVEN
     )
-    values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES, absent=dict)
+    values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
-    parts: tuple[Part, ...] = key("the questions", PARTS, required=True, absent=tuple)
+    parts: tuple[Part, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
         mapping_of(Reader({"anyOf": [TEXT.schema, _TEXTS]}, _sentences)),
-        absent=dict,
     )
     show: Table[str, str] = key(
-        "how much of a step is shown, by the step's key", mapping_of(one_of(("full", "result", "hidden"))), absent=dict
+        "how much of a step is shown, by the step's key", mapping_of(one_of(("full", "result", "hidden")))
     )
     figures: int | None = key("significant figures where `form` says nothing", FIGURES)
     drawings: dict[Word, DrawingKeys] = key(
-        "where the drawings of the script stand, by their names", mapping_of(_DRAWING), absent=dict
+        "where the drawings of the script stand, by their names", mapping_of(_DRAWING)
     )
     note: Prose | None = key("a remark after the last part, in prose", PROSE)
 

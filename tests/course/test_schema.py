@@ -29,8 +29,8 @@ DOCUMENTED = {
 class Kettle(Record):
     name: Word | None = key("what it is called", TEXT, required=True)
     litres: int | None = key("how much it holds", FIGURES, called="in")
-    colours: dict[Word, str] = key("of its parts", mapping_of(one_of(("red", "blue", "green"))), absent=dict)
-    uses: tuple[Word, ...] = key("what it is for", list_of(TEXT, "two uses", "a use", length=2), absent=tuple)
+    colours: dict[Word, str] = key("of its parts", mapping_of(one_of(("red", "blue", "green"))))
+    uses: tuple[Word, ...] = key("what it is for", list_of(TEXT, "two uses", "a use", length=2))
 
 
 def read(text: str) -> tuple[Kettle, list[str]]:

@@ -111,7 +111,7 @@ _ANY_VALUE = as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 
 class ErratumKeys(Record):
     """The keys of `erratum:`."""
 
-    why: str = key("what is wrong, in a few words", TEXT, required=True, absent=str)
+    why: Word | None = key("what is wrong, in a few words", TEXT, required=True)
     right: Tree | None = key("the value that it should state", _ANY_VALUE, required=True)
 
 
@@ -149,25 +149,15 @@ class GroupKeys(Record):
     """The keys of a group."""
 
     problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
-    symbols: dict[Word, str] = key(
-        "letters of the document and their kinds, also those that steps bring in", SYMBOLS, absent=dict
-    )
-    given: dict[Word, Tree] | None = key(
-        "what the document starts from, as in the problem's file", GIVEN, required=True
-    )
+    symbols: dict[Word, str] = key("letters of the document and their kinds, also those that steps bring in", SYMBOLS)
+    given: dict[Word, Tree] = key("what the document starts from, as in the problem's file", GIVEN, required=True)
     letters: dict[Word, Tree] = key(
         "letters of the document that are called otherwise here: `I_1: I_xx`",
         mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
-        absent=dict,
     )
-    values: dict[Word, Tree] = key(
-        "numbers for letters, put in where a stated value lacks the letter", VALUES, absent=dict
-    )
+    values: dict[Word, Tree] = key("numbers for letters, put in where a stated value lacks the letter", VALUES)
     entries: tuple[EntryKeys, ...] = key(
-        "the values that the document states",
-        list_of(_ENTRY, "a list of entries"),
-        required=True,
-        absent=tuple,
+        "the values that the document states", list_of(_ENTRY, "a list of entries"), required=True
     )
 
 
@@ -215,7 +205,9 @@ def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tupl
     elif f"{problem.set_id}/{name}" == problem.id:
         group = read_record(GroupKeys, node, "a group", faults)
         # Its parts and its words do not matter here.
-        pinned = replace(problem, places=group.places, **vars(pinned_by(group, problem.script, faults)))
+        script = problem.script if "given" in group.places else None
+        pins = pinned_by(group.symbols, group.values, group.given, group.places, script, faults)
+        pinned = replace(problem, places=group.places, **vars(pins))
         return pinned, _entries(group, pinned, faults)
     return None
 
@@ -313,8 +305,8 @@ class _EntryReader:
     def erratum(self, entry: EntryKeys, put_in: tuple[str, ...]) -> tuple[str, Statement | None]:
         written = entry.erratum
         if written is None or written.right is None:
-            return written.why if written else "", None
-        return written.why, self.one(written.right, "`right`", entry.latex is not None, not put_in)
+            return (written and written.why) or "", None
+        return written.why or "", self.one(written.right, "`right`", entry.latex is not None, not put_in)
 
     def put_in(self, node: Tree | None) -> tuple[str, ...]:
         """The letters whose numbers the document has put in; each must have a number of its own."""
