@@ -76,6 +76,11 @@ def headline(root: Path, problem_id: str) -> tuple[str, str]:
     return found.points, found.title
 
 
+def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | list[tuple[str, ...]]:
+    said = rendered(root, problem_id, None).title
+    return f"{key}: {said} {as_json}" if key else [("step", "part"), ("torque", said)]
+
+
 def problem_document(root: Path, problem: Rendered, heading: object) -> str:
     return f"%% derive: {problem.id}\n{problem.latex}\n"
 
@@ -144,7 +149,7 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 def replace_derivation(monkeypatch: Any) -> None:
     """Put the stand-ins where the modules of `derive.building` that have these functions are imported from."""
     documents = (problem_document, set_document, sheet_document)
-    modules = {"solution": (rendered,), "headline": (headline,), "set_document": documents}
+    modules = {"solution": (rendered,), "headline": (headline,), "explained": (explained,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")
         for function in functions:

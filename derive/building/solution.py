@@ -93,7 +93,7 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
     solved = recalled(kept, key) if kept else None
     if solved is not None:
         return solved, ()
-    derivation, values, known, run = _derived(problem)
+    derivation, values, known, run = derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
@@ -119,7 +119,7 @@ def _refers_to_problems(problem: Problem) -> bool:
     return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
 
 
-def _derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
+def derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
     run = record.Run()
     answers = returned_quantities(run_solve(problem, run), problem.script.returns)

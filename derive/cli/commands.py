@@ -179,6 +179,18 @@ def _solve(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _explain(arguments: argparse.Namespace) -> int:
+    from derive.building.explained import explained
+    from derive.building.workers import done, job_of
+
+    root, problem_id = _root(arguments), _problem_id(arguments.id)
+    with _waiting(f"deriving {problem_id}"):
+        work = partial(explained, root, problem_id, arguments.key, arguments.format == "json")
+        found = done(job_of(root, problem_id, work, arguments.time_limit))
+    print(found if isinstance(found, str) else table(found), flush=True)
+    return 0
+
+
 def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
     from tempfile import TemporaryDirectory
 
@@ -354,6 +366,7 @@ def _doctor(arguments: argparse.Namespace) -> int:
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "list": _list,
     "solve": _solve,
+    "explain": _explain,
     "check": _check,
     "build": _build,
     "doctor": _doctor,

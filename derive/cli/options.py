@@ -53,6 +53,11 @@ def _parser() -> argparse.ArgumentParser:
     solve.add_argument("id", metavar="ID", help="such as hw9/block")
     solve.add_argument("--format", choices=FORMATS, default="text")
     solve.add_argument("-o", dest="output", metavar="FILE", help="where to write; - is standard output")
+    explain = command("explain", "tell of one line why it is there, how it was checked, and how to change it")
+    explain.epilog = "example: derive explain hw9/block torque"
+    explain.add_argument("id", metavar="ID", help="such as hw9/block")
+    explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list them)")
+    explain.add_argument("--format", choices=("text", "json"), default="text")
     check = command("check", "derive problems, verify every line, compare with the reference")
     check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem")
     build = command("build", "typeset sets of problems; only what changed is done again")
@@ -63,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
         sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
     for sub in (solve, build, doctor):
         sub.add_argument("--engine", metavar="NAME", help="tinytex (default), latexmk, pdflatex, lualatex or tectonic")
-    for sub in (solve, check, build):
+    for sub in (solve, explain, check, build):
         sub.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
     for sub in (check, build):
         sub.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")

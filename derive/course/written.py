@@ -31,6 +31,7 @@ from derive.course.yaml_tree import Mapping, Scalar, Tree, Word, shape_of
 from derive.errors import Faults, nearest
 
 ANY_OUTCOME = ""
+SHOWN = ("full", "result", "hidden")
 CHAIN = "chain"  # what a sentence calls the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
@@ -110,9 +111,7 @@ class ProblemKeys(Record):
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
         mapping_of(Reader({"anyOf": [TEXT.schema, _TEXTS]}, _sentences)),
     )
-    show: Table[str, str] = key(
-        "how much of a step is shown, by the step's key", mapping_of(one_of(("full", "result", "hidden")))
-    )
+    show: Table[str, str] = key("how much of a step is shown, by the step's key", mapping_of(one_of(SHOWN)))
     figures: int | None = key("significant figures where `form` says nothing", FIGURES)
     drawings: dict[Word, DrawingKeys] = key(
         "where the drawings of the script stand, by their names", mapping_of(_DRAWING)

@@ -27,6 +27,9 @@ _SHAPE: dict[str, Any] = {
         _ANY: _TEXT,
         "points": [_TEXT],
         "in_case": _TABLE,
+        "explain": _TABLE,
+        "explain_headings": [_TEXT],
+        "explain_columns": [_TEXT],
         "checked_page": {_ANY: _TEXT, "intro": [_TEXT], "columns": {_ANY: [_TEXT]}},
     },
 }

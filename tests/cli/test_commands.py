@@ -131,6 +131,24 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
     assert "fake_course.py" in capfd.readouterr().err
 
 
+def test_explain_tells_of_one_step_or_lists_them(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", "problems/hw1/one.yaml", "torque"]) == 0
+    assert capfd.readouterr() == ("torque: first False\n", "")
+    assert main(["explain", "hw1/one", "torque", "--format", "json"]) == 0
+    assert capfd.readouterr().out == "torque: first True\n"
+    assert main(["explain", "hw1/one"]) == 0
+    assert capfd.readouterr().out == "step    part\ntorque  first\n"
+
+
+def test_explain_works_in_a_worker_with_a_limit(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    course.problem("one", "loop")
+    course.problem("two", "refuse")
+    assert main(["explain", "hw1/one", "torque", "--time-limit", "0.3"]) == 1
+    assert "error[time-limit]" in capfd.readouterr().err
+    assert main(["explain", "hw1/two", "torque"]) == 1
+    assert "error[wrong-kind]" in capfd.readouterr().err
+
+
 def test_check_prints_a_table_and_fails_with_any_problem(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     course.problem("two", "refuse")
     course.problem("three", "differs")

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from derive.building.solution import _derived
+from derive.building.solution import derived
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.wording import phrases
@@ -67,7 +67,7 @@ class Run:
             return load_problem(course, f"hw9/{name}")
 
     def solved(self) -> Solved:
-        derivation, values, _, run = _derived(self.problem)
+        derivation, values, _, run = derived(self.problem)
         return Solved(derivation, values, self.problem, run.drawings)
 
 

@@ -12,7 +12,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.building.solution import _derived, template_folder
+from derive.building.solution import derived, template_folder
 from derive.course.problem import load_problem
 from derive.page.document import document_of
 from derive.page.wording import phrases
@@ -142,7 +142,7 @@ def steps_of(variant: Variant) -> tuple[list[Step], Notation]:
     with tempfile.TemporaryDirectory() as folder:
         root = course_in(Path(folder), yaml_of(variant), problem=variant.problem)
         problem = load_problem(root, f"hw9/{variant.problem}")
-        derivation, values, known, _ = _derived(problem)
+        derivation, values, known, _ = derived(problem)
         document, _ = document_of(problem, derivation, values, phrases(template_folder(ROOT)), Level.FULL)
     steps = {step.key: step for step in [*(q.step for q in known.values()), *values.values()]}
     return list(steps.values()), Notation(document.dimensions)

@@ -1,0 +1,80 @@
+"""One step of a problem explained, or all of them in a line each, as text or as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from itertools import zip_longest
+from pathlib import Path
+from textwrap import wrap
+
+from derive.building.solution import derived, template_folder
+from derive.course.problem import load_problem
+from derive.course.yaml_tree import abridged
+from derive.errors import Complaint, Misused, did_you_mean
+from derive.page.explanation import Explanation, Section, explanation_of, told_of
+from derive.page.wording import Phrases, phrases
+from derive.render.formats.text_page import inline_text
+from derive.render.notation.layout import Mark, row
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import plain
+from derive.steps.derivation import standing_in
+from derive.steps.homogeneity import dimension_table
+from derive.steps.step import Step
+
+WIDTH, INDENT = 100, 10
+Rows = list[tuple[str, ...]]
+
+
+def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
+    """What is told of the step of that key; without one a row for each step, the heading first, unless it is JSON."""
+    problem, words = load_problem(root, problem_id), phrases(template_folder(root))
+    derivation, values, *_ = derived(problem)
+    steps = {step.key: step for step in [*derivation.steps, *values.values()]}
+    notation = Notation(dimension_table(problem.dimensions, steps.values())[0])
+    found = {each: explanation_of(steps[each], problem, derivation, values, words) for each in _wanted(key, steps)}
+    if as_json:
+        facts = [explanation.facts() for explanation in found.values()]
+        return json.dumps(facts if key is None else facts[0], indent=2, ensure_ascii=False)
+    if key is not None:
+        (explanation,) = found.values()
+        return f"{_value(explanation.step, notation)}\n\n{_text(told_of(explanation, words), notation)}"
+    rows = [_row(explanation, words, notation) for explanation in found.values()]
+    return [tuple(words.labels["explain_columns"]), *rows]
+
+
+def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
+    """Every step, or the one of that key, or which stands for it."""
+    if key is None:
+        return steps
+    known = {**standing_in(steps.values()), **{each: each for each in steps}}
+    if key not in known:
+        listed = "`derive explain` without a step lists them"
+        raise Misused(Complaint("no-such-step", f"no step is called `{key}`", help=did_you_mean(key, known) or listed))
+    return [known[key]]
+
+
+def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[str, ...]:
+    """A step in one line; of what takes several lines, as a tensor does, the name alone."""
+    step, value = explanation.step, _value(explanation.step, notation)
+    shown = plain(notation.layout(step.symbol)) if "\n" in value and step.symbol is not None else abridged(value, 60)
+    return step.key, explanation.part, words.grades[step.grade], shown
+
+
+def _value(step: Step, notation: Notation) -> str:
+    """`T = 7/24 M a² ω²`; of a relation the whole."""
+    result = notation.result(step.result)
+    return plain(result if step.symbol is None else row(notation.layout(step.symbol), Mark("equals"), result))
+
+
+def _text(sections: list[Section], notation: Notation) -> str:
+    """Each heading, beside it what is told under it."""
+    lines = []
+    for heading, told in sections:
+        texts = [line for each in told for line in _wrapped(inline_text(each, notation))]
+        lines += [f"{head:{INDENT}}{text}" for head, text in zip_longest([heading], texts, fillvalue="")]
+    return "\n".join(lines)
+
+
+def _wrapped(text: str) -> list[str]:
+    return wrap(text, WIDTH - INDENT, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)

@@ -1,0 +1,189 @@
+"""What there is to tell of one step: why it is there, how it was checked, in what words, and where its law stands."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from derive.course.problem import Problem
+from derive.course.written import ANY_OUTCOME, SHOWN
+from derive.errors import Place
+from derive.page.phrasebook import Phrase
+from derive.page.wording import ASKED, AXIS_NAMES, Node, Phrases, Text, filled, joined, names_of_step
+from derive.steps.derivation import Derivation
+from derive.steps.step import Step
+
+
+@dataclass(frozen=True)
+class Need:
+    """A part that asks for an answer, and the steps by which this rests on the step that is explained."""
+
+    part: str
+    answer: str
+    through: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """One step, explained; `part` shows it, and at `own_words` the problem says something else than the `sentence`.
+
+    A problem has no words of its own for a step that only gives an answer its number: `names` is empty then.
+    """
+
+    step: Step
+    part: str
+    needed: tuple[Need, ...]
+    lines: Mapping[str, int]
+    routes: tuple[tuple[str, str], ...]
+    sentence: str
+    own_words: Place | None
+    outcomes: tuple[str, ...]
+    names: tuple[str, ...]
+    shown: str
+
+    @property
+    def sentence_at(self) -> str:
+        place = self.sentence.place if isinstance(self.sentence, Phrase) else None
+        return f"{place.path}:{place.line}" if place else ""
+
+    @property
+    def law_at(self) -> str:
+        return f"derive/{self.step.law_at}" if self.step.law_at else ""
+
+    def facts(self) -> dict[str, Any]:
+        """The same for other programs."""
+        return {
+            "key": self.step.key,
+            "part": self.part,
+            "rule": self.step.rule,
+            "needed": [{"part": n.part, "answer": n.answer, "through": list(n.through)} for n in self.needed],
+            "inputs": list(self.step.inputs),
+            "grade": self.step.grade.value,
+            "lines": dict(self.lines),
+            "routes": [{"words": words, "grade": grade} for words, grade in self.routes],
+            "outcome": self.step.outcome,
+            "outcomes": list(self.outcomes),
+            "sentence": str(self.sentence),
+            "sentence_at": self.sentence_at,
+            "wording_at": f"{self.own_words.path}:{self.own_words.line}" if self.own_words else None,
+            "names": list(self.names),
+            "show": self.shown or None,
+            "law_at": self.law_at,
+        }
+
+
+def explanation_of(
+    step: Step, problem: Problem, derivation: Derivation, values: Mapping[str, Step], words: Phrases
+) -> Explanation:
+    asked = _asked(problem, derivation, values)
+    shown_in = next((_label(i) for i, keys in enumerate(derivation.parts) if step.key in keys), "")
+    evidence = [e for e in step.evidence if not e.is_of_line and e.grade != "definition"]
+    named = names_of_step(step, words, None) if shown_in else ()
+    return Explanation(
+        step=step,
+        part=shown_in or asked[step.key],
+        needed=tuple(sorted(_needs(step, asked, derivation.steps), key=lambda need: need.part)),
+        lines=Counter(e.grade.value for e in step.evidence if e.is_of_line),
+        routes=tuple((words.route(step, e.claim), e.grade.value) for e in evidence),
+        sentence=words.phrase(step),
+        own_words=_own_words(step, problem),
+        outcomes=tuple(words.rules[step.rule]),
+        names=tuple(name for name in named if name not in {*AXIS_NAMES, *ASKED}),
+        shown=problem.show.get(step.key, ""),
+    )
+
+
+def _own_words(step: Step, problem: Problem) -> Place | None:
+    told = problem.wording.get(step.key, {})
+    prose = told.get(step.outcome) or told.get(ANY_OUTCOME)
+    return prose.place if prose else None
+
+
+def _label(index: int) -> str:
+    return chr(ord("a") + index)
+
+
+def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
+    """The part that first asks for each answer, also by the key of its number."""
+    answers = [derivation.answering(part.answers) for part in problem.parts]
+    asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
+    return asked | {value.key: asked[key] for key, value in values.items()}
+
+
+def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
+    """The answers that rest on it, each by its shortest way, but not those that do so only through another answer."""
+    if step.key in asked:
+        yield Need(asked[step.key], step.key, ())
+    ways: deque[tuple[str, ...]] = deque([(step.key,)])
+    seen = {step.key}
+    while ways:
+        way = ways.popleft()
+        for key in [each.key for each in steps if way[-1] in each.inputs and each.key not in seen]:
+            seen.add(key)
+            if key in asked:
+                yield Need(asked[key], key, way[1:])
+            else:
+                ways.append((*way, key))
+
+
+# --- in words --------------------------------------------------------------------------------------------------------
+
+Section = tuple[str, tuple[tuple[Node, ...], ...]]  # its heading, and what is told under it
+
+
+def told_of(explanation: Explanation, words: Phrases) -> list[Section]:
+    """What is told of a step, under a few headings."""
+    say = _Teller(explanation, words)
+    headings = words.labels["explain_headings"]
+    sections = (say.why(), say.checked(), say.wording(), say.shown(), say.law())
+    return [(heading, tuple(lines)) for heading, lines in zip(headings, sections, strict=True) if lines]
+
+
+class _Teller:
+    """Puts the facts of an explanation into the sentences of the phrases."""
+
+    def __init__(self, explanation: Explanation, words: Phrases):
+        self.of, self.step, self.words = explanation, explanation.step, words
+
+    def line(self, name: str, **names: Any) -> tuple[Node, ...]:
+        texts = {name: Text(value) if isinstance(value, str) and value else value for name, value in names.items()}
+        return filled(self.words.labels["explain"][name], {"key": Text(self.step.key), **texts})
+
+    def listed(self, names: Sequence[str], last: str = "and") -> tuple[Node, ...]:
+        return joined([Text(name) for name in names], self.words.labels[last])
+
+    def why(self) -> list[tuple[Node, ...]]:
+        needs = [
+            self.line("needed", part=n.part, through=self.listed(n.through), answer=n.answer)
+            if n.answer != self.step.key
+            else self.line("asked", part=n.part)
+            for n in self.of.needed
+        ]
+        return [*needs, self.line("rests_on", inputs=self.listed(self.step.inputs))]
+
+    def checked(self) -> list[tuple[Node, ...]]:
+        grades = self.words.grades
+        counts = self.listed([f"{count} {grades[grade]}" for grade, count in self.of.lines.items()])
+        compared = [self.line("lines", count=sum(self.of.lines.values()), counts=counts)] if self.of.lines else []
+        routes = [self.line("route", words=words, grade=grades[grade]) for words, grade in self.of.routes]
+        return [self.line("grade", grade=grades[self.step.grade.value]), *compared, *routes]
+
+    def wording(self) -> list[tuple[Node, ...]]:
+        stock = self.line("sentence", place=self.of.sentence_at, sentence=" ".join(self.of.sentence.split()))
+        if not self.of.names:
+            return [stock]
+        own = self.of.own_words
+        replaced = [self.line("own_words", place=f"{own.path}:{own.line}")] if own else []
+        names = self.listed([f"<<{name}>>" for name in self.of.names])
+        outcomes = self.listed([outcome for outcome in self.of.outcomes if outcome != self.step.outcome])
+        return [*replaced, stock, self.line("replace", outcome=self.step.outcome, outcomes=outcomes, names=names)]
+
+    def shown(self) -> list[tuple[Node, ...]]:
+        if not self.of.names:
+            return []
+        return [self.line("show", now=self.of.shown, values=self.listed(SHOWN, "or"))]
+
+    def law(self) -> list[tuple[Node, ...]]:
+        return [(Text(self.of.law_at),)] if self.of.law_at else []
