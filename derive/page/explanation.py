@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from derive.algebra.equality import Compared
 from derive.course.problem import Problem
 from derive.course.written import ANY_OUTCOME, SHOWN
 from derive.errors import Place
@@ -48,10 +49,6 @@ class Explanation:
         place = self.sentence.place if isinstance(self.sentence, Phrase) else None
         return f"{place.path}:{place.line}" if place else ""
 
-    @property
-    def law_at(self) -> str:
-        return f"derive/{self.step.law_at}" if self.step.law_at else ""
-
     def facts(self) -> dict[str, Any]:
         """The same for other programs."""
         return {
@@ -70,7 +67,7 @@ class Explanation:
             "wording_at": f"{self.own_words.path}:{self.own_words.line}" if self.own_words else None,
             "names": list(self.names),
             "show": self.shown or None,
-            "law_at": self.law_at,
+            "law_at": self.step.law_at,
         }
 
 
@@ -79,13 +76,13 @@ def explanation_of(
 ) -> Explanation:
     asked = _asked(problem, derivation, values)
     shown_in = next((_label(i) for i, keys in enumerate(derivation.parts) if step.key in keys), "")
-    evidence = [e for e in step.evidence if not e.is_of_line and e.grade != "definition"]
+    evidence = [e for e in step.evidence if e.compared is Compared.ROUTE]
     named = names_of_step(step, words, None) if shown_in else ()
     return Explanation(
         step=step,
         part=shown_in or asked[step.key],
         needed=tuple(sorted(_needs(step, asked, derivation.steps), key=lambda need: need.part)),
-        lines=Counter(e.grade.value for e in step.evidence if e.is_of_line),
+        lines=Counter(e.grade.value for e in step.evidence if e.compared is Compared.LINES),
         routes=tuple((words.route(step, e.claim), e.grade.value) for e in evidence),
         sentence=words.phrase(step),
         own_words=_own_words(step, problem),
@@ -186,4 +183,4 @@ class _Teller:
         return [self.line("show", now=self.of.shown, values=self.listed(SHOWN, "or"))]
 
     def law(self) -> list[tuple[Node, ...]]:
-        return [(Text(self.of.law_at),)] if self.of.law_at else []
+        return [(Text(self.step.law_at),)] if self.step.law_at else []

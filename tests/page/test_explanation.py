@@ -64,7 +64,7 @@ def test_the_stock_sentence_is_where_it_is_said_to_be(problem: Problem) -> None:
 
 
 def test_the_law_is_where_it_is_said_to_be(problem: Problem) -> None:
-    path, _, line = explained(problem, "torque").law_at.partition(":")
+    path, _, line = explained(problem, "torque").step.law_at.partition(":")
     lines = (Path(derive.__file__).parents[1] / path).read_text().splitlines()
     assert "establish(" in lines[int(line) - 1]
 
