@@ -96,7 +96,7 @@ def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complain
     derivation, values, known, run = derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
+    solved = Solved(derivation, values, tuple(c.remark() for c in compared), tuple(run.drawings))
     if kept and not failures:
         keep(kept, key, solved)
     return solved, failures

@@ -16,7 +16,7 @@ from derive import FOLDER
 from derive.building import sealed
 from derive.building.manifest import digest, package_version
 from derive.course.problem import Problem
-from derive.course.reference.comparison import Told
+from derive.course.reference.comparison import Remark
 from derive.course.reference.errata import Erratum
 from derive.course.reference.statements import reference_path
 from derive.figures.encoding import drawings_from_data, drawings_to_data
@@ -31,7 +31,7 @@ class Solved:
 
     derivation: Derivation
     values: Mapping[str, Step]
-    compared: tuple[Told, ...]
+    compared: tuple[Remark, ...]
     drawings: tuple[Recorded, ...] = ()
 
 
@@ -50,7 +50,7 @@ def recalled(file: Path, key: str) -> Solved | None:
     kept = sealed.recalled(file, key)
     try:
         values = from_json(kept["values"])
-        told = tuple(Told(f, here, Erratum.decoded(e) if e else None) for f, here, e in kept["compared"])
+        told = tuple(Remark(f, here, Erratum.decoded(e) if e else None) for f, here, e in kept["compared"])
         answers = dict(zip(kept["answers"], values.steps, strict=True))
         return Solved(from_json(kept["derivation"]), answers, told, drawings_from_data(kept["drawings"]))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):

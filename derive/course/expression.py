@@ -23,13 +23,13 @@ from derive.course.arithmetic import Arithmetic, Declared, Term, rational
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, Faults, did_you_mean
 
-__all__ = ["FUNCTIONS", "MAX_DEPTH", "MAX_LENGTH", "RESERVED", "Declared", "rational", "read_expression"]
+__all__ = ["RESERVED", "Declared", "rational", "read_expression"]
 
-MAX_LENGTH = 300
-MAX_DEPTH = 40
+LONGEST_EXPRESSION = 300
+DEEPEST_EXPRESSION = 40
 
-FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {"sqrt": sqrt, "sin": sin, "cos": cos, "tan": tan, "exp": exp}
-RESERVED = ("pi", *FUNCTIONS)
+PLAIN_FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {"sqrt": sqrt, "sin": sin, "cos": cos, "tan": tan, "exp": exp}
+RESERVED = ("pi", *PLAIN_FUNCTIONS)
 
 _TOKEN = re.compile(
     r"(?P<space>\s+)|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_][A-Za-z0-9_]*)"
@@ -82,8 +82,8 @@ class _Parser(Arithmetic):
         self.at = 0
         if not self.text.strip():
             self.refuse("expression", "an expression is missing", 0)
-        if len(self.text) > MAX_LENGTH:
-            message = f"this expression has {len(self.text)} characters, and {MAX_LENGTH} are allowed"
+        if len(self.text) > LONGEST_EXPRESSION:
+            message = f"this expression has {len(self.text)} characters, and {LONGEST_EXPRESSION} are allowed"
             self.refuse("too-large", message, 0)
         found = [_Token(str(m.lastgroup), m[0], m.start()) for m in _TOKEN.finditer(self.text)]
         self.tokens = [token for token in found if token.kind != "space"]
@@ -123,7 +123,8 @@ class _Parser(Arithmetic):
         if declared:
             message, help_line = f"`{token.text}` is not a function", f"write `{token.text}*(...)`"
             return self.complaint("expression", message, token.start, token.end, help_line)
-        help_line = did_you_mean(token.text, FUNCTIONS) or "the functions are " + ", ".join(f"`{f}`" for f in FUNCTIONS)
+        known = ", ".join(f"`{name}`" for name in PLAIN_FUNCTIONS)
+        help_line = did_you_mean(token.text, PLAIN_FUNCTIONS) or f"the functions are {known}"
         return self.complaint("expression", f"unknown function `{token.text}`", token.start, token.end, help_line)
 
     def undeclared(self, token: _Token) -> Complaint:
@@ -163,15 +164,15 @@ class _Parser(Arithmetic):
             left = self.multiplied(left, self.reciprocal(right) if sign == "/" else right)
         if self.token.kind in ("number", "name") or self.token.text == "(":
             before, here = self.tokens[self.at - 1], self.token
-            after = here.text.removesuffix("(") + "(...)" * (here.text == "(" or here.text in FUNCTIONS)
+            after = here.text.removesuffix("(") + "(...)" * (here.text == "(" or here.text in PLAIN_FUNCTIONS)
             help_line = f"write `{before.text}*{after}`" if before.kind != "operator" else "write `*` for a product"
             self.refuse("expression", f"an operator is missing before `{here.text}`", here.start, here.end, help_line)
         return left
 
     def unary(self, depth: int) -> Term:
         here = self.token
-        if depth > MAX_DEPTH:
-            self.refuse("too-large", f"this expression is nested more than {MAX_DEPTH} deep", here.start)
+        if depth > DEEPEST_EXPRESSION:
+            self.refuse("too-large", f"this expression is nested more than {DEEPEST_EXPRESSION} deep", here.start)
         if sign := self.taken("-", "+"):
             term = self.unary(depth + 1)
             return self.negated(term, here.start) if sign == "-" else replace(term, start=here.start)
@@ -183,7 +184,7 @@ class _Parser(Arithmetic):
         self.at += 1
         if token.kind == "number":
             return self.number(token.text, token.start, token.end)
-        if token.text in FUNCTIONS:
+        if token.text in PLAIN_FUNCTIONS:
             return self.call(token, depth)
         if token.kind == "name":
             if token.text == "pi":
@@ -213,4 +214,4 @@ class _Parser(Arithmetic):
         if self.token.text == ",":
             self.refuse("expression", f"`{name.text}` takes one value", self.token.start)
         end = self.closed(opening)
-        return self.applied(name.text, FUNCTIONS[name.text], inner, name.start, end)
+        return self.applied(name.text, PLAIN_FUNCTIONS[name.text], inner, name.start, end)

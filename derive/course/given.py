@@ -121,7 +121,7 @@ def read_givens(
             note = (notes or {}).get(name)
             wanted = _wanted(name, kinds[name], (note,) if note else (), numbers or {})
             read[name] = _read_one(node, kinds[name], wanted, symbols)
-    letters = _Letters(symbols, {*used, *_names_in(read.values())})
+    letters = _LettersForNumbers(symbols, {*used, *_names_in(read.values())})
     return tuple(_given(name, kinds[name], value, letters) for name, value in read.items()), letters.symbols
 
 
@@ -319,7 +319,7 @@ def _names_in(values: Iterable[tuple[Expr | _Number, ...] | Direction]) -> set[s
     return {str(symbol) for expr in exprs if isinstance(expr, Expr) for symbol in expr.free_symbols}
 
 
-class _Letters:
+class _LettersForNumbers:
     """Finds a letter for a number: one declared for its kind and not yet used, else a usual one that is free."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
@@ -344,7 +344,7 @@ class _Letters:
             yield f"{kind.letters[0].partition('_')[0]}_{n}"
 
 
-def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction, letters: _Letters) -> Given:
+def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction, letters: _LettersForNumbers) -> Given:
     if isinstance(value, Direction):
         return Given(name, kind, value, (), value.name)
     if isinstance(value[0], _Number) and kind.each == "angle" and _is_exact_angle(value[0].si):

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _MASS, _LENGTH, _TIME = (dimension_of_kind(kind) for kind in ("mass", "length", "time"))
 _FORCE, _ENERGY = dimension_of_kind("force"), dimension_of_kind("energy")
 MAX_TEXT = 40
-MAX_EXPONENT = 9
+HIGHEST_POWER = 9
 
 # name -> (its SI value as a fraction and a power of pi, dimension, power of an angle). A radian is 1 and `Hz` is 1/s: a
 # turn is said as `rev`.
@@ -157,7 +157,7 @@ def _check(name: str, power: int, text: str, place: Place | None) -> None:
         within = f" in `{text}`" if name != text else ""
         units = ", ".join(f"`{unit}`" for unit in ("m", "cm", "kg", "g", "s", "N", "rad/s", "rpm", "deg"))
         rejected("unknown-unit", f"unknown unit `{name}`{within}", place, did_you_mean(name, _UNITS) or f"try {units}")
-    if not 0 < abs(power) <= MAX_EXPONENT:
+    if not 0 < abs(power) <= HIGHEST_POWER:
         rejected("unknown-unit", f"the power {power} of `{name}` is not used", place)
 
 

@@ -21,8 +21,8 @@ import yaml
 
 from derive.errors import Complaint, Faults, Place, Rejected
 
-MAX_BYTES = 256 * 1024
-MAX_DEPTH = 20
+LARGEST_FILE = 256 * 1024
+DEEPEST_YAML = 20
 LONG_LINE = 160
 _LEFT_OUT = "... "
 
@@ -208,7 +208,7 @@ def abridged(text: str, limit: int = 40) -> str:
     return flat if len(flat) <= limit else flat[: limit - 3] + "..."
 
 
-def read_source(path: Path, shown_as: str, *, limit: int = MAX_BYTES) -> Source:
+def read_source(path: Path, shown_as: str, *, limit: int = LARGEST_FILE) -> Source:
     """The text of a file that somebody wrote, if it is text at all."""
     whole = Place(shown_as, 1)
     try:
@@ -256,7 +256,7 @@ def yaml_tree(source: Source) -> Tree:
 
 
 class _Reader:
-    """Builds nodes from the parser's events; recursion is bounded by `MAX_DEPTH`."""
+    """Builds nodes from the parser's events; recursion is bounded by `DEEPEST_YAML`."""
 
     def __init__(self, source: Source, faults: Faults):
         self.source = source
@@ -293,8 +293,8 @@ class _Reader:
 
     def node(self, event: Any, depth: int) -> Tree:
         start, end = event.start_mark.index, event.end_mark.index
-        if depth > MAX_DEPTH:
-            self.refuse("too-deep", f"this is nested more than {MAX_DEPTH} deep", event, 1)
+        if depth > DEEPEST_YAML:
+            self.refuse("too-deep", f"this is nested more than {DEEPEST_YAML} deep", event, 1)
             self.faults.stop()
         self.refuse_cleverness(event)
         if isinstance(event, yaml.SequenceStartEvent):

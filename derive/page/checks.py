@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.algebra.equality import Compared, Evidence, Grade
-from derive.course.reference.comparison import Told
+from derive.course.reference.comparison import Remark
 from derive.course.reference.errata import Erratum
 from derive.page.wording import Node, Phrases, filled
 from derive.steps.step import Step
@@ -72,7 +72,7 @@ class Checks:
         return filled(words.labels["closing"], names)
 
 
-def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -> Checks:
+def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Remark]) -> Checks:
     """What was done for these steps, and how the source document compares."""
     steps = list(steps)
     evidence = [(step, e) for step in steps for e in step.evidence]

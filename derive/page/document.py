@@ -17,7 +17,7 @@ from derive.algebra.equality import LEAST_SURE_FIRST, Grade
 from derive.algebra.expressions import Amount, Relation, Truncated
 from derive.course.parts import Part
 from derive.course.problem import Problem
-from derive.course.reference.comparison import Told
+from derive.course.reference.comparison import Remark
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
@@ -169,7 +169,7 @@ def document_of(
     values: Mapping[str, Step],
     words: Phrases,
     level: Level,
-    compared: Sequence[Told] = (),
+    compared: Sequence[Remark] = (),
     others: Mapping[str, int] | None = None,
     drawings: Sequence[Recorded] = (),
 ) -> tuple[Document, list[Complaint]]:
@@ -212,7 +212,7 @@ class _Writer:
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.notes = notes_apart(answered, words)
 
-    def document(self, compared: Sequence[Told]) -> Document:
+    def document(self, compared: Sequence[Remark]) -> Document:
         problem = self.problem
         title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)

@@ -17,12 +17,12 @@ from sympy import Expr, ImmutableDenseMatrix, MatrixBase
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import explicit
 from derive.course.arithmetic import Term
+from derive.course.latex.cursor import Cursor
 from derive.course.latex.grammar import Formula
-from derive.course.latex.grids import Grid, Value, each
+from derive.course.latex.grids import Grid, TermOrGrid, each
 from derive.course.latex.integrals import bracket_of
 from derive.course.latex.letters import Letter, Letters, letter_at, subscript_of
 from derive.course.latex.reading import MAX_SIDES, _in_one_line
-from derive.course.latex.runs import Run
 from derive.course.latex.titles import is_derivative
 from derive.course.latex.tokens import Argument, Token, tokens_of
 from derive.course.latex.vocabulary import RELATIONS
@@ -55,18 +55,18 @@ class PrintedFormula(Formula):
 
     # -- names and units ---------------------------------------------------------------------------------------
 
-    def letter_or_axis(self, run: Run) -> Value | None:
+    def letter_or_axis(self, run: Cursor) -> TermOrGrid | None:
         if run.token and (figure := self.figure(run.token)) is not None:
             run.at += 1
             return figure
         letter = self.read_letter(run)
         return None if letter is None else self.value_of(letter)
 
-    def letter(self, run: Run) -> Term | None:
+    def letter(self, run: Cursor) -> Term | None:
         value = self.letter_or_axis(run)
         return None if value is None else self.scalar_in(value, "a letter")
 
-    def read_letter(self, run: Run) -> Letter | None:
+    def read_letter(self, run: Cursor) -> Letter | None:
         token = run.token
         letter = letter_at(token)
         if token is None or letter is None or token.text in ("mathrm", "operatorname"):
@@ -99,7 +99,7 @@ class PrintedFormula(Formula):
         ]
         return Grid(tuple(rows), place.start, place.end)
 
-    def begins_factor(self, run: Run) -> bool:
+    def begins_factor(self, run: Cursor) -> bool:
         token = run.token
         if token and token.kind == "command" and (token.text in ("mathrm", OVER_MASS) or self.figure(token)):
             return True
@@ -127,7 +127,7 @@ class PrintedFormula(Formula):
             return self.grid(int(figures[0]) * ImmutableDenseMatrix.eye(3), token)
         return None
 
-    def atom(self, run: Run, depth: int) -> Value:
+    def atom(self, run: Cursor, depth: int) -> TermOrGrid:
         token = run.token
         assert token is not None
         if token.kind == "command" and token.text == "mathrm":
@@ -145,12 +145,12 @@ class PrintedFormula(Formula):
 
     # -- derivatives -------------------------------------------------------------------------------------------
 
-    def derivative(self, run: Run, token: Token, depth: int) -> Value:
+    def derivative(self, run: Cursor, token: Token, depth: int) -> TermOrGrid:
         above, below = token.arguments
         assert above and below
-        of = Run(above.tokens[1:], above.end)
+        of = Cursor(above.tokens[1:], above.end)
         order = self.order(of, depth)
-        by = Run(below.tokens[1:], below.end)
+        by = Cursor(below.tokens[1:], below.end)
         letter = self.read_letter(by)
         assert letter is not None
         name = "t" if letter.name == "t" else str(self.scalar_in(self.value_of(letter), "a letter").expr)
@@ -161,18 +161,18 @@ class PrintedFormula(Formula):
             what = self.derived(what, name)
         return what
 
-    def order(self, run: Run, depth: int) -> int:
+    def order(self, run: Cursor, depth: int) -> int:
         return int(self.scalar_in(self.inside(self.script(run), depth), "an order").expr) if run.written == "^" else 1
 
-    def derived(self, value: Value, by: str) -> Value:
+    def derived(self, value: TermOrGrid, by: str) -> TermOrGrid:
         return each(value, lambda term: replace(term, expr=differentiated(explicit(term.expr), by), dimension=NUMBER))
 
     # -- scripts behind brackets -------------------------------------------------------------------------------
 
-    def with_limits(self, run: Run, inner: Value, first: int, depth: int) -> Value:
+    def with_limits(self, run: Cursor, inner: TermOrGrid, first: int, depth: int) -> TermOrGrid:
         opening = run.tokens[first - 1]
         if opening.text == ".":
-            script = Run.over(self.script(run))
+            script = Cursor.over(self.script(run))
             letter = self.letter(script)
             assert letter is not None and script.written == "="
             script.at += 1
@@ -197,7 +197,7 @@ class PrintedFormula(Formula):
 
     # -- products ----------------------------------------------------------------------------------------------
 
-    def product_of(self, left: Value, right: Value, sign: str) -> Value:
+    def product_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
         if sign == "" and isinstance(left, Grid) and isinstance(right, Grid) and left.is_vector and right.is_vector:
             rows = [tuple(self.scaled(a, b) for b in right.column) for a in left.column]
             return Grid(tuple(rows), left.start, right.end)  # a dyad
@@ -214,7 +214,7 @@ def _seen_in_the_body(expr: Expr) -> Expr:
     return expr.xreplace(names)
 
 
-def _matrix(value: Value) -> Any:
+def _matrix(value: TermOrGrid) -> Any:
     assert isinstance(value, Grid)
     return ImmutableDenseMatrix([[explicit(term.expr) for term in line] for line in value.rows])
 
@@ -255,7 +255,7 @@ def read_printed(
         scalar = Scalar(text, "", 0, len(text), Source("page.tex", text))
         formula = PrintedFormula(scalar, names, dimensions, bound, positions or [])
         formula.branch = branch
-        run = Run(_over_masses(_in_one_line(tokens_of(formula))), len(text.rstrip()))
+        run = Cursor(_over_masses(_in_one_line(tokens_of(formula))), len(text.rstrip()))
         sides, marks = [formula.sum(run, 0)], []
         while run.token and run.written in RELATIONS and len(sides) < MAX_SIDES:
             marks.append(RELATIONS[run.written])

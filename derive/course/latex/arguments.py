@@ -13,11 +13,11 @@ from sympy import Dummy, E, Integer, pi
 
 from derive.algebra.dimensions import NUMBER
 from derive.course.arithmetic import Term
-from derive.course.latex.grids import Grid, Grids, Value
+from derive.course.latex.cursor import Cursor
+from derive.course.latex.grids import Grid, Grids, TermOrGrid
 from derive.course.latex.letters import Letter, Letters, letter_at, subscript_of, term_of
-from derive.course.latex.runs import Run
 from derive.course.latex.tokens import Argument, Token
-from derive.course.latex.vocabulary import FONTS, FRACTIONS, FUNCTIONS, WORDS
+from derive.course.latex.vocabulary import FONTS, FRACTIONS, LATEX_FUNCTIONS, WORDS
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, did_you_mean
 
@@ -34,25 +34,25 @@ class Functions(Grids):
 
     # -- letters --------------------------------------------------------------------------------------------------
 
-    def letter_or_axis(self, run: Run) -> Value | None:
-        letter = self.read_letter(run)
+    def letter_or_axis(self, cursor: Cursor) -> TermOrGrid | None:
+        letter = self.read_letter(cursor)
         if letter is None:
             return None
         declared = self.letters.named(letter)
         if letter.axis is not None and (declared is None or letter.hat):
             one, zero = (Term(Integer(n), NUMBER, letter.start, letter.end) for n in (1, 0))
             return Grid(tuple((one if i == letter.axis else zero,) for i in range(3)), letter.start, letter.end)
-        if declared is None and letter.name == "e" and run.written == "^":
+        if declared is None and letter.name == "e" and cursor.written == "^":
             self.euler = replace(self.euler, start=letter.start, end=letter.end)
             return self.euler
         if letter.hat:
             what = self.text[letter.start : letter.end]
             self.refuse("latex", f"`{what}` is a unit vector that is not read", letter.start, letter.end)
-        self.check_not_a_function(letter, run)
+        self.check_not_a_function(letter, cursor)
         return self.value_of(letter)
 
-    def letter(self, run: Run) -> Term | None:
-        letter = self.read_letter(run)
+    def letter(self, cursor: Cursor) -> Term | None:
+        letter = self.read_letter(cursor)
         return None if letter is None else self.value_of(letter)
 
     def value_of(self, letter: Letter) -> Term:
@@ -67,17 +67,17 @@ class Functions(Grids):
         self.dimensions[term.expr] = term.dimension
         return term
 
-    def read_letter(self, run: Run) -> Letter | None:
-        token = run.token
+    def read_letter(self, cursor: Cursor) -> Letter | None:
+        token = cursor.token
         letter = letter_at(token)
         if token is None or letter is None:
             if token and token.kind == "command" and token.text in WORDS | FONTS:
                 self.refuse("latex", "words are no part of a formula", token.start, token.end)
             return None
-        run.at += 1
-        if run.written != "_" or letter.subscript:
+        cursor.at += 1
+        if cursor.written != "_" or letter.subscript:
             return letter
-        below = self.script(run)
+        below = self.script(cursor)
         subscript = subscript_of(below.tokens)
         if subscript is None:
             message = f"what stands below `{self.text[letter.start : letter.end]}` is not a name"
@@ -95,96 +95,96 @@ class Functions(Grids):
             help_line = f"declare it under `symbols:`, or give `{letter.name}` what it belongs to"
         return self.complaint("undeclared-symbol", f"`{name}` is not declared", letter.start, letter.end, help_line)
 
-    def check_not_a_function(self, letter: Letter, run: Run) -> None:
+    def check_not_a_function(self, letter: Letter, cursor: Cursor) -> None:
         r"""`U(\theta)` is a function to every reader, and `a(b)` nobody writes for a product."""
-        three = run.tokens[run.at : run.at + 3]
+        three = cursor.tokens[cursor.at : cursor.at + 3]
         if len(three) == 3 and three[0].text == "(" and three[2].text == ")" and letter_at(three[1]):
             whole = self.text[letter.start : three[2].end]
             help_line = "leave the brackets away, whether it is a product or a function"
             self.refuse("ambiguous", f"`{whole}` could be a function", letter.start, three[2].end, help_line)
 
-    def named_as_a_whole(self, run: Run, first: int) -> Term | None:
+    def named_as_a_whole(self, cursor: Cursor, first: int) -> Term | None:
         r"""`\left(I_z\right)_{disc}` is the letter `I_z_disc`; None where the subscript is a limit."""
-        inner = Run(run.tokens[first : run.at - 1], run.before.start)
+        inner = Cursor(cursor.tokens[first : cursor.at - 1], cursor.before.start)
         letter = self.read_letter(inner)
-        at = run.at
-        below = self.script(run)
+        at = cursor.at
+        below = self.script(cursor)
         subscript = subscript_of(below.tokens)
-        if letter is None or inner.token or subscript is None or run.written == "^":
-            run.at = at
+        if letter is None or inner.token or subscript is None or cursor.written == "^":
+            cursor.at = at
             return None
         joined = f"{letter.subscript}_{subscript}" if letter.subscript else subscript
         return self.value_of(replace(letter, subscript=joined, end=below.end))
 
     # -- functions ------------------------------------------------------------------------------------------------
 
-    def function(self, run: Run, token: Token, depth: int) -> Value:
+    def function(self, cursor: Cursor, token: Token, depth: int) -> TermOrGrid:
         name = token.text
-        if name not in FUNCTIONS:
+        if name not in LATEX_FUNCTIONS:
             self.refuse("latex", f"`\\{name}` is not expected here", token.start, token.end)
-        power = self.power_of_function(run, token, depth)
-        inner = self.in_brackets(run, depth) if self.opens(run) else self.without_brackets(run, token, depth)
-        value = self.applied(name, FUNCTIONS[name], inner, token.start, inner.end)
+        power = self.power_of_function(cursor, token, depth)
+        inner = self.in_brackets(cursor, depth) if self.opens(cursor) else self.without_brackets(cursor, token, depth)
+        value = self.applied(name, LATEX_FUNCTIONS[name], inner, token.start, inner.end)
         return self.power_of(value, power) if power else value
 
-    def power_of_function(self, run: Run, token: Token, depth: int) -> Term | None:
-        if run.written != "^":
+    def power_of_function(self, cursor: Cursor, token: Token, depth: int) -> Term | None:
+        if cursor.written != "^":
             return None
-        script = self.script(run)
+        script = self.script(cursor)
         power = self.scalar_in(self.inside(script, depth), "an exponent")
         if power.expr.is_negative:
             help_line = f"write `\\arc{token.text}`, or `1/\\{token.text}`"
             self.refuse("ambiguous", "this could be the inverse function", script.start, script.end, help_line)
         return power
 
-    def opens(self, run: Run) -> bool:
-        return run.token is not None and run.token.kind == "open" and run.token.text in ("(", "[")
+    def opens(self, cursor: Cursor) -> bool:
+        return cursor.token is not None and cursor.token.kind == "open" and cursor.token.text in ("(", "[")
 
-    def in_brackets(self, run: Run, depth: int) -> Term:
-        inner = self.scalar_in(self.atom(run, depth), "the argument of a function")
-        self.check_power(run, inner)
+    def in_brackets(self, cursor: Cursor, depth: int) -> Term:
+        inner = self.scalar_in(self.atom(cursor, depth), "the argument of a function")
+        self.check_power(cursor, inner)
         return inner
 
-    def check_power(self, run: Run, inner: Term) -> None:
-        if run.written == "^":
-            token = run.token
+    def check_power(self, cursor: Cursor, inner: Term) -> None:
+        if cursor.written == "^":
+            token = cursor.token
             assert token is not None
             message = "this power could be of the function or of its argument"
             self.refuse("ambiguous", message, inner.start, token.end, "write `\\sin^2 x` or `\\sin(x^2)`")
 
-    def without_brackets(self, run: Run, function: Token, depth: int) -> Term:
+    def without_brackets(self, cursor: Cursor, function: Token, depth: int) -> Term:
         argument: Term | None = None
-        while self.is_plain(run.token):
-            argument, complete = self.longer(argument, run, depth)
+        while self.is_plain(cursor.token):
+            argument, complete = self.longer(argument, cursor, depth)
             if complete:
                 break
         if argument is None:
-            place = run.token or function
+            place = cursor.token or function
             message = f"the argument of `\\{function.text}` is missing"
             self.refuse("latex", message, place.start, place.end)
         unfit = self.homogeneous and argument.dimension != NUMBER
-        if unfit or (self.opens(run) and self.is_only_a_number(argument)):
+        if unfit or (self.opens(cursor) and self.is_only_a_number(argument)):
             message = f"the argument of `\\{function.text}` is not clear"
             self.refuse("ambiguous", message, argument.start, argument.end, "put it in brackets")
-        self.check_end(run, argument, depth)
+        self.check_end(cursor, argument, depth)
         return argument
 
-    def longer(self, argument: Term | None, run: Run, depth: int) -> tuple[Term, bool]:
+    def longer(self, argument: Term | None, cursor: Cursor, depth: int) -> tuple[Term, bool]:
         """The argument with one factor more, and whether it is now complete."""
-        factor = self.scalar_in(self.atom(run, depth), "the argument of a function")
-        degrees = run.written == "^" and [t.text for t in self.script_ahead(run).tokens] == ["circ"]
+        factor = self.scalar_in(self.atom(cursor, depth), "the argument of a function")
+        degrees = cursor.written == "^" and [t.text for t in self.script_ahead(cursor).tokens] == ["circ"]
         if degrees:
-            value = self.raised_to(factor, self.script(run), depth, run)
+            value = self.raised_to(factor, self.script(cursor), depth, cursor)
             factor = self.scalar_in(value, "an angle in degrees")
         else:
-            self.check_power(run, factor)
+            self.check_power(cursor, factor)
         argument = factor if argument is None else self.multiplied(argument, factor)
         return argument, degrees or (argument.dimension == NUMBER and not self.is_only_a_number(argument))
 
-    def script_ahead(self, run: Run) -> Argument:
-        at = run.at
-        script = self.script(run)
-        run.at = at
+    def script_ahead(self, cursor: Cursor) -> Argument:
+        at = cursor.at
+        script = self.script(cursor)
+        cursor.at = at
         return script
 
     def is_plain(self, token: Token | None) -> bool:
@@ -196,16 +196,16 @@ class Functions(Grids):
     def is_only_a_number(self, term: Term) -> bool:
         return bool(term.expr.is_number) and not term.expr.has(pi)
 
-    def check_end(self, run: Run, argument: Term, depth: int) -> None:
+    def check_end(self, cursor: Cursor, argument: Term, depth: int) -> None:
         """Whether the next factor could belong to the argument as well as not."""
-        token = run.token
+        token = cursor.token
         if token is None:
             return
-        unclear = run.written == "/"
+        unclear = cursor.written == "/"
         if self.is_plain(token) and not (token.kind == "letter" and token.text == "d" and not self.d_is_a_letter):
-            at, told = run.at, len(self.undeclared)
-            following = self.atom(run, depth)
-            run.at = at
+            at, told = cursor.at, len(self.undeclared)
+            following = self.atom(cursor, depth)
+            cursor.at = at
             del self.undeclared[told:]
             unclear = isinstance(following, Term) and following.dimension == NUMBER
         if unclear:
@@ -215,17 +215,17 @@ class Functions(Grids):
     # -- given by the grammar ---------------------------------------------------------------------------------------
 
     @abstractmethod
-    def atom(self, run: Run, depth: int) -> Value:
+    def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
         """The next factor."""
 
     @abstractmethod
-    def script(self, run: Run) -> Argument:
+    def script(self, cursor: Cursor) -> Argument:
         """What stands behind `^` or `_`."""
 
     @abstractmethod
-    def inside(self, argument: Argument | None, depth: int) -> Value:
+    def inside(self, argument: Argument | None, depth: int) -> TermOrGrid:
         """What stands within an argument."""
 
     @abstractmethod
-    def raised_to(self, base: Value, script: Argument, depth: int, run: Run) -> Value:
+    def raised_to(self, base: TermOrGrid, script: Argument, depth: int, cursor: Cursor) -> TermOrGrid:
         """A value with its exponent."""

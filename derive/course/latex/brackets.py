@@ -7,9 +7,9 @@ from typing import NoReturn
 
 from derive.course.arithmetic import Term
 from derive.course.latex.arguments import Functions
-from derive.course.latex.grids import Grid, Value, between
+from derive.course.latex.cursor import Cursor
+from derive.course.latex.grids import Grid, TermOrGrid, spanning
 from derive.course.latex.integrals import bracket_of
-from derive.course.latex.runs import Run
 from derive.course.latex.tokens import Argument, Token
 from derive.course.latex.vocabulary import CLOSING, OPENING
 
@@ -19,59 +19,59 @@ MAX_SIDE = 6
 class Brackets(Functions):
     """What `Formula` builds on besides; the grammar itself gives `sum`, `closed_sum` and `unexpected`."""
 
-    def bracketed(self, run: Run, opening: Token, depth: int) -> Value:
+    def bracketed(self, cursor: Cursor, opening: Token, depth: int) -> TermOrGrid:
         """What stands in brackets: a value, a triple, an antiderivative between limits."""
-        first = run.at
+        first = cursor.at
         bars = opening.kind == "bar"
         closing = "|" if bars else OPENING[opening.text]
-        run.bars.append(bars)
-        values = [self.sum(run, depth + 1)]
-        while run.token and run.written == ",":
-            run.at += 1
-            values.append(self.sum(run, depth + 1))
-        run.bars.pop()
-        token = run.token
+        cursor.bars.append(bars)
+        values = [self.sum(cursor, depth + 1)]
+        while cursor.token and cursor.written == ",":
+            cursor.at += 1
+            values.append(self.sum(cursor, depth + 1))
+        cursor.bars.pop()
+        token = cursor.token
         if token is None or not (token.kind == "close" or (token.kind == "bar" and closing == "|")):
             if token is not None:
-                self.unexpected(run)
+                self.unexpected(cursor)
             self.refuse("latex", f"this `{opening.text}` is never closed", opening.start, opening.end)
         found = "|" if token.kind == "bar" else CLOSING[token.text]
         if found != closing:
             self.refuse("latex", f"`{opening.text}` is closed by `{token.text}`", token.start, token.end)
-        run.at += 1
-        if opening.text == "." and not (run.token and run.token.kind == "script"):
+        cursor.at += 1
+        if opening.text == "." and not (cursor.token and cursor.token.kind == "script"):
             self.refuse("latex", "limits are missing after this bar", token.start, token.end)
         if len(values) > 1:
             return self.triple(values, opening.start, token.end)
-        inner = between(values[0], opening.start, token.end)
-        if run.written == "_" or self.both_scripts(run):
-            return self.with_limits(run, inner, first, depth)
+        inner = spanning(values[0], opening.start, token.end)
+        if cursor.written == "_" or self.both_scripts(cursor):
+            return self.with_limits(cursor, inner, first, depth)
         return self.size_of(inner, opening.start, token.end) if closing == "|" else inner
 
-    def both_scripts(self, run: Run) -> bool:
+    def both_scripts(self, cursor: Cursor) -> bool:
         """Whether an upper limit and then a lower one follow."""
-        at, found = run.at, []
-        while run.token and run.token.kind == "script" and run.written not in found:
-            found.append(run.written)
-            self.script(run)
-        run.at = at
+        at, found = cursor.at, []
+        while cursor.token and cursor.token.kind == "script" and cursor.written not in found:
+            found.append(cursor.written)
+            self.script(cursor)
+        cursor.at = at
         return len(found) == 2
 
-    def with_limits(self, run: Run, inner: Value, first: int, depth: int) -> Value:
-        named = self.named_as_a_whole(run, first) if run.written == "_" else None
+    def with_limits(self, cursor: Cursor, inner: TermOrGrid, first: int, depth: int) -> TermOrGrid:
+        named = self.named_as_a_whole(cursor, first) if cursor.written == "_" else None
         if named is not None:
             return named
-        assert run.token is not None
-        lower, upper, variable = self.limits(run, depth, run.token)
-        return bracket_of(self, inner, lower, upper, variable, run.before.end)
+        assert cursor.token is not None
+        lower, upper, variable = self.limits(cursor, depth, cursor.token)
+        return bracket_of(self, inner, lower, upper, variable, cursor.before.end)
 
-    def triple(self, values: list[Value], start: int, end: int) -> Grid:
+    def triple(self, values: list[TermOrGrid], start: int, end: int) -> Grid:
         entries = tuple((self.scalar_in(value, "a component"),) for value in values)
         if len(entries) != 3:
             self.refuse("shape", f"a vector has 3 components, but this has {len(entries)}", start, end)
         return Grid(entries, start, end)
 
-    def matrix(self, token: Token, depth: int) -> Value:
+    def matrix(self, token: Token, depth: int) -> TermOrGrid:
         rows: list[list[list[Token]]] = [[[]]]
         for inner in token.inside:
             if inner.kind == "row":
@@ -91,24 +91,24 @@ class Brackets(Functions):
     def entry(self, cell: list[Token], matrix: Token, depth: int) -> Term:
         if not cell:
             self.refuse("shape", "an entry of this matrix is empty", matrix.start, matrix.end)
-        value = self.closed_sum(Run(tuple(cell), cell[-1].end), depth + 1)
+        value = self.closed_sum(Cursor(tuple(cell), cell[-1].end), depth + 1)
         return self.scalar_in(value, "an entry")
 
     # -- limits -------------------------------------------------------------------------------------------------------
 
-    def limits(self, run: Run, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
+    def limits(self, cursor: Cursor, depth: int, sign: Token) -> tuple[Term, Term, Term | None]:
         """What stands below and above, and the variable if it is named there: `_{z=0}^{z=h}`."""
         found: dict[str, tuple[Term, Term | None]] = {}
-        while run.token and run.token.kind == "script" and run.token.text not in found:
-            script = run.token.text
-            found[script] = self.limit(self.script(run), depth)
+        while cursor.token and cursor.token.kind == "script" and cursor.token.text not in found:
+            script = cursor.token.text
+            found[script] = self.limit(self.script(cursor), depth)
         if len(found) < 2:
             missing = "^" if "_" in found else "_"
             self.refuse("integral", f"the limit after `{missing}` is missing", sign.start, sign.end)
         return found["_"][0], found["^"][0], found["_"][1]
 
     def limit(self, argument: Argument, depth: int) -> tuple[Term, Term | None]:
-        inner = Run.over(argument)
+        inner = Cursor.over(argument)
         named = None
         if any(token.text == "=" for token in argument.tokens):
             named = self.letter(inner)
@@ -121,13 +121,13 @@ class Brackets(Functions):
     # -- given by the grammar ---------------------------------------------------------------------------------------
 
     @abstractmethod
-    def sum(self, run: Run, depth: int) -> Value:
+    def sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
         """A sum of products."""
 
     @abstractmethod
-    def closed_sum(self, run: Run, depth: int) -> Value:
+    def closed_sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
         """A sum that nothing may follow."""
 
     @abstractmethod
-    def unexpected(self, run: Run) -> NoReturn:
+    def unexpected(self, cursor: Cursor) -> NoReturn:
         """Refuse what stands next."""

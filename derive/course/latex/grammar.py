@@ -19,13 +19,13 @@ from sympy import Integer, Rational, exp, pi, sqrt
 from derive.algebra.dimensions import NUMBER
 from derive.course.arithmetic import Term
 from derive.course.latex.brackets import Brackets
-from derive.course.latex.grids import Grids, Value, between
+from derive.course.latex.cursor import Cursor
+from derive.course.latex.grids import Grids, TermOrGrid, spanning
 from derive.course.latex.integrals import Sign, differential_behind, differential_of, integrated, is_d
 from derive.course.latex.letters import letter_at
-from derive.course.latex.runs import Run
 from derive.course.latex.titles import is_derivative, without_title
-from derive.course.latex.tokens import MAX_DEPTH, Argument, Token
-from derive.course.latex.vocabulary import FRACTIONS, FUNCTIONS, RELATIONS
+from derive.course.latex.tokens import DEEPEST_FORMULA, Argument, Token
+from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS
 
 _TIMES = ("\\cdot", "\\times", "*")
 _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
@@ -36,17 +36,17 @@ class _Parts:
 
     def __init__(self, reader: Grids):
         self.reader = reader
-        self.parts: list[Value] = []
+        self.parts: list[TermOrGrid] = []
         self.signs: list[str] = []
 
-    def take(self, factor: Value, times: str) -> None:
+    def take(self, factor: TermOrGrid, times: str) -> None:
         if self.parts and not times:
             self.parts[-1] = self.reader.product_of(self.parts[-1], factor, "")
         else:
             self.parts.append(factor)
             self.signs.append(times)
 
-    def product(self) -> Value:
+    def product(self) -> TermOrGrid:
         whole = self.parts[0]
         for part, sign in zip(self.parts[1:], self.signs[1:], strict=True):
             whole = self.reader.product_of(whole, part, sign)
@@ -61,93 +61,93 @@ class Formula(Brackets):
 
     # -- chains ---------------------------------------------------------------------------------------------------
 
-    def chain(self, run: Run) -> tuple[list[tuple[list[Value], int, Token, Token]], list[str]]:
+    def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
         """The sides, each with its alternatives, branches, first and last token; and the marks before them, or ""."""
-        without_title(run)
-        sides, marks = [], [self.relation(run) or ""]
+        without_title(cursor)
+        sides, marks = [], [self.relation(cursor) or ""]
         while True:
-            first = run.token
+            first = cursor.token
             self.branches = 1
-            alternatives = [self.sum(run, 0)]
-            while self.alternative(run):
-                alternatives.append(self.sum(run, 0))
+            alternatives = [self.sum(cursor, 0)]
+            while self.alternative(cursor):
+                alternatives.append(self.sum(cursor, 0))
             assert first is not None
             if len(alternatives) > 2 or (len(alternatives) == 2 and self.branches == 2):
                 self.refuse("latex", "a value has two branches at most", first.start, first.end)
-            sides.append((alternatives, self.branches, first, run.before))
-            mark = self.relation(run)
+            sides.append((alternatives, self.branches, first, cursor.before))
+            mark = self.relation(cursor)
             if mark is None:
                 break
             marks.append(mark)
-        if run.token:
-            self.unexpected(run)
+        if cursor.token:
+            self.unexpected(cursor)
         return sides, marks
 
-    def relation(self, run: Run) -> str | None:
-        token = run.token
-        if token and (mark := RELATIONS.get(run.written)):
-            run.at += 1
+    def relation(self, cursor: Cursor) -> str | None:
+        token = cursor.token
+        if token and (mark := RELATIONS.get(cursor.written)):
+            cursor.at += 1
             return mark
         return None
 
-    def alternative(self, run: Run) -> bool:
-        token = run.token
+    def alternative(self, cursor: Cursor) -> bool:
+        token = cursor.token
         if token and token.kind == "command" and token.arguments and token.arguments[0]:
             inside = token.arguments[0].tokens
             if "".join(t.text for t in inside) == "or":
-                run.at += 1
+                cursor.at += 1
                 return True
         return False
 
     # -- sums and products ----------------------------------------------------------------------------------------
 
-    def sign(self, run: Run) -> str | None:
-        if run.token is None or run.written not in _SIGNS:
+    def sign(self, cursor: Cursor) -> str | None:
+        if cursor.token is None or cursor.written not in _SIGNS:
             return None
-        both = _SIGNS[run.written]
+        both = _SIGNS[cursor.written]
         if both[0] != both[1]:
             self.branches = 2
-        run.at += 1
+        cursor.at += 1
         return "+" if both[self.branch] > 0 else "-"
 
-    def sum(self, run: Run, depth: int) -> Value:
-        if depth > MAX_DEPTH:
-            here = run.token or run.before
-            self.refuse("too-large", f"this formula is nested more than {MAX_DEPTH} deep", here.start)
-        first = run.token
-        sign = self.sign(run)
-        left = self.product(run, depth)
+    def sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
+        if depth > DEEPEST_FORMULA:
+            here = cursor.token or cursor.before
+            self.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} deep", here.start)
+        first = cursor.token
+        sign = self.sign(cursor)
+        left = self.product(cursor, depth)
         if sign == "-" and first:
             left = self.minus(left, first.start)
-        while sign := self.sign(run):
-            left = self.sum_of(left, self.product(run, depth), sign)
+        while sign := self.sign(cursor):
+            left = self.sum_of(left, self.product(cursor, depth), sign)
         return left
 
-    def product(self, run: Run, depth: int) -> Value:
+    def product(self, cursor: Cursor, depth: int) -> TermOrGrid:
         outside, inside = _Parts(self), _Parts(self)
         signs: list[Sign] = []
         alone: Token | None = None  # the factor before, if it is one token
         while True:
-            times = self.times(run) if signs or outside.parts else ""
-            if run.token and any(sign.variable is None for sign in signs):
-                run.replace(differential_behind(run.token, self.d_is_a_letter))
-            if self.is_differential(run, signs):
-                differential_of(self, signs, self.differential(run))
-            elif run.written == "\\int":
-                signs.append(self.integral_sign(run, depth))
-            elif self.begins_factor(run):
-                first = run.at
-                factor = self.factor(run, depth)
-                self.check_side_by_side(alone if not times else None, run.tokens[first], factor)
-                alone = run.before if run.at == first + 1 else None
+            times = self.times(cursor) if signs or outside.parts else ""
+            if cursor.token and any(sign.variable is None for sign in signs):
+                cursor.replace(differential_behind(cursor.token, self.d_is_a_letter))
+            if self.is_differential(cursor, signs):
+                differential_of(self, signs, self.differential(cursor))
+            elif cursor.written == "\\int":
+                signs.append(self.integral_sign(cursor, depth))
+            elif self.begins_factor(cursor):
+                first = cursor.at
+                factor = self.factor(cursor, depth)
+                self.check_side_by_side(alone if not times else None, cursor.tokens[first], factor)
+                alone = cursor.before if cursor.at == first + 1 else None
                 (inside if signs else outside).take(factor, times)
             elif times:
-                self.missing(run)
-            elif run.written == "/":
+                self.missing(cursor)
+            elif cursor.written == "/":
                 divided = inside if signs else outside
                 if not divided.parts:
-                    self.missing(run)
-                divided.parts[-1] = self.divided(run, depth, divided.parts[-1], signs)
+                    self.missing(cursor)
+                divided.parts[-1] = self.divided(cursor, depth, divided.parts[-1], signs)
             else:
                 break
         if signs:
@@ -155,31 +155,31 @@ class Formula(Brackets):
             whole = integrated(self, inside.product() if inside.parts else one, signs, outside.parts)
             outside.take(whole, "")
         elif not outside.parts:
-            self.missing(run)
+            self.missing(cursor)
         return outside.product()
 
-    def times(self, run: Run) -> str:
-        if run.token is None or run.written not in _TIMES:
+    def times(self, cursor: Cursor) -> str:
+        if cursor.token is None or cursor.written not in _TIMES:
             return ""
-        run.at += 1
-        return run.before.text if run.before.kind == "mark" else f"\\{run.before.text}"
+        cursor.at += 1
+        return cursor.before.text if cursor.before.kind == "mark" else f"\\{cursor.before.text}"
 
-    def divided(self, run: Run, depth: int, above: Value, signs: list[Sign]) -> Value:
+    def divided(self, cursor: Cursor, depth: int, above: TermOrGrid, signs: list[Sign]) -> TermOrGrid:
         """`a/b`, where nothing may follow: `a/2b` is a/(2b) to one reader and (a/2)b to the next."""
-        slash = run.token
+        slash = cursor.token
         assert slash is not None
-        run.at += 1
-        if not self.begins_factor(run):
-            self.missing(run)
-        below = self.factor(run, depth)
-        following = run.token
-        if following and not self.is_differential(run, signs):
-            if self.begins_factor(run) or run.written in (*_TIMES, "/", "\\int"):
+        cursor.at += 1
+        if not self.begins_factor(cursor):
+            self.missing(cursor)
+        below = self.factor(cursor, depth)
+        following = cursor.token
+        if following and not self.is_differential(cursor, signs):
+            if self.begins_factor(cursor) or cursor.written in (*_TIMES, "/", "\\int"):
                 help_line = "write `\\frac{...}{...}`"
                 self.refuse("ambiguous", "it is not clear how far this `/` reaches", slash.start, slash.end, help_line)
         return self.quotient_of(above, below)
 
-    def check_side_by_side(self, before: Token | None, token: Token, factor: Value) -> None:
+    def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:
         """Two numbers side by side are one number, a mixed number or a slip; `a2` is half a subscript."""
         if before is None:
             return
@@ -196,76 +196,76 @@ class Formula(Brackets):
 
     # -- integrals ------------------------------------------------------------------------------------------------
 
-    def integral_sign(self, run: Run, depth: int) -> Sign:
-        sign = run.token
+    def integral_sign(self, cursor: Cursor, depth: int) -> Sign:
+        sign = cursor.token
         assert sign is not None
-        run.at += 1
-        lower, upper, named = self.limits(run, depth, sign)
-        return Sign(lower, upper, sign.start, run.before.end, named)
+        cursor.at += 1
+        lower, upper, named = self.limits(cursor, depth, sign)
+        return Sign(lower, upper, sign.start, cursor.before.end, named)
 
-    def is_differential(self, run: Run, signs: list[Sign]) -> bool:
+    def is_differential(self, cursor: Cursor, signs: list[Sign]) -> bool:
         """Whether a `d` and a letter stand here, and an integral waits for them; an upright d is no letter of ours."""
-        token = run.token
+        token = cursor.token
         if token is None or all(sign.variable for sign in signs):
             return False
-        return is_d(token, self.d_is_a_letter) and letter_at(run.following) is not None
+        return is_d(token, self.d_is_a_letter) and letter_at(cursor.following) is not None
 
-    def differential(self, run: Run) -> Term:
-        run.at += 1
-        letter = self.letter(run)
+    def differential(self, cursor: Cursor) -> Term:
+        cursor.at += 1
+        letter = self.letter(cursor)
         assert letter is not None
         return letter
 
     # -- factors --------------------------------------------------------------------------------------------------
 
-    def begins_factor(self, run: Run) -> bool:
-        token = run.token
+    def begins_factor(self, cursor: Cursor) -> bool:
+        token = cursor.token
         if token is None:
             return False
         if token.kind == "bar":
-            return not run.inside_bars
+            return not cursor.inside_bars
         if token.kind in ("number", "letter", "open", "matrix"):
             return True
-        names = FRACTIONS | {"sqrt", "pi"} | set(FUNCTIONS)
+        names = FRACTIONS | {"sqrt", "pi"} | set(LATEX_FUNCTIONS)
         return token.kind == "command" and (token.text in names or letter_at(token) is not None)
 
-    def factor(self, run: Run, depth: int) -> Value:
-        base = self.atom(run, depth)
-        token = run.token
-        if token and self.is_prime(run):
+    def factor(self, cursor: Cursor, depth: int) -> TermOrGrid:
+        base = self.atom(cursor, depth)
+        token = cursor.token
+        if token and self.is_prime(cursor):
             self.refuse("latex", "a prime is not read", token.start, help="transcribe what the derivative is equal to")
         if token is None or token.kind != "script":
             return base
         if token.text == "_":
             help_line = "limits are written `_{...}^{...}`"
             self.refuse("latex", "only a letter has a subscript", token.start, token.end, help_line)
-        return self.raised_to(base, self.script(run), depth, run)
+        return self.raised_to(base, self.script(cursor), depth, cursor)
 
-    def is_prime(self, run: Run) -> bool:
-        return run.written == "'" or (
-            run.written == "^" and [t.text for t in self.script_ahead(run).tokens][:1] == ["prime"]
+    def is_prime(self, cursor: Cursor) -> bool:
+        return cursor.written == "'" or (
+            cursor.written == "^" and [t.text for t in self.script_ahead(cursor).tokens][:1] == ["prime"]
         )
 
-    def raised_to(self, base: Value, script: Argument, depth: int, run: Run) -> Value:
+    def raised_to(self, base: TermOrGrid, script: Argument, depth: int, cursor: Cursor) -> TermOrGrid:
         if [token.text for token in script.tokens] == ["circ"]:
             degrees = self.scalar_in(base, "an angle in degrees")
             if degrees.dimension != NUMBER or not degrees.expr.is_number:
                 self.refuse("latex", "only a number has degrees", base.start, base.end)
             return replace(degrees, expr=degrees.expr * pi / 180, end=script.end)
-        if run.token and run.token.kind == "script":
-            self.refuse("latex", "this has two powers", run.token.start, help="put the first one in brackets")
-        exponent = self.scalar_in(self.closed_sum(Run.over(script), depth + 1), "an exponent")
+        if cursor.token and cursor.token.kind == "script":
+            self.refuse("latex", "this has two powers", cursor.token.start, help="put the first one in brackets")
+        exponent = self.scalar_in(self.closed_sum(Cursor.over(script), depth + 1), "an exponent")
         if base is self.euler:
             term = self.applied("exp", exp, exponent, base.start, script.end)
             return term
         return self.power_of(base, replace(exponent, start=script.start, end=script.end))
 
-    def script(self, run: Run) -> Argument:
+    def script(self, cursor: Cursor) -> Argument:
         """What stands after `^` or `_`: a group, or the one thing that TeX would take."""
-        mark = run.token
+        mark = cursor.token
         assert mark is not None
-        run.at += 1
-        argument = run.argument_after(mark, self.text)
+        cursor.at += 1
+        argument = cursor.argument_after(mark, self.text)
         if argument is None or not argument.tokens:
             self.refuse("latex", f"nothing stands after `{mark.text}`", mark.start, mark.end)
         bare = self.text[argument.start] != "{" and len(argument.tokens) == 1
@@ -275,72 +275,72 @@ class Formula(Brackets):
             self.refuse("ambiguous", "only the first digit would stand there", number.start, number.end, help_line)
         return argument
 
-    def atom(self, run: Run, depth: int) -> Value:
-        token = run.token
+    def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
+        token = cursor.token
         assert token is not None
-        if (letter := self.letter_or_axis(run)) is not None:
+        if (letter := self.letter_or_axis(cursor)) is not None:
             return letter
-        run.at += 1
+        cursor.at += 1
         if token.kind == "number":
             return self.number(token.text, token.start, token.end)
         if token.kind == "matrix":
             return self.matrix(token, depth)
         if token.kind in ("open", "bar"):
-            return self.bracketed(run, token, depth)
+            return self.bracketed(cursor, token, depth)
         if token.text == "pi":
             return Term(pi, NUMBER, token.start, token.end)
         if token.text in FRACTIONS:
             self.check_not_a_derivative(token)
             above, below = (self.inside(argument, depth) for argument in token.arguments)
-            return between(self.quotient_of(above, below), token.start, token.end)
+            return spanning(self.quotient_of(above, below), token.start, token.end)
         if token.text == "sqrt":
             return self.root(token, depth)
-        return self.function(run, token, depth)
+        return self.function(cursor, token, depth)
 
     def check_not_a_derivative(self, token: Token) -> None:
         if is_derivative(token) and not self.d_is_a_letter:
             help_line = "transcribe what it is equal to"
             self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
 
-    def inside(self, argument: Argument | None, depth: int) -> Value:
+    def inside(self, argument: Argument | None, depth: int) -> TermOrGrid:
         assert argument is not None
-        value = self.closed_sum(Run.over(argument), depth + 1)
-        return between(value, argument.start, argument.end)
+        value = self.closed_sum(Cursor.over(argument), depth + 1)
+        return spanning(value, argument.start, argument.end)
 
-    def closed_sum(self, run: Run, depth: int) -> Value:
+    def closed_sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
         """A sum that is all there is between two braces."""
-        value = self.sum(run, depth)
-        if run.token:
-            self.unexpected(run)
+        value = self.sum(cursor, depth)
+        if cursor.token:
+            self.unexpected(cursor)
         return value
 
-    def root(self, token: Token, depth: int) -> Value:
+    def root(self, token: Token, depth: int) -> TermOrGrid:
         degree, radicand = token.arguments
         inner = self.scalar_in(self.inside(radicand, depth), "what stands under a root")
         if degree is None:
             return self.applied("sqrt", sqrt, inner, token.start, token.end)
-        number = self.scalar_in(self.closed_sum(Run.over(degree), depth + 1), "the degree of a root")
+        number = self.scalar_in(self.closed_sum(Cursor.over(degree), depth + 1), "the degree of a root")
         if not number.expr.is_Integer or number.expr < 2:
             self.refuse("latex", "the degree of a root is a whole number from 2", degree.start, degree.end)
         exponent = replace(number, expr=Rational(1, number.expr))
-        return between(self.raised(inner, exponent), token.start, token.end)
+        return spanning(self.raised(inner, exponent), token.start, token.end)
 
     # -- what is not there ----------------------------------------------------------------------------------------
 
-    def unexpected(self, run: Run) -> NoReturn:
-        token = run.token
+    def unexpected(self, cursor: Cursor) -> NoReturn:
+        token = cursor.token
         assert token is not None
         if token.kind in ("cell", "row"):
             self.refuse("latex", "one formula is read at a time", token.start, token.end)
         self.refuse("latex", f"`{self.text[token.start : token.end]}` is not expected here", token.start, token.end)
 
-    def missing(self, run: Run) -> NoReturn:
-        token = run.token
-        if token and run.written == "\\partial":
+    def missing(self, cursor: Cursor) -> NoReturn:
+        token = cursor.token
+        if token and cursor.written == "\\partial":
             help_line = "transcribe what it is equal to"
             self.refuse("latex", "a derivative is not read", token.start, token.end, help_line)
         if token and token.kind in ("cell", "row", "word"):
-            self.unexpected(run)
+            self.unexpected(cursor)
         where = f"before `{self.text[token.start : token.end]}`" if token else "at the end"
-        start = token.start if token else run.end - 1
+        start = token.start if token else cursor.end - 1
         self.refuse("latex", f"something is missing {where}", start, token.end if token else None)

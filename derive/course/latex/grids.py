@@ -36,17 +36,17 @@ class Grid:
         return self.shape == (3, 1)
 
 
-Value: TypeAlias = Term | Grid
+TermOrGrid: TypeAlias = Term | Grid
 
 
-def each(value: Value, change: Callable[[Term], Term]) -> Value:
+def each(value: TermOrGrid, change: Callable[[Term], Term]) -> TermOrGrid:
     """The same done to a scalar, or to every entry."""
     if isinstance(value, Term):
         return change(value)
     return replace(value, rows=tuple(tuple(change(term) for term in row) for row in value.rows))
 
 
-def between(value: Value, start: int, end: int) -> Value:
+def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
     """The value as it stands with what surrounds it; entries keep their places."""
     return replace(value, start=start, end=end)
 
@@ -79,7 +79,7 @@ class Grids(Arithmetic, ABC):
             inner = replace(inner, dimension=NUMBER)
         return super().applied(name, function, inner, start, end)
 
-    def sum_of(self, left: Value, right: Value, sign: str) -> Value:
+    def sum_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
         if isinstance(left, Term) and isinstance(right, Term):
             return self.added(left, right, sign)
         if isinstance(left, Term) or isinstance(right, Term) or left.shape != right.shape:
@@ -92,10 +92,10 @@ class Grids(Arithmetic, ABC):
         )
         return Grid(rows, left.start, right.end)
 
-    def minus(self, value: Value, start: int) -> Value:
-        return between(each(value, lambda term: self.negated(term, term.start)), start, value.end)
+    def minus(self, value: TermOrGrid, start: int) -> TermOrGrid:
+        return spanning(each(value, lambda term: self.negated(term, term.start)), start, value.end)
 
-    def product_of(self, left: Value, right: Value, sign: str) -> Value:
+    def product_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
         """Side by side, or with a dot or a cross between them."""
         if isinstance(left, Term) and isinstance(right, Term):
             if sign and self.has_vector(left) and self.has_vector(right):
@@ -104,9 +104,9 @@ class Grids(Arithmetic, ABC):
                 self.refuse("shape", message, left.start, right.end, components)
             return self.multiplied(left, right)
         if isinstance(left, Term):
-            return between(each(right, lambda term: self.scaled(left, term)), left.start, right.end)
+            return spanning(each(right, lambda term: self.scaled(left, term)), left.start, right.end)
         if isinstance(right, Term):
-            return between(each(left, lambda term: self.scaled(right, term)), left.start, right.end)
+            return spanning(each(left, lambda term: self.scaled(right, term)), left.start, right.end)
         if sign == "\\cdot" and left.is_vector and right.is_vector:
             return self.dot(left, right)
         if sign == "\\times" and left.is_vector and right.is_vector:
@@ -135,7 +135,7 @@ class Grids(Arithmetic, ABC):
         ]
         return Grid(tuple((entry,) for entry in entries), left.start, right.end)
 
-    def matrix_product(self, left: Grid, right: Grid) -> Value:
+    def matrix_product(self, left: Grid, right: Grid) -> TermOrGrid:
         rows = [
             [
                 reduce(
@@ -150,15 +150,15 @@ class Grids(Arithmetic, ABC):
             return replace(rows[0][0], start=left.start, end=right.end)
         return Grid(tuple(tuple(row) for row in rows), left.start, right.end)
 
-    def quotient_of(self, above: Value, below: Value) -> Value:
+    def quotient_of(self, above: TermOrGrid, below: TermOrGrid) -> TermOrGrid:
         if isinstance(below, Grid):
             self.refuse("shape", f"nothing is divided by {_shape(below)}", below.start, below.end)
         reciprocal = self.reciprocal(below)
         if isinstance(above, Term):
             return self.multiplied(above, reciprocal)
-        return between(each(above, lambda term: self.scaled(reciprocal, term)), above.start, below.end)
+        return spanning(each(above, lambda term: self.scaled(reciprocal, term)), above.start, below.end)
 
-    def power_of(self, base: Value, exponent: Term) -> Value:
+    def power_of(self, base: TermOrGrid, exponent: Term) -> TermOrGrid:
         if isinstance(base, Term):
             return self.raised(base, exponent)
         if base.is_vector and exponent.expr == 2:
@@ -166,7 +166,7 @@ class Grids(Arithmetic, ABC):
         message = f"only the square of a vector is read, not this power of {_shape(base)}"
         self.refuse("shape", message, exponent.start, exponent.end)
 
-    def size_of(self, inner: Value, start: int, end: int) -> Term:
+    def size_of(self, inner: TermOrGrid, start: int, end: int) -> Term:
         """What stands between bars: the absolute value of a scalar, the length of a vector."""
         self.vectors = [at for at in self.vectors if not start <= at < end]
         if isinstance(inner, Term):
@@ -177,13 +177,13 @@ class Grids(Arithmetic, ABC):
         assert isinstance(squares, Term)
         return replace(self.raised(squares, Term(Integer(1) / 2, NUMBER, start, end)), start=start, end=end)
 
-    def scalar_in(self, value: Value, what: str) -> Term:
+    def scalar_in(self, value: TermOrGrid, what: str) -> Term:
         if isinstance(value, Grid):
             self.refuse("shape", f"{what} must be a scalar, but this is {_shape(value)}", value.start, value.end)
         return value
 
 
-def _shape(value: Value) -> str:
+def _shape(value: TermOrGrid) -> str:
     if isinstance(value, Term):
         return "a scalar"
     rows, columns = value.shape

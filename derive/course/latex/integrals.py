@@ -12,7 +12,7 @@ from sympy import Add, Dummy, Expr, Integer, Integral, Mul, Pow, Symbol, cos, ex
 from derive.algebra.expressions import Bracket, Group, explicit
 from derive.algebra.integrals import Limits, definite, has_root
 from derive.course.arithmetic import Term
-from derive.course.latex.grids import Grids, Value, each
+from derive.course.latex.grids import Grids, TermOrGrid, each
 from derive.course.latex.letters import letter_at
 from derive.course.latex.tokens import Token
 from derive.course.latex.vocabulary import FRACTIONS
@@ -68,12 +68,12 @@ def differential_behind(token: Token, d_is_a_letter: bool) -> tuple[Token, ...]:
     return (replace(token, arguments=(replace(above, tokens=kept or (one,)), *token.arguments[1:])), *differential)
 
 
-def _has(value: Value, letter: Expr) -> bool:
+def _has(value: TermOrGrid, letter: Expr) -> bool:
     entries = [value] if isinstance(value, Term) else [term for row in value.rows for term in row]
     return any(term.expr.has(letter) for term in entries)
 
 
-def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: list[Value]) -> Value:
+def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
     """The integrals of a product, the one that was opened last taken first."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
@@ -95,7 +95,7 @@ def integrated(reader: Grids, inside: Value, signs: list[Sign], outside: list[Va
     return each(inside, lambda term: _checked(reader, term, signs))
 
 
-def _one(reader: Grids, inside: Value, sign: Sign, variable: Term) -> Value:
+def _one(reader: Grids, inside: TermOrGrid, sign: Sign, variable: Term) -> TermOrGrid:
     """One integral more around what is there; the variable becomes a letter of its own."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
@@ -162,7 +162,7 @@ def _is_short(product: Expr, x: Symbol) -> bool:
     return waves == 0 or (power == 0 and len(arguments) == 1 and waves <= MAX_WAVES) or (power <= 3 and waves <= 2)
 
 
-def bracket_of(reader: Grids, inner: Value, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
+def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
     """An antiderivative between limits; its variable is the one letter that the limits can be put in for."""
     term = reader.scalar_in(inner, "what stands before limits")
     limits = (lower.expr, upper.expr)

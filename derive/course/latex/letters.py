@@ -14,7 +14,7 @@ from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.expressions import rate
 from derive.course.arithmetic import Declared, Term
 from derive.course.latex.tokens import Argument, Token
-from derive.course.latex.vocabulary import ARROWS, BOLD, DECORATIONS, DOTS, GREEK, WORDS
+from derive.course.latex.vocabulary import ARROW_COMMANDS, BOLD_COMMANDS, DECORATIONS, DOTS, GREEK_COMMANDS, WORDS
 
 _SUBSCRIPT = {"letter", "number", "word"}
 UNIT_VECTORS = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
@@ -80,7 +80,7 @@ def letter_at(token: Token | None) -> Letter | None:
         return None
     if token.kind == "letter":
         return Letter(token.text, token.start, token.end)
-    if token.kind == "command" and token.text in GREEK:
+    if token.kind == "command" and token.text in GREEK_COMMANDS:
         return Letter(token.text, token.start, token.end)
     if token.kind == "command" and token.text in ("imath", "jmath"):
         return Letter(token.text[0], token.start, token.end)
@@ -107,7 +107,7 @@ def _decorated(token: Token) -> Letter | None:
         inner.subscript,
         inner.dots + DOTS.get(token.text, 0),
         inner.hat or token.text == "hat",
-        inner.vector or token.text in ARROWS | BOLD,
+        inner.vector or token.text in ARROW_COMMANDS | BOLD_COMMANDS,
     )
 
 
@@ -132,7 +132,7 @@ def subscript_of(tokens: tuple[Token, ...]) -> str | None:
     """The text below a letter: letters, digits, words and commas, joined; nothing else is part of a name."""
     parts: list[str] = []
     for token in tokens:
-        if token.kind in _SUBSCRIPT or token.text == "," or token.kind == "command" and token.text in GREEK:
+        if token.kind in _SUBSCRIPT or token.text == "," or token.kind == "command" and token.text in GREEK_COMMANDS:
             parts.append(token.text)
         elif token.kind == "command" and token.text in WORDS | DECORATIONS and token.arguments[0]:
             parts.append(subscript_of(token.arguments[0].tokens) or "?")

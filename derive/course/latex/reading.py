@@ -15,10 +15,10 @@ from sympy import Expr
 
 from derive.algebra.dimensions import Dimension
 from derive.course.arithmetic import Declared, Term
+from derive.course.latex.cursor import Cursor
 from derive.course.latex.grammar import Formula
-from derive.course.latex.grids import Value
+from derive.course.latex.grids import TermOrGrid
 from derive.course.latex.letters import Letters
-from derive.course.latex.runs import Run
 from derive.course.latex.tokens import Token, tokens_of
 from derive.course.yaml_tree import Scalar
 from derive.errors import Place, Rejected
@@ -63,14 +63,14 @@ def read_latex(scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: 
     return ReadMath(tuple(_side(plus, a, b) for a, b in zip(sides, others, strict=True)), tuple(marks))
 
 
-ReadSide: TypeAlias = tuple[list[Value], int, Token, Token]
+ReadSide: TypeAlias = tuple[list[TermOrGrid], int, Token, Token]
 
 
 def _chain(formula: Formula, tokens: tuple[Token, ...]) -> tuple[list[ReadSide], list[str]]:
     """Every side; undeclared letters are all told at once, and before what else is wrong."""
-    run = Run(_in_one_line(tokens), len(formula.text.rstrip()))
+    cursor = Cursor(_in_one_line(tokens), len(formula.text.rstrip()))
     try:
-        found = formula.chain(run)
+        found = formula.chain(cursor)
     except Rejected as error:
         raise Rejected([*formula.undeclared, *error.complaints]) from None
     if formula.undeclared:
@@ -108,10 +108,10 @@ def _side(formula: Formula, plus: ReadSide, minus: ReadSide) -> Side:
     return Side(tuple(_entries(value) for value in values), shapes.pop(), text, place)
 
 
-def _shape(value: Value) -> tuple[int, ...]:
+def _shape(value: TermOrGrid) -> tuple[int, ...]:
     return () if isinstance(value, Term) else value.shape
 
 
-def _entries(value: Value) -> Entries:
+def _entries(value: TermOrGrid) -> Entries:
     terms = [value] if isinstance(value, Term) else [term for row in value.rows for term in row]
     return tuple((term.expr, term.dimension) for term in terms)

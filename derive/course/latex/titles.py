@@ -7,24 +7,25 @@ from __future__ import annotations
 
 import re
 
+from derive.course.latex.cursor import Cursor
 from derive.course.latex.letters import letter_at
-from derive.course.latex.runs import Run
 from derive.course.latex.tokens import Token
 from derive.course.latex.vocabulary import FRACTIONS, RELATIONS
 
 
-def without_title(run: Run) -> None:
+def without_title(cursor: Cursor) -> None:
     """Step past a left side that is a derivative, a letter with primes, or a letter with its arguments in brackets."""
-    relations = [i for i, token in enumerate(run.tokens) if _written(token) in RELATIONS and not _within(run.tokens, i)]
+    tokens = cursor.tokens
+    relations = [i for i, token in enumerate(tokens) if _written(token) in RELATIONS and not _within(tokens, i)]
     if not relations:
         return
-    title = run.tokens[: relations[0]]
+    title = cursor.tokens[: relations[0]]
     derivatives = 0
     while derivatives < len(title) and is_derivative(title[derivatives]):
         derivatives += 1
     rest = title[derivatives:]
     if (derivatives and not rest) or _is_function(rest, derivatives > 0):
-        run.at = relations[0]
+        cursor.at = relations[0]
 
 
 def is_derivative(token: Token) -> bool:

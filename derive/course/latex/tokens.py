@@ -38,8 +38,8 @@ from derive.course.latex.vocabulary import (
 )
 from derive.errors import did_you_mean, nearest
 
-MAX_LENGTH = 3000
-MAX_DEPTH = 40
+LONGEST_FORMULA = 3000
+DEEPEST_FORMULA = 40
 MAX_TOKENS = 1500
 
 _PIECE = re.compile(r"(?P<number>\d+(?:\.\d+)?|\.\d+)|(?P<letter>[A-Za-z])|(?P<space>[\s~]+)|(?P<mark>.)", re.DOTALL)
@@ -92,8 +92,8 @@ def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
     text = reader.text
     if not text.strip():
         reader.refuse("latex", "a formula is missing", 0)
-    if len(text) > MAX_LENGTH:
-        reader.refuse("too-large", f"this formula has {len(text)} characters, and {MAX_LENGTH} are allowed", 0)
+    if len(text) > LONGEST_FORMULA:
+        reader.refuse("too-large", f"this formula has {len(text)} characters, and {LONGEST_FORMULA} are allowed", 0)
     _check_depth(reader)
     walker = LatexWalker(text, latex_context=_known_to_the_walker(), tolerant_parsing=False)
     try:
@@ -117,8 +117,8 @@ def _check_depth(reader: Arithmetic) -> None:
     depth = 0
     for found in re.finditer(r"\\begin|\\end|\\?[{}\[\]]", reader.text):
         depth += 1 if found[0][-1] in "{[n" else -1
-        if depth > MAX_DEPTH:
-            reader.refuse("too-large", f"this formula is nested more than {MAX_DEPTH} deep", found.start())
+        if depth > DEEPEST_FORMULA:
+            reader.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} deep", found.start())
 
 
 def _in_our_words(said: str) -> tuple[str, str | None]:

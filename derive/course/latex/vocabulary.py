@@ -9,9 +9,9 @@ from sympy import Expr, acos, asin, atan, cos, cosh, cot, exp, log, sin, sinh, t
 _SMALL = """alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi rho varrho
     sigma varsigma tau upsilon phi varphi chi psi omega"""
 _CAPITAL = "Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega"
-GREEK = frozenset([*_SMALL.split(), *_CAPITAL.split(), "ell", "hbar"])
+GREEK_COMMANDS = frozenset([*_SMALL.split(), *_CAPITAL.split(), "ell", "hbar"])
 
-FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {
+LATEX_FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {
     "sin": sin,
     "cos": cos,
     "tan": tan,
@@ -46,10 +46,10 @@ RELATIONS: Mapping[str, str] = {
 
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
-ARROWS = frozenset(["vec", "overrightarrow"])
-BOLD = frozenset(["boldsymbol", "bm", "mathbf", "bf"])
+ARROW_COMMANDS = frozenset(["vec", "overrightarrow"])
+BOLD_COMMANDS = frozenset(["boldsymbol", "bm", "mathbf", "bf"])
 FONTS = frozenset(["mathrm", "mathit", "mathsf", "operatorname", "mathnormal"])
-DECORATIONS = ARROWS | BOLD | FONTS | {"hat"}
+DECORATIONS = ARROW_COMMANDS | BOLD_COMMANDS | FONTS | {"hat"}
 WORDS = frozenset(["text", "textrm", "textit", "mbox"])
 
 MATRICES = frozenset(["pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix"])
@@ -108,7 +108,7 @@ ARGUMENTS: Mapping[str, str] = {
     **dict.fromkeys([*DOTS, *DECORATIONS, *WORDS], "{"),
 }
 KNOWN = frozenset(
-    [*GREEK, *FUNCTIONS, *ARGUMENTS, *(mark[1:] for mark in RELATIONS if mark[0] == "\\")]
+    [*GREEK_COMMANDS, *LATEX_FUNCTIONS, *ARGUMENTS, *(mark[1:] for mark in RELATIONS if mark[0] == "\\")]
     + ["pi", "cdot", "times", "pm", "mp", "int", "left", "right", "circ", "lvert", "rvert", "lbrace", "rbrace"]
     + ["imath", "jmath", "partial", "prime"]
 )

@@ -31,7 +31,7 @@ from derive.steps.step import Quantity
 
 
 @dataclass(frozen=True)
-class Told:
+class Remark:
     """What a page and its JSON say of a comparison."""
 
     facts: dict[str, Any]
@@ -56,8 +56,8 @@ class Comparison:
     erratum: Erratum | None = None
     here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
 
-    def told(self) -> Told:
-        return Told(self.facts(), self.here, self.erratum)
+    def remark(self) -> Remark:
+        return Remark(self.facts(), self.here, self.erratum)
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from derive.course.latex.tokens import MAX_LENGTH
+from derive.course.latex.tokens import LONGEST_FORMULA
 from derive.course.latex.vocabulary import KNOWN, MATRICES
 from derive.errors import Rejected
 from tests.course.latex.formula import complaint, marked, read, value
@@ -136,7 +136,7 @@ LARGE = [
     "{" * 50 + "a" + "}" * 50,
     "(" * 60 + "a" + ")" * 60,
     r"\frac{1}{" * 45 + "2" + "}" * 45,
-    "a+" * (MAX_LENGTH // 2) + "a",
+    "a+" * (LONGEST_FORMULA // 2) + "a",
     r"9^{9^9}",
     r"9^{12}" * 200,
     r"(a+b+h+l)^{12}",

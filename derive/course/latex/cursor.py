@@ -5,7 +5,7 @@ from __future__ import annotations
 from derive.course.latex.tokens import Argument, Token
 
 
-class Run:
+class Cursor:
     """Tokens side by side; `bars` says, of every bracket now open, whether it is a bar that the next bar closes."""
 
     def __init__(self, tokens: tuple[Token, ...], end: int):
@@ -15,7 +15,7 @@ class Run:
         self.bars: list[bool] = []
 
     @classmethod
-    def over(cls, argument: Argument) -> Run:
+    def over(cls, argument: Argument) -> Cursor:
         return cls(argument.tokens, argument.end)
 
     @property
