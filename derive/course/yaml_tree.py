@@ -175,15 +175,11 @@ class Mapping:
     place: Place
 
     @cached_property
-    def _by_name(self) -> dict[str, tuple[Scalar, Tree]]:
-        return {key.text: (key, value) for key, value in self.pairs}
+    def _by_name(self) -> dict[str, Tree]:
+        return {key.text: value for key, value in self.pairs}
 
     def get(self, key: str) -> Tree | None:
-        return self._by_name[key][1] if key in self._by_name else None
-
-    def key(self, name: str) -> Scalar | None:
-        """The key as it was written, for its place."""
-        return self._by_name[name][0] if name in self._by_name else None
+        return self._by_name.get(key)
 
     @property
     def places(self) -> dict[str, Place]:
