@@ -207,6 +207,7 @@ class _Writer:
         )
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
         self.converted: set[Any] = set()
+        self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = self._page_names()
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
@@ -283,6 +284,7 @@ class _Writer:
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             self._append(blocks, self.derivation.step(key))
+            self.before = self.derivation.step(key) if key in self.numbers else self.before
             ends[key] = len(blocks)
         steps = len(blocks)
         answers = self.derivation.answering(part.answers)
@@ -341,7 +343,7 @@ class _Writer:
         if prose is not None:
             nodes = self._told(prose.pieces, own)
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
-        return filled(self.words.phrase(step), {**self.page_names, **own})
+        return filled(self.words.phrase(step, self.before), {**self.page_names, **own})
 
     def _amounts(self, step: Step) -> tuple[Node, ...]:
         """The numbers that a step puts in for the first time, in the units in which it does."""

@@ -74,6 +74,8 @@ class Chain:
     """Where the lines of the step go."""
 
 
+AFTER = " after "  # between what a phrase is for and what must stand just before it
+
 ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, and does not print
 
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
@@ -93,8 +95,11 @@ class Phrases:
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
 
-    def phrase(self, step: Step) -> str:
-        phrase = self.rules.get(step.rule, {}).get(step.outcome)
+    def phrase(self, step: Step, before: Step | None = None) -> str:
+        """The sentence of a step; there may be another where a step of the same rule was shown just before."""
+        of_rule = self.rules.get(step.rule, {})
+        following = f"{step.outcome}{AFTER}{before.outcome}" if before and before.rule == step.rule else ""
+        phrase = of_rule.get(following, of_rule.get(step.outcome))
         if phrase is None:
             message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
             raise Rejected(Complaint("no-phrase", message, Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)))
@@ -103,7 +108,7 @@ class Phrases:
     def reason(self, step: Step, because: str, before: str) -> str:
         """Why a line follows from the line shown before it; a reason may hold only after a certain line."""
         own = {**self.reasons["general"], **self.reasons.get(step.rule, {})}
-        return own.get(f"{because} after {before}", own.get(because, ""))
+        return own.get(f"{because}{AFTER}{before}", own.get(because, ""))
 
     def route(self, step: Step, claim: str) -> str:
         return self.routes.get(step.rule, {}).get(claim, "")
@@ -330,7 +335,8 @@ def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> li
             message, place = f"no step on this page is called `{key}`", problem.place_of(section, key)
             faults.append(Complaint("unknown-key", message, place, help=did_you_mean(key, here)))
     for key, outcome in [(key, outcome) for key, told_of in problem.wording.items() for outcome in told_of]:
-        outcomes = words.rules.get(here[key].rule, {}) if key in here else {}
+        phrases_of = words.rules.get(here[key].rule, {}) if key in here else {}
+        outcomes = [name for name in phrases_of if AFTER not in name]
         if outcome != ANY_OUTCOME and outcomes and outcome not in outcomes:
             message, place = f"the step `{key}` has no outcome `{outcome}`", problem.place_of("wording", key, outcome)
             help_line = did_you_mean(outcome, outcomes) or "they are " + ", ".join(f"`{each}`" for each in outcomes)

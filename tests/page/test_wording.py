@@ -147,6 +147,18 @@ def test_an_outcome_without_a_phrase_is_an_error_that_names_both() -> None:
         WORDS.phrase(odd)
 
 
+def test_what_goes_on_from_an_alike_step_has_the_words_for_that() -> None:
+    first, second, product = (known_block()[f"corner_tensor_{pair}"].step for pair in ("xx", "yy", "xy"))
+    assert first.outcome == second.outcome != product.outcome
+    assert WORDS.phrase(second) == WORDS.phrase(first) != WORDS.phrase(second, before=first) == "<<chain>>"
+    assert WORDS.phrase(product, before=second) == WORDS.phrase(product)  # nothing is said of a product after a moment
+
+
+def test_an_alike_outcome_of_another_rule_changes_no_words() -> None:
+    first, second = (known_block()[f"corner_tensor_{pair}"].step for pair in ("xx", "yy"))
+    assert WORDS.phrase(second, before=replace(first, rule="inertia.entry_moved")) == WORDS.phrase(second)
+
+
 def test_the_words_of_the_torque_change_when_it_vanishes() -> None:
     said = {WORDS.phrase(known_block(**variant)["torque"].step) for variant in VARIANTS[:2]}
     assert len(said) == 2

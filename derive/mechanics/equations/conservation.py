@@ -130,13 +130,11 @@ def _products(
     products: list[Quantity] = []
     for equation, factor in zip(equations, factors, strict=True):
         if factor != 0:
-            products.append(_product(quantity, equation, factor, motion, leads=not products))
+            products.append(_product(quantity, equation, factor, motion))
     return products
 
 
-def _product(
-    quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], leads: bool
-) -> Quantity:
+def _product(quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr]) -> Quantity:
     """An equation of motion times a factor, multiplied out."""
     written = equation.value
     return establish(
@@ -151,8 +149,7 @@ def _product(
             "motion": lambda value: _sides(value, motion),
             "divided": lambda value: _divided(value, factor, written, motion),
         },
-        outcome="first" if leads else "next",
-        telling=Telling(judged_by={"leads": leads, "written": written}),
+        telling=Telling(judged_by={"written": written}),
         parents=[equation],
         key=f"{quantity.key}_{equation.key}",
     )

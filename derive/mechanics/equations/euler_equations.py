@@ -251,8 +251,8 @@ def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE)
     rate     rate of change in space of the angular momentum, vector (3), N m, principal axes of the body
     torque   N about the same point, three components in N m in the same axes; none acts unless it is given
     Second route: the components of the sum of m r x a over particles.
-    Outcomes: first, next, driven (the first, with a torque), uncoupled (no product of components is left, which then is
-    constant), first_uncoupled, first_isotropic.
+    Outcomes: coupled, driven (with a torque), uncoupled (no product of components is left in it, so that its own is
+    constant), isotropic (in none of the three).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.5.
     """
     x, y, z = (_euler_equation(rate, i, torque) for i in range(3))
@@ -286,15 +286,13 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 
 def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]) -> str:
-    """Which sentence an equation needs: it is the first or not, and products of components are left in it or not."""
+    """Whether a torque acts, and else whether products of components are left in the equation."""
     uncoupled = [not entry.has(*moving) for entry in rates]
     if any(component != 0 for component in torque):
-        return "driven" if i == 0 else "next"
+        return "driven"
     if all(uncoupled):
-        return "first_isotropic" if i == 0 else "next"
-    if uncoupled[i]:
-        return "first_uncoupled" if i == 0 else "uncoupled"
-    return "first" if i == 0 else "next"
+        return "isotropic"
+    return "uncoupled" if uncoupled[i] else "coupled"
 
 
 def rate_in_body(

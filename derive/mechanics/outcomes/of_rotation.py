@@ -58,14 +58,13 @@ def _rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
     return is_so
 
 
-def _euler(first: bool, torque: bool, coupled: str) -> Predicate:
-    """Which of the three it is, whether a torque acts, and whether products of components are left.
+def _euler(torque: bool, coupled: str) -> Predicate:
+    """Whether a torque acts, and whether products of components are left.
 
     coupled   "here": in this one; "elsewhere": not here but in another; "nowhere"
     """
 
     def is_so(facts: Judged) -> bool:
-        axis = facts.words["axis"]
         acting = facts.inputs["torque"]
         driven = not is_zero(acting)
         rates = facts.inputs["rate"]
@@ -73,18 +72,11 @@ def _euler(first: bool, torque: bool, coupled: str) -> Predicate:
         mixed = [
             not all(is_zero(diff(entry, u, v)) for u in components for v in components if u != v) for entry in rates
         ]
-        here = mixed["xyz".index(axis)]
+        here = mixed["xyz".index(facts.words["axis"])]
         where = "here" if here else "elsewhere" if any(mixed) else "nowhere"
-        return (axis == "x") == first and driven == torque and (not coupled or where == coupled)
+        return driven == torque and (not coupled or where == coupled)
 
     return is_so
-
-
-def _next_euler(facts: Judged) -> bool:
-    """A later equation that needs no sentence of its own."""
-    return any(
-        _euler(False, torque, coupled)(facts) for torque, coupled in ((True, ""), (False, "here"), (False, "nowhere"))
-    )
 
 
 def _sum_left(wanted: str) -> Predicate:
@@ -101,14 +93,10 @@ def _sum_left(wanted: str) -> Predicate:
     return is_so
 
 
-def _times_its_factor(wanted: bool) -> Predicate:
-    """Whether it is the first of the products, and is the equation times the factor that the sentence names."""
-
-    def is_so(facts: Judged) -> bool:
-        multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
-        return facts.inputs["leads"] == wanted and is_zero(explicit(facts.result.left) - multiplied)
-
-    return is_so
+def _times_its_factor(facts: Judged) -> bool:
+    """Whether it is the equation times the factor that the sentence names."""
+    multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
+    return is_zero(explicit(facts.result.left) - multiplied)
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
@@ -142,19 +130,17 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "driven": _rate_is(False, None),
     },
     "free_rotation.euler_equation": {
-        "first": _euler(True, False, "here"),
-        "driven": _euler(True, True, ""),
-        "next": _next_euler,
-        "first_isotropic": _euler(True, False, "nowhere"),
-        "first_uncoupled": _euler(True, False, "elsewhere"),
-        "uncoupled": _euler(False, False, "elsewhere"),
+        "coupled": _euler(False, "here"),
+        "driven": _euler(True, ""),
+        "isotropic": _euler(False, "nowhere"),
+        "uncoupled": _euler(False, "elsewhere"),
     },
     "free_rotation.rate_in_body": {
         "zero": vanishes,
         "in_general": lambda facts: not is_zero(facts.result) and is_zero(facts.inputs["torque"]),
         "driven": lambda facts: not is_zero(facts.inputs["torque"]),
     },
-    "conservation.product": {"first": _times_its_factor(True), "next": _times_its_factor(False)},
+    "conservation.product": {"generic": _times_its_factor},
     "conservation.sum": {word: _sum_left(word) for word in ("plain", "cancel", "remain")},
     "conservation.rate_under": {"conserved": vanishes, "changes": lasts},
     "equations.squared_magnitude": {"generic": lasts, "zero": vanishes},

@@ -170,7 +170,7 @@ def _rate_of_the_component(facts: Judged, outcome: str) -> bool:
 def _inward_or_outward(facts: Judged, outcome: str) -> bool:
     """The tensor exceeds that about the centre of mass, or is less than the other: it depends on where one starts."""
     point = facts.quantities["entry"].subject.point
-    return point is None or (point.name in {"centre", "centre_of_mass"}) == outcome.startswith("outward")
+    return point is None or (point.name in {"centre", "centre_of_mass"}) == (outcome == "outward")
 
 
 def _difference(facts: Judged, outcome: str) -> bool:

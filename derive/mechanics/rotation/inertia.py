@@ -176,9 +176,7 @@ def _round_shape(tensor: Any) -> str:
 
 
 def _entry_outcome(pair: Pair) -> str:
-    """The first moment and the first product are introduced; the others follow on."""
-    kind = "moment" if pair[0] == pair[1] else "product"
-    return f"first_{kind}" if pair in ((0, 0), (0, 1)) else kind
+    return "moment" if pair[0] == pair[1] else "product"
 
 
 def _round_entry_outcome(pair: Pair) -> str:
@@ -391,7 +389,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         law,
         {"entry": entry, "mass": body.mass, "centre": centre},
         routes={"integration": compared_with(directly)},
-        outcome=_outward_outcome(pair) if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
+        outcome="outward" if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
         lines=Lines(put_in=Level.STANDARD),
         parents=[there],
@@ -399,10 +397,6 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
         scope=Scope(about=Subject(body=body, point=target), differ={"point"}),
     )
-
-
-def _outward_outcome(pair: Pair) -> str:
-    return "outward_first" if pair == (0, 0) else "outward"
 
 
 def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quantity:

@@ -80,8 +80,8 @@ def principal_axes(
     moments   the principal moments of a tensor
     Where two moments are equal, their axes are at an angle that remains free; where all are, any three will do.
     Second route: each is put back into I e = I_k e; they are unit vectors, and each at right angles to the others.
-    Outcomes: single, or symmetry of a round body, free, free_too (two equal moments: the axis of the third and those
-    across it); any, any_too; distinct, distinct_too.
+    Outcomes: single, or symmetry of a round body, free (two equal moments: the axis of the third and those across it);
+    any; distinct.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     found, angle = _frame(moments)
@@ -130,12 +130,12 @@ def _axis(
 def _axis_outcome(moments: Quantity, place: int) -> str:
     different = _number_of_different(moments.value)
     if different == 1:
-        return "any_too" if place else "any"
+        return "any"
     if different == 3:
-        return "distinct_too" if place else "distinct"
-    if place == 0:
-        return "symmetry" if _is_round(moments) else "single"
-    return "free" if place == 1 else "free_too"
+        return "distinct"
+    if place:
+        return "free"
+    return "symmetry" if _is_round(moments) else "single"
 
 
 def _is_round(moments: Quantity) -> bool:
