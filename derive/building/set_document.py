@@ -40,9 +40,6 @@ class Listed:
     def title(self) -> Tex:
         return self.problem.title_latex
 
-    def numbered(self, fragment: Tex) -> Tex:
-        return Tex(fragment.replace("@NUMBER@", self.number))
-
 
 def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """A complete .tex of one problem, numbered as in its set."""
@@ -66,13 +63,12 @@ def _listed(problems: Sequence[Rendered]) -> list[Listed]:
 
 def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
     words: Phrases = phrases(template_folder(root))
-    total = _total(problems)
     facts: dict[str, Any] = {
         "set_id": Tex(heading.id),
         "heading": heading,
         "problems": problems,
-        "total": total,
-        "total_points": f"{total} {words.labels['points'][total != '1']}" if total else "",
+        "total": _total(problems),
+        "worth": lambda points: points and f"{points} {words.labels['points'][points != '1']}",
         "rows": _rows(problems, words),
         "columns_of_counts": COLUMNS,
         "labels": words.labels,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ from derive.building.tex import chosen_engine, typeset
 from derive.course import problem_set as sets_of_problems
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
-from derive.render.rendered import Rendered
+from derive.render.rendered import Rendered, Tex
 from tests.building.test_pages import squeezed
 from tests.courses import course_in, rendered_once
 
@@ -154,6 +155,17 @@ def test_one_problem_alone_needs_one_run_and_has_its_bookmarks(
     typeset(problem_document(course, solved[1], problem_set(course, "hw9")), target, chosen_engine(None))
     assert len(runs) == 1
     assert outline(PdfReader(target).outline)[0] == "2. A block turning about a long diagonal"
+
+
+def test_a_problem_gets_its_number_where_it_is_listed_and_nothing_in_it_is_replaced(
+    course: Path, solved: list[Rendered]
+) -> None:
+    typed = Tex("as typed: @NUMBER@, << listed.number >> and 2")
+    problem = replace(solved[1], latex=typed, sheet=typed)
+    heading = problem_set(course, "hw9")
+    for document in (problem_document(course, problem, heading), sheet_document(course, heading, [solved[0], problem])):
+        assert document.count(typed) == 1
+        assert r"\problem{2}{A block turning about a long diagonal}{10 points}" in document
 
 
 # --- how it was checked ---

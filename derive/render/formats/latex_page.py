@@ -35,7 +35,7 @@ BOX = 70.0
 
 @dataclass(frozen=True)
 class Fragments:
-    """One problem without preamble, for the documents that it stands in; `@NUMBER@` is its number in the set."""
+    """One problem without preamble, for the documents that it stands in; these give it its number and its title."""
 
     title: Tex
     solution: Tex
@@ -122,7 +122,7 @@ class _Page:
     def anchor(self) -> Tex:
         return Tex(dotted(self.document.id))
 
-    def plain(self, nodes: Sequence[Node], columns: int = 200) -> str:
+    def plain(self, nodes: Sequence[Node], columns: int) -> str:
         """For bookmarks, which are no TeX."""
         return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
 
