@@ -13,8 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import StrictUndefined, UndefinedError
-from jinja2.sandbox import ImmutableSandboxedEnvironment
+from jinja2 import UndefinedError
 from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension, unit_of_dimension, unit_of_kind
@@ -26,6 +25,7 @@ from derive.course.prose import Mention
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, read_phrases
+from derive.page.template import environment
 from derive.steps.derivation import Derivation
 from derive.steps.step import Step
 
@@ -125,6 +125,7 @@ def phrases(folder: Path) -> Phrases:
 
 # --- filling ---
 
+_IN_PROSE = environment()
 _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
@@ -158,13 +159,7 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
     """A phrase of ours with its names filled in."""
     nodes = _Nodes()
     try:
-        text = (
-            _environment()
-            .from_string(template)
-            .render(
-                {name: nodes.token(value) for name, value in names.items()},
-            )
-        )
+        text = _IN_PROSE.from_string(template).render({name: nodes.token(value) for name, value in names.items()})
     except UndefinedError as error:
         message = f"a phrase names what this step does not have: {error.message}"
         raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
@@ -178,20 +173,6 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
 
 def _place_of(template: str) -> Place:
     return template.place if isinstance(template, Phrase) else Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)
-
-
-@cache
-def _environment() -> ImmutableSandboxedEnvironment:
-    return ImmutableSandboxedEnvironment(
-        variable_start_string="<<",
-        variable_end_string=">>",
-        block_start_string="<%",
-        block_end_string="%>",
-        comment_start_string="<#",
-        comment_end_string="#>",
-        undefined=StrictUndefined,
-        autoescape=False,
-    )
 
 
 def told(

@@ -8,10 +8,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateNotFound, TemplateSyntaxError, Undefined
+from jinja2 import Environment, FileSystemLoader, TemplateNotFound, TemplateSyntaxError, Undefined
 
 from derive import FOLDER
 from derive.errors import Complaint, DeriveError, Place, Rejected
+from derive.page.template import environment
 from derive.render.notation.latex import escaped
 from derive.render.rendered import Tex
 
@@ -69,24 +70,15 @@ def _shown(file: Path) -> str:
 
 @cache
 def _environment(folder: Path) -> Environment:
-    environment = Environment(
+    of_tex = environment(
         loader=FileSystemLoader(folder / "latex"),
-        variable_start_string="<<",
-        variable_end_string=">>",
-        block_start_string="<%",
-        block_end_string="%>",
-        comment_start_string="<#",
-        comment_end_string="#>",
-        undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        autoescape=False,  # that would be HTML
         finalize=_as_tex,  # so that no template can forget it
     )
-    environment.filters["text"] = lambda text: Tex(escaped(str(text)))
-    environment.filters["bookmark"] = bookmark_text
-    return environment
+    of_tex.filters["bookmark"] = bookmark_text
+    return of_tex
 
 
 def _as_tex(printed: Any) -> Any:

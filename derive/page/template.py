@@ -1,0 +1,26 @@
+"""Where templates are filled, those of phrases and those of TeX: an unknown name is an error, and none reaches code.
+
+`<<name>>` is printed, `<% if ... %>` chooses, `<# ... #>` says nothing: no braces, which TeX has for itself.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from jinja2 import StrictUndefined
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+
+def environment(**own: Any) -> ImmutableSandboxedEnvironment:
+    """An environment; `own` is what one kind of templates has besides: where they are found, how they print a value."""
+    return ImmutableSandboxedEnvironment(
+        variable_start_string="<<",
+        variable_end_string=">>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+        undefined=StrictUndefined,
+        autoescape=False,  # that would be HTML
+        **own,
+    )

@@ -1,0 +1,39 @@
+"""One environment for phrases and for TeX: nothing unknown is passed over, and nothing reaches the program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from jinja2 import UndefinedError
+from jinja2.exceptions import SecurityError
+
+from derive.errors import Rejected
+from derive.page.template import environment
+from derive.render.formats.templates import filled_template
+
+
+def test_names_are_filled_and_braces_are_text() -> None:
+    assert environment().from_string(r"\frac{<< a >>}{{b}}<# nothing #>").render(a=1) == r"\frac{1}{{b}}"
+
+
+def test_a_name_without_a_value_is_an_error() -> None:
+    with pytest.raises(UndefinedError):
+        environment().from_string("<< unheard_of >>").render(a=1)
+
+
+@pytest.mark.parametrize("reaching", ["a.__class__.__mro__", "a.__init__.__globals__", "names.append(a)"])
+def test_a_template_reads_what_it_is_given_and_changes_nothing(reaching: str) -> None:
+    with pytest.raises(SecurityError):
+        environment().from_string(f"<< {reaching} >>").render(a=1, names=[])
+
+
+def test_a_template_of_tex_is_as_bound_as_a_phrase(tmp_path: Path) -> None:
+    (tmp_path / "latex").mkdir()
+    (tmp_path / "latex" / "set.tex.j2").write_text("fine\n<< page.__class__.__mro__ >>\n", encoding="utf-8")
+    with pytest.raises(Rejected) as refusal:
+        filled_template(tmp_path, "set.tex.j2", {"page": 1})
+    (complaint,) = refusal.value.complaints
+    assert complaint.code == "template"
+    assert complaint.place is not None
+    assert complaint.place.line == 2
