@@ -15,6 +15,7 @@ from typing import Any
 
 import derive.building
 from derive.errors import Complaint, Place, Rejected
+from derive.render.formats import formats
 from derive.render.rendered import Rendered, Tex
 
 TEX = """#!/bin/sh
@@ -52,12 +53,11 @@ def rendered(
         id=problem_id,
         title=said,
         points="3",
+        texts={**dict.fromkeys(formats(), f"{said} ω\n"), "json": '{"steps": [{}, {}], "reference": []}\n'},
         latex=Tex(said),
         title_latex=Tex(said),
         sheet=Tex(said),
         checked=Tex(said),
-        text=f"{said} ω\n",
-        json='{"steps": [{}, {}], "reference": []}\n',
         warnings=warnings,
         inputs=(path,),
         grades={"proved": 2, "definition": 1},

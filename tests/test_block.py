@@ -26,20 +26,20 @@ def solved(folder: Path, edits: dict[str, str] | None = None, detail: str | None
 
 
 def answers(solution: Rendered) -> dict[str, Any]:
-    return {key: sympy_reads(answer["sympy"]) for key, answer in json.loads(solution.json)["answers"].items()}
+    return {key: sympy_reads(answer["sympy"]) for key, answer in json.loads(solution.texts["json"])["answers"].items()}
 
 
 def numbers(solution: Rendered) -> dict[str, Any]:
-    return {key: answer["number"] for key, answer in json.loads(solution.json)["answers"].items()}
+    return {key: answer["number"] for key, answer in json.loads(solution.texts["json"])["answers"].items()}
 
 
 def flat(solution: Rendered) -> str:
     """The page as one line, so that it does not matter where a sentence was wrapped."""
-    return " ".join(solution.text.split())
+    return " ".join(solution.texts["text"].split())
 
 
 def outcomes(solution: Rendered) -> dict[str, str]:
-    return {step["key"]: step["outcome"] for step in json.loads(solution.json)["steps"]}
+    return {step["key"]: step["outcome"] for step in json.loads(solution.texts["json"])["steps"]}
 
 
 def same(left: Any, right: Any) -> bool:
@@ -66,20 +66,20 @@ def test_the_answers_are_those_of_the_books(block: Rendered) -> None:
 def test_the_angle_is_rounded_once_and_in_degrees(block: Rendered) -> None:
     assert numbers(block)["cosine"]["text"] == "0.92951"
     assert numbers(block)["angle_between"] == {"value": 21.64, "unit": "degree", "figures": 4, "text": "21.64 degree"}
-    assert "≈ 21.64°" in block.text
+    assert "≈ 21.64°" in block.texts["text"]
     assert r"\approx 21.64{}^\circ" in block.latex or r"21.64\mathrm{{}^\circ}" in block.latex
 
 
 def test_symbolic_answers_have_no_number_but_their_coefficient_is_shown(block: Rendered) -> None:
     assert numbers(block)["magnitude"] is None
-    assert "0.2315 M a² ω²" in block.text
+    assert "0.2315 M a² ω²" in block.texts["text"]
 
 
 def test_all_six_integrals_are_written_out(block: Rendered) -> None:
     for entry in ("xx", "yy", "zz", "xy", "xz", "yz"):
-        assert f"J_{entry} = " in block.text
-        assert f"I_{entry} = J_{entry}" in block.text
-    assert "[y³/3](0..2a)" in block.text
+        assert f"J_{entry} = " in block.texts["text"]
+        assert f"I_{entry} = J_{entry}" in block.texts["text"]
+    assert "[y³/3](0..2a)" in block.texts["text"]
 
 
 def test_nothing_is_merely_sampled(block: Rendered) -> None:
@@ -98,7 +98,7 @@ def test_nothing_is_merely_sampled(block: Rendered) -> None:
 def test_detail_chooses_how_much_algebra_is_shown(
     tmp_path: Path, detail: str, shown: list[str], hidden: list[str]
 ) -> None:
-    text = solved(tmp_path, detail=detail).text
+    text = solved(tmp_path, detail=detail).texts["text"]
     assert all(piece in text for piece in shown)
     assert not any(piece in text for piece in hidden)
 
@@ -141,10 +141,10 @@ def test_numbers_with_units_go_in_at_the_end(tmp_path: Path) -> None:
     assert found["magnitude"] == {"value": 1.234, "unit": "N m", "figures": 4, "text": "1.234 N m"}
     assert found["torque"]["value"] == [-0.9517, 0.7614, -0.1903]
     assert found["inertia_tensor"]["value"][0] == pytest.approx(6.5e-4)
-    assert "M = 1.5 kg" in solution.text
+    assert "M = 1.5 kg" in solution.texts["text"]
     assert "a = 2 cm = 0.02 m" in flat(solution)
     assert "ω = 900 rpm = 30π rad/s ≈ 94.25 rad/s" in flat(solution)
-    assert "(1.5 kg) (0.02 m)² (30π rad/s)² ≈ 1.554 J" in solution.text
+    assert "(1.5 kg) (0.02 m)² (30π rad/s)² ≈ 1.554 J" in solution.texts["text"]
 
 
 def test_incommensurable_numbers_keep_their_own_letters(tmp_path: Path) -> None:
@@ -197,8 +197,8 @@ def test_a_part_that_is_removed_takes_its_steps_and_no_others_away(tmp_path: Pat
     points: 3
 """
     solution = solved(tmp_path, {first: "", "points: 10": "points: 7"})
-    assert "(a) Find the kinetic energy" in solution.text
-    assert "I_xx = J_xx" in solution.text, "the energy still rests on the tensor"
+    assert "(a) Find the kinetic energy" in solution.texts["text"]
+    assert "I_xx = J_xx" in solution.texts["text"], "the energy still rests on the tensor"
 
 
 def test_parts_in_another_order_show_each_step_where_it_is_first_needed(tmp_path: Path) -> None:
@@ -207,7 +207,7 @@ def test_parts_in_another_order_show_each_step_where_it_is_first_needed(tmp_path
     points: 3
 """
     solution = solved(tmp_path, {last: "", "parts:\n": f"parts:\n{last}"})
-    text = solution.text
+    text = solution.texts["text"]
     assert text.index("(a) What torque") < text.index("L⃗ = I⃡ ω⃗") < text.index("(b) Find the inertia tensor")
     assert text.count("I_xx = J_xx") == 1
 
@@ -217,23 +217,23 @@ def test_points_appear_as_given(tmp_path: Path) -> None:
         tmp_path,
         {"points: 10\n": "", "    points: 2\n  - ask: Find the angle": "    points: 2.5\n  - ask: Find the angle"},
     )
-    assert "[2.5 points]" in solution.text
-    assert "[10.5 points]" in solution.text
+    assert "[2.5 points]" in solution.texts["text"]
+    assert "[10.5 points]" in solution.texts["text"]
 
 
 def test_a_reworded_sentence_is_used_and_its_names_are_filled(tmp_path: Path) -> None:
     wording = "wording:\n  torque: The shaft must turn <<angular_momentum>> round, so <<chain>>\nparts:\n"
     solution = solved(tmp_path, {"parts:\n": wording})
-    assert "The shaft must turn L⃗ round, so" in solution.text
-    assert "Take torques about the centre" not in solution.text
-    assert "τ⃗ = dL⃗/dt" in solution.text
+    assert "The shaft must turn L⃗ round, so" in solution.texts["text"]
+    assert "Take torques about the centre" not in solution.texts["text"]
+    assert "τ⃗ = dL⃗/dt" in solution.texts["text"]
 
 
 def test_wording_can_speak_to_one_outcome_only(tmp_path: Path) -> None:
     wording = "wording:\n  torque:\n    zero: Nothing to do. <<chain>>\nparts:\n"
     solution = solved(tmp_path, {"parts:\n": wording})
-    assert "Nothing to do" not in solution.text
-    assert "Take torques about the centre" in solution.text
+    assert "Nothing to do" not in solution.texts["text"]
+    assert "Take torques about the centre" in solution.texts["text"]
 
 
 @pytest.mark.parametrize(
@@ -245,14 +245,14 @@ def test_wording_can_speak_to_one_outcome_only(tmp_path: Path) -> None:
 )
 def test_show_chooses_how_a_step_appears(tmp_path: Path, mode: str, present: str, absent: str) -> None:
     solution = solved(tmp_path, {"parts:\n": f"show: {{centre_of_mass: {mode}}}\nparts:\n"})
-    assert present in solution.text
-    assert absent not in solution.text
+    assert present in solution.texts["text"]
+    assert absent not in solution.texts["text"]
 
 
 def test_show_full_opens_one_step_only(tmp_path: Path) -> None:
     solution = solved(tmp_path, {"parts:\n": "show: {corner_tensor_xx: full}\nparts:\n"})
-    assert "26a⁵ ρ" in solution.text
-    assert "20a⁵ ρ" not in solution.text
+    assert "26a⁵ ρ" in solution.texts["text"]
+    assert "20a⁵ ρ" not in solution.texts["text"]
 
 
 def test_text_is_text_for_tex(tmp_path: Path) -> None:
@@ -260,7 +260,7 @@ def test_text_is_text_for_tex(tmp_path: Path) -> None:
     solution = solved(tmp_path, {"A uniform block": hostile})
     assert r"\input{/etc" not in solution.latex
     assert r"\write18" not in solution.latex
-    assert hostile in " ".join(solution.text.split())
+    assert hostile in " ".join(solution.texts["text"].split())
 
 
 def test_a_step_without_an_answer_is_warned_of(tmp_path: Path) -> None:
@@ -281,7 +281,7 @@ def test_where_a_sign_is_not_known_the_size_is_an_absolute_value(
 ) -> None:
     edits = {"[a, 2*a, 3*a]": sides, "{a: length,": f"{{a: length, {declared}", "axis: diagonal": f"axis: {axis}"}
     solution = solved(tmp_path, edits)
-    assert "Abs" in json.loads(solution.json)["answers"]["magnitude"]["sympy"]
+    assert "Abs" in json.loads(solution.texts["json"])["answers"]["magnitude"]["sympy"]
     assert solution.grades["sampled"] == 0
     assert "In general it is not along" in flat(solution)
 

@@ -68,7 +68,7 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
 def page(name: str, folder: Path) -> str:
     edits, detail = PAGES[name]
     problem = name.partition("-")[0]
-    return rendered_once(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).text
+    return rendered_once(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).texts["text"]
 
 
 @pytest.mark.parametrize("name", PAGES)

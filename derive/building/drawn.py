@@ -29,8 +29,8 @@ from derive.page.document import Document, Illustration
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import Phrases
 from derive.render.drawing.camera import Numbers, stand_ins
-from derive.render.formats.text_page import inline_text
 from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Files
 
 if TYPE_CHECKING:

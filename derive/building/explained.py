@@ -14,10 +14,10 @@ from derive.course.yaml_tree import abridged
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.explanation import Explanation, Section, explanation_of, told_of
 from derive.page.wording import Phrases, phrases
-from derive.render.formats.text_page import inline_text
 from derive.render.notation.layout import Mark, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
+from derive.render.printing.text_page import inline_text
 from derive.steps.derivation import standing_in
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import Step

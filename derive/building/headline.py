@@ -29,8 +29,8 @@ def _title_with_mathematics(root: Path, problem_id: str) -> str:
     from derive.building.solution import template_folder
     from derive.course.problem import load_problem
     from derive.page.wording import AXIS_NAMES, Text, given_words, phrases, told
-    from derive.render.formats.text_page import inline_text
     from derive.render.notation.notation import Notation
+    from derive.render.printing.text_page import inline_text
 
     problem = load_problem(root, problem_id)
     words = phrases(template_folder(root))

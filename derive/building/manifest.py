@@ -15,10 +15,11 @@ from typing import Any
 
 from derive import FOLDER
 from derive.building import sealed
+from derive.render.formats import formats
 
 PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc", "matplotlib")
 SOLUTIONS, SHEET = DOCUMENTS = ("solutions", "problems")  # of a whole set: with the solutions, and for students
-_PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.(?:pdf|svg|tex|txt|json)")
+_PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 MAX_INPUT = 64 * 1024 * 1024
 
 
@@ -81,7 +82,7 @@ class Manifest:
     def remove(self, output: str) -> None:
         """Take an output away if it is a file of this folder and still as it was written."""
         file = self.folder / output
-        if _PLAIN_NAME.fullmatch(output) and not file.is_symlink() and self.holds(output):
+        if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
         self.sources.pop(output, None)
@@ -153,9 +154,15 @@ def _is_record(recorded: Any) -> bool:
     return (
         all(isinstance(text, str) for table in [*texts, *recorded["inputs"].values()] for text in _values(table))
         and all(isinstance(each, list) and all(isinstance(text, str) for text in each) for each in lists)
-        and all(_PLAIN_NAME.fullmatch(name) for each in recorded["drawings"].values() for name in each)
-        and all(_PLAIN_NAME.fullmatch(name) for name in [*recorded["outputs"], *recorded["sources"]])
+        and all(_is_plain(name) for each in recorded["drawings"].values() for name in each)
+        and all(_is_plain(name) for name in [*recorded["outputs"], *recorded["sources"]])
     )
+
+
+def _is_plain(output: str) -> bool:
+    """Whether it is the name of a file that a build may have written."""
+    parts = _PLAIN_NAME.fullmatch(output)
+    return parts is not None and parts[1] in {"pdf", "svg", "tex", *(form.suffix for form in formats().values())}
 
 
 def _values(table: Any) -> list[Any]:
@@ -164,5 +171,5 @@ def _values(table: Any) -> list[Any]:
 
 def outputs_of(name: str) -> list[str]:
     """The outputs of a problem, or of a document of the whole set."""
-    suffixes = ("pdf", "tex") if name in DOCUMENTS else ("pdf", "tex", "txt", "json")
-    return [f"{name}.{suffix}" for suffix in suffixes]
+    own = [] if name in DOCUMENTS else [form.suffix for form in formats().values()]
+    return [f"{name}.{suffix}" for suffix in ("pdf", "tex", *own)]

@@ -12,7 +12,7 @@ from derive.building.solution import template_folder
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.wording import Phrases, phrases
-from derive.render.formats.latex_page import dotted, whole_latex
+from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.rendered import Rendered, Tex
 
 COLUMNS = (

@@ -32,6 +32,7 @@ from derive.building.manifest import (
 from derive.building.tex import Engine, chosen_engine, chosen_name, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from derive.render.formats import formats
 
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
@@ -268,7 +269,7 @@ class _Build:
         from derive.building.set_document import problem_document
 
         derived = self.derived[name]
-        texts = {f"{name}.txt": derived.text, f"{name}.json": derived.json}
+        texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in formats().values()}
         if self._record(dict(derived.files)):
             self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files)
 

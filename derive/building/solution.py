@@ -27,12 +27,12 @@ from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
 from derive.page.wording import phrases
-from derive.render.formats.contract import contract
-from derive.render.formats.latex_page import problem_latex
-from derive.render.formats.text_page import inline_text, page_text
+from derive.render.formats import Solution, formats
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
+from derive.render.printing.latex_page import problem_latex
+from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered
 from derive.steps import record
 from derive.steps.derivation import Derivation, derivation_of, returned_quantities, standing_in, with_ancestors
@@ -63,6 +63,7 @@ def rendered(
         found.add(fault)
     found.stop()
     notation = Notation(document.dimensions)
+    solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
     fragments = problem_latex(document, words, notation, template_folder(root))
     return Rendered(
         id=problem_id,
@@ -72,10 +73,7 @@ def rendered(
         title_latex=fragments.title,
         sheet=fragments.sheet,
         checked=fragments.checked,
-        text=page_text(document, words, notation),
-        json=contract(
-            problem, derivation, values, document, notation, reference=[told.facts for told in solved.compared]
-        ),
+        texts={name: form.render(solution) for name, form in formats().items()},
         warnings=(*document.warnings, *failures),
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),

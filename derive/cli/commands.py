@@ -19,6 +19,7 @@ from derive import FOLDER
 from derive.building.files import cannot_write, of_system, writing
 from derive.cli.terminal import complain, table, tell
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from derive.render.formats import TYPESET
 
 if TYPE_CHECKING:
     from derive.building.sets import Report
@@ -168,8 +169,8 @@ def _solve(arguments: argparse.Namespace) -> int:
         work = partial(rendered, root, problem_id, arguments.detail, draws=draws)
         solved: Rendered = done(job_of(root, problem_id, work, limit))
     complain(solved.warnings)
-    text = solved.text if arguments.format == "text" else solved.json
-    if arguments.format in ("latex", "pdf"):
+    text = solved.texts.get(arguments.format, "")
+    if arguments.format in TYPESET:
         set_id = problem_id.partition("/")[0]
         heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
         text = problem_document(root, solved, heading)

@@ -6,8 +6,9 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from derive.render.formats import TYPESET, formats
+
 DETAILS = ("brief", "standard", "full")
-FORMATS = ("text", "latex", "pdf", "json")
 _TIME_LIMIT = 120.0
 
 _ENVIRONMENT = """\
@@ -51,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
     command("list", "list the problems")
     solve = command("solve", "derive one problem and show its solution")
     solve.add_argument("id", metavar="ID", help="such as hw9/block")
-    solve.add_argument("--format", choices=FORMATS, default="text")
+    solve.add_argument("--format", choices=sorted([*formats(), *TYPESET]), default="text")
     solve.add_argument("-o", dest="output", metavar="FILE", help="where to write; - is standard output")
     explain = command("explain", "tell of one line why it is there, how it was checked, and how to change it")
     explain.epilog = "example: derive explain hw9/block torque"

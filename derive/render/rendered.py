@@ -23,6 +23,7 @@ class Tex(str):
 class Rendered:
     """One problem, solved and printed.
 
+    texts                   its page by the name of each format
     latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked
     counts                  the numbers of how it was checked, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
@@ -31,12 +32,11 @@ class Rendered:
     id: str
     title: str
     points: str
+    texts: dict[str, str]
     latex: Tex
     title_latex: Tex
     sheet: Tex
     checked: Tex
-    text: str
-    json: str
     warnings: tuple[Complaint, ...]
     inputs: tuple[str, ...]
     grades: dict[str, int]
@@ -58,12 +58,11 @@ class Rendered:
                 id=_text(data["id"]),
                 title=_text(data["title"]),
                 points=_text(data["points"]),
+                texts={_text(name): _text(page) for name, page in dict(data["texts"]).items()},
                 latex=Tex(_text(data["latex"])),
                 title_latex=Tex(_text(data["title_latex"])),
                 sheet=Tex(_text(data["sheet"])),
                 checked=Tex(_text(data["checked"])),
-                text=_text(data["text"]),
-                json=_text(data["json"]),
                 warnings=tuple(_complaint(warning) for warning in data["warnings"]),
                 inputs=tuple(_text(path) for path in data["inputs"]),
                 grades=_counts(data["grades"]),

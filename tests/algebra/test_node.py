@@ -13,7 +13,7 @@ from derive.algebra.dimensions import Dimension, dimension_of_kind, power
 from derive.algebra.encoding import decoded, encoded
 from derive.algebra.equality import equal
 from derive.algebra.node import NODES, DimensionOf, ScalarNode, TextOf
-from derive.render.formats.plain_sympy import sympy_text
+from derive.render.printing.plain_sympy import sympy_text
 from derive.steps.homogeneity import dimension_of
 
 a, b, x = symbols("a b x", positive=True)

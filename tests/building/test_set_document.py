@@ -221,7 +221,7 @@ def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path:
     solution = rendered_once(root, "hw9/block")
     assert r"from \hyperlink{hw9.block.21}{(21)}, what torque" in solution.latex
     assert r"from part (b), what torque" in solution.sheet
-    assert "With ω⃗ from (21), what torque" in solution.text
+    assert "With ω⃗ from (21), what torque" in solution.texts["text"]
 
 
 def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:
@@ -233,14 +233,14 @@ def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:
 
 
 def test_another_problem_is_referred_to_by_its_number_in_the_set(course: Path, solved: list[Rendered]) -> None:
-    assert "As Problem 1 it turns" in " ".join(solved[1].text.split())
+    assert "As Problem 1 it turns" in " ".join(solved[1].texts["text"].split())
     assert r"As \problemlink{hw9.cube}{Problem 1} it turns" in solved[1].latex
     assert "problems/hw9/set.yaml" in solved[1].inputs, "another order is another number"
     assert "problems/hw9/set.yaml" not in solved[0].inputs
 
 
 def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]) -> None:
-    assert "Part (c) has already given θ, equation (25)." in solved[1].text
+    assert "Part (c) has already given θ, equation (25)." in solved[1].texts["text"]
 
 
 @pytest.mark.parametrize(

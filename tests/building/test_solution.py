@@ -56,7 +56,7 @@ def refused(folder: Path, form: str) -> Complaint:
 
 def test_a_number_that_is_only_named_has_the_unit_of_its_dimension(tmp_path: Path) -> None:
     solution = solved(tmp_path)
-    units = {key: answer["number"]["unit"] for key, answer in json.loads(solution.json)["answers"].items()}
+    units = {key: answer["number"]["unit"] for key, answer in json.loads(solution.texts["json"])["answers"].items()}
     assert units == {"period": "s", "swinging": "1/s", "odd": "m^(3/2)/s^2", "share": "", "square": "m^4/s^4"}
     assert r"\mathrm{m^{3/2}/s^{2}}" in solution.latex
 

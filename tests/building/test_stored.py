@@ -57,7 +57,7 @@ def test_new_words_need_no_new_derivation(course: Path, kept: Path, monkeypatch:
     change(course, "block.yaml", "title: A block turning", "title: A brick turning")
     change(course, "block.yaml", "answer: inertia_tensor\n    points: 3", "answer: inertia_tensor\n    points: 3.0")
     forbid_deriving(monkeypatch)
-    assert "A brick turning" in rendered(course, "hw9/block", "full", kept).text
+    assert "A brick turning" in rendered(course, "hw9/block", "full", kept).texts["text"]
 
 
 @pytest.mark.parametrize(

@@ -26,8 +26,8 @@ from derive.mechanics.bodies.solids import RoundSolid
 from derive.page.depiction import alternative
 from derive.page.wording import phrases
 from derive.render.drawing.camera import USUAL
-from derive.render.formats.text_page import inline_text
 from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import inline_text
 from tests.courses import ROOT
 from tests.figures.scenery import M, R, a, h, pieces_of, strokes, theta
 

@@ -15,8 +15,8 @@ from derive.figures.pieces import Paper, Piece, Stroke
 from derive.page.depiction import alternative
 from derive.page.wording import phrases
 from derive.render.drawing.camera import Numbers, best_stance, stance_from
-from derive.render.formats.text_page import inline_text
 from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import inline_text
 from tests.courses import ROOT
 from tests.figures.scenery import CONE, a, pieces_of, plane, strokes
 

@@ -25,7 +25,7 @@ FILES = ["block-axes.pdf", "block-axes.svg", "block-vectors.pdf", "block-vectors
 
 
 def drawings(solved: Rendered) -> dict[str, dict]:
-    return {drawing["key"]: drawing for drawing in json.loads(solved.json)["drawings"]}
+    return {drawing["key"]: drawing for drawing in json.loads(solved.texts["json"])["drawings"]}
 
 
 def faults(folder: Path, edits: dict[str, str] | None = None, script: dict[str, str] | None = None) -> list[str]:
@@ -61,7 +61,7 @@ def test_the_words_are_made_of_the_derived_values(block: Rendered) -> None:
 
 
 def test_a_terminal_shows_the_words_in_the_place_of_the_drawing(block: Rendered) -> None:
-    text = " ".join(block.text.split())
+    text = " ".join(block.texts["text"].split())
     assert text.index("[figure: A drawing in space of a block") < text.index("(a) Find")
     assert text.index("(c) Find") < text.index("[figure: A drawing in space of a block", 400) < text.index("(d) What")
     assert "Figure 1. ω⃗ and L⃗ in their true directions" in text
@@ -90,7 +90,7 @@ def test_no_number_is_told_that_depends_on_letters(tmp_path: Path) -> None:
 
 def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
     edits = {"ask: Find the angle between": "ask: In <<figure vectors>>, find the angle between"}
-    assert "(c) In Figure 1, find" in rendered_once(course_in(tmp_path, edits), "hw9/block").text
+    assert "(c) In Figure 1, find" in rendered_once(course_in(tmp_path, edits), "hw9/block").texts["text"]
 
 
 def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> None:

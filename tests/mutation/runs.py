@@ -13,8 +13,8 @@ from derive.building.solution import derived
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.wording import phrases
-from derive.render.formats.text_page import page_text
 from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import page_text
 from derive.steps.derivation import Derivation
 from derive.steps.step import Level, Step
 from tests.courses import PINNED, ROOT, course_in

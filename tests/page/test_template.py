@@ -10,7 +10,7 @@ from jinja2.exceptions import SecurityError
 
 from derive.errors import Rejected
 from derive.page.template import environment
-from derive.render.formats.templates import filled_template
+from derive.render.printing.templates import filled_template
 
 
 def test_names_are_filled_and_braces_are_text() -> None:

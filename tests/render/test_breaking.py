@@ -9,12 +9,12 @@ from sympy import Symbol, cos, sin, sqrt, symbols
 
 from derive.algebra.expressions import Relation
 from derive.page.document import Answer, Equations, Line
-from derive.render.formats.lines import answer_lines, printed_lines
 from derive.render.notation.breaking import broken
 from derive.render.notation.latex import latex
 from derive.render.notation.layout import Mark, Row, first_of, row, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
+from derive.render.printing.lines import answer_lines, printed_lines
 
 LETTERS = symbols("a b c d e f g h k l m n p q r s", positive=True)
 theta = Symbol("theta", real=True)

@@ -15,8 +15,8 @@ from sympy import sympify as sympy_reads  # as any stranger would; the engine it
 from derive.algebra import expressions as ex
 from derive.algebra.expressions import component_names
 from derive.algebra.rounding import Rounded
-from derive.render.formats.chain_names import Page, factor_between
-from derive.render.formats.plain_sympy import Setting, identifier, sympy_text
+from derive.render.printing.chain_names import Page, factor_between
+from derive.render.printing.plain_sympy import Setting, identifier, sympy_text
 from derive.steps.step import Form, Quantity
 from tests.courses import course_in, rendered_once
 from tests.mechanics.block import M, a, b, c, known_block, omega
@@ -156,7 +156,7 @@ def test_every_string_of_the_json_reads_back_whatever_the_letters(
     }
     pinned = (Path(__file__).parents[1] / "problems" / "block.yaml").read_text(encoding="utf-8")
     edits = {old if old in pinned else old.strip(): new if old in pinned else new.strip() for old, new in edits.items()}
-    page = json.loads(rendered_once(course_in(tmp_path, edits), "hw9/block").json)
+    page = json.loads(rendered_once(course_in(tmp_path, edits), "hw9/block").texts["json"])
     lines = [(form["sympy"], step["names"]) for step in page["steps"] for form in step["chain"]]
     lines += [(line, {}) for line in page["given"]["sides"]]
     lines += [(meaning, {}) for step in page["steps"] for meaning in step["names"].values()]
@@ -174,7 +174,7 @@ def test_every_string_of_the_json_reads_back_whatever_the_letters(
 
 
 def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
-    page = json.loads(rendered_once(course_in(tmp_path), "hw9/block").json)
+    page = json.loads(rendered_once(course_in(tmp_path), "hw9/block").texts["json"])
     assert list(page) == [
         "problem",
         "title",
@@ -202,7 +202,7 @@ def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
 
 
 def test_the_same_problem_gives_the_same_json(tmp_path: Path) -> None:
-    first, second = (rendered_once(course_in(tmp_path / name), "hw9/block").json for name in ("one", "two"))
+    first, second = (rendered_once(course_in(tmp_path / name), "hw9/block").texts["json"] for name in ("one", "two"))
     assert first == second
 
 

@@ -469,7 +469,7 @@ def test_check_fails_on_a_difference_and_counts_the_references(
 def test_a_problem_without_references_agrees(tmp_path: Path) -> None:
     solution = rendered_once(course_in(tmp_path), "hw9/block")
     assert solution.agreed
-    assert json.loads(solution.json)["reference"] == []
+    assert json.loads(solution.texts["json"])["reference"] == []
     assert "problems/hw9/reference.yaml" in solution.inputs
 
 
@@ -484,7 +484,7 @@ def test_the_homework_agrees_but_for_its_errata(problem: str, count: int, errata
     (root / "problems" / "hw9" / "reference.yaml").write_text(document, encoding="utf-8")
     for other in re.findall(r"^- problem: (\w+)", document, re.MULTILINE):
         (root / "problems" / "hw9" / f"{other}.yaml").touch()
-    found = json.loads(rendered_once(root, f"hw9/{problem}").json)["reference"]
+    found = json.loads(rendered_once(root, f"hw9/{problem}").texts["json"])["reference"]
     outcomes = [entry["outcome"] for entry in found]
     assert (len(found), outcomes.count("erratum")) == (count, errata)
     assert {outcome.split(" to ")[0] for outcome in outcomes} == {"agrees", "erratum"}

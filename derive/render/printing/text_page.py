@@ -11,10 +11,10 @@ from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
-from derive.render.formats.lines import Printed, answer_lines, printed_lines
 from derive.render.notation.layout import Layout, Mark, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import MARKS, columns, plain, to_the_right
+from derive.render.printing.lines import Printed, answer_lines, printed_lines
 
 COLUMNS = 88
 WIDTH = 60.0

@@ -18,12 +18,12 @@ from derive.course.reference.errata import Erratum
 from derive.page.checks import Ways
 from derive.page.document import Answer, Display, Document, Illustration, PartPage
 from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
-from derive.render.formats.lines import Printed, answer_lines, printed_lines
-from derive.render.formats.templates import filled_template
-from derive.render.formats.text_page import inline_text
 from derive.render.notation.latex import MARKS, escaped, latex, unit_latex
 from derive.render.notation.layout import Layout
 from derive.render.notation.notation import Notation
+from derive.render.printing.lines import Printed, answer_lines, printed_lines
+from derive.render.printing.templates import filled_template
+from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Tex
 
 WIDTH = 60.0

@@ -27,7 +27,7 @@ from derive.algebra.expressions import (
     explicit,
     rate,
 )
-from derive.render.formats.plain_sympy import Setting, Written, identifier, written
+from derive.render.printing.plain_sympy import Setting, Written, identifier, written
 from derive.steps.step import Step
 
 Text = str | list[str]  # a list: one for each of two roots

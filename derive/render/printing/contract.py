@@ -1,7 +1,7 @@
 """The JSON of `derive solve ID --format json`: the contract that other programs read.
 
-Every step says what its page says, in plain SymPy text (`derive.render.formats.plain_sympy`): `names` is what each name
-in its chain stands for, and with these put in, `sympify(line, names)`, each line equals the one before it:
+Every step says what its page says, in plain SymPy text (`derive.render.printing.plain_sympy`): `names` is what each
+name in its chain stands for, and with these put in, `sympify(line, names)`, each line equals the one before it:
 
     a number        of `because: rounded` is `within` of the last line before the numbers
     a relation      has the residual, left minus right, of the one before it but for `factor`, which does not vanish
@@ -15,7 +15,6 @@ A left side that is a formula (`symbol.formula`) equals the first line. Where th
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 from sympy import MatrixBase, Symbol
@@ -24,26 +23,20 @@ from derive.algebra import expressions as ex
 from derive.algebra.dimensions import NUMBER, Dimension, unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
 from derive.course.parts import points_text
-from derive.course.problem import Problem
-from derive.page.document import Document, Illustration
-from derive.render.formats.chain_names import Page, StepNames
-from derive.render.formats.plain_sympy import sympy_text
-from derive.render.formats.text_page import inline_text
+from derive.page.document import Illustration
+from derive.render.formats import Solution
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
-from derive.steps.derivation import Derivation
+from derive.render.printing.chain_names import Page, StepNames
+from derive.render.printing.plain_sympy import sympy_text
+from derive.render.printing.text_page import inline_text
 from derive.steps.step import NUMBERS, Step
 
 
-def contract(
-    problem: Problem,
-    derivation: Derivation,
-    values: Mapping[str, Step],
-    document: Document,
-    notation: Notation,
-    reference: Sequence[Mapping[str, Any]] = (),
-) -> str:
+def contract(solution: Solution) -> str:
     """The JSON text."""
+    problem, derivation, values = solution.problem, solution.derivation, solution.values
+    document, notation = solution.document, solution.notation
     answered = [derivation.answering(part.answers) for part in problem.parts]
     page = Page([*derivation.steps, *values.values()])
     data = {
@@ -63,7 +56,7 @@ def contract(
         },
         "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
         "steps": [_step(page.names_of(step), notation) for step in page.steps],
-        "reference": list(reference),
+        "reference": [told.facts for told in solution.compared],
     }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 

@@ -1,0 +1,14 @@
+"""What other programs read of a page: docs/json.md."""
+
+from __future__ import annotations
+
+from derive.render.formats import Format, Solution
+
+
+def _rendered(solution: Solution) -> str:
+    from derive.render.printing.contract import contract
+
+    return contract(solution)
+
+
+FORMAT = Format("json", "json", _rendered)

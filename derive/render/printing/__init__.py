@@ -1,0 +1,1 @@
+"""A page in lines of text, of TeX and of JSON."""
