@@ -127,11 +127,8 @@ def _products(
     quantity: Quantity, equations: Sequence[Quantity], factors: Sequence[Expr], motion: Mapping[Symbol, Expr]
 ) -> list[Quantity]:
     """Each equation that is needed, times its factor."""
-    products: list[Quantity] = []
-    for equation, factor in zip(equations, factors, strict=True):
-        if factor != 0:
-            products.append(_product(quantity, equation, factor, motion))
-    return products
+    needed = [(equation, factor) for equation, factor in zip(equations, factors, strict=True) if factor != 0]
+    return [_product(quantity, equation, factor, motion) for equation, factor in needed]
 
 
 def _product(quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr]) -> Quantity:
