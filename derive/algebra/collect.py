@@ -1,4 +1,4 @@
-"""How a line about a motion is written: the highest rates first, each with what multiplies it in one bracket."""
+"""What a line about a motion is made of: each product of rates with what multiplies it in one bracket."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from derive.algebra.tidy import tidied
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Accelerations first, then squares and products of rates, then what has neither; each with one factor in front."""
+    """The terms gathered by accelerations, and by squares and products of rates; each with one factor in front."""
     return by_rates(value, moving, 2)
 
 
 def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
-    """The terms gathered by the rates that they contain, highest rates first; `halves` writes (1/2)(...) q_dot^2."""
+    """The terms gathered by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
     orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
     present = [s for s in orders if value.has(s)]
     value = value.expand()
@@ -29,15 +29,15 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         return tidied(value)
     if gathered is None:
         return tidied(value)
-    terms = sorted(gathered.terms(), key=lambda term: term[0], reverse=True)
     parts = [
-        _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves) for powers, c in terms
+        _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
+        for powers, c in gathered.terms()
     ]
     return Add(*parts, evaluate=len(parts) < 2)
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Terms with rates first, then products of the coordinates; a difference before a product is subtracted.
+    """The terms gathered by rates and by products of the coordinates; a difference before a product is subtracted.
 
     I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and round.
     """

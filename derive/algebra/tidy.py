@@ -1,6 +1,7 @@
-"""The form in which a result is handed on: one fraction, common factors in front, roots in the numerator.
+"""The form in which a result is handed on: one fraction, common factors in front, no sum of roots below.
 
 `tidied()` changes no value. It is what a person does before writing a result down and what keeps the next step small.
+How the result then stands on paper is decided by `derive.render.notation.notation`.
 """
 
 from __future__ import annotations
@@ -91,7 +92,7 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
-    """7/sqrt(14) is sqrt(14)/2; a root of letters stays below, where it is easier to read."""
+    """1/(1 + sqrt(2)) is sqrt(2) - 1; a root of letters stays below, where it is easier to read."""
     numerator, denominator = value.as_numer_denom()
     if denominator.is_number or not denominator.has(Pow):
         return radsimp(value) if len(Add.make_args(denominator)) <= 4 else value

@@ -68,7 +68,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
         "heading": heading,
         "problems": problems,
         "total": _total(problems),
-        "worth": lambda points: points and f"{points} {words.labels['points'][points != '1']}",
+        "worth": lambda points: words.worth(Fraction(points)) if points else "",
         "rows": _rows(problems, words),
         "columns_of_counts": COLUMNS,
         "labels": words.labels,

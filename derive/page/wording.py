@@ -20,6 +20,7 @@ from derive.algebra.dimensions import Dimension, unit_of_dimension, unit_of_kind
 from derive.algebra.expressions import AXES, Amount, scalar
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
+from derive.course.parts import points_text
 from derive.course.problem import Problem
 from derive.course.prose import Mention
 from derive.course.written import ANY_OUTCOME
@@ -112,6 +113,11 @@ class Phrases:
 
     def route(self, step: Step, claim: str) -> str:
         return self.routes.get(step.rule, {}).get(claim, "")
+
+    def worth(self, points: Any) -> str:
+        """`1 point`, `2.5 points`; nothing if there are none."""
+        one, many = self.labels["points"]
+        return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 
     def term(self, word: str) -> tuple[Node, ...]:
         """The words for a word of a step or of what is given: `diagonal` is "the long diagonal"."""

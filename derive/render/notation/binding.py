@@ -25,6 +25,8 @@ from derive.render.notation.layout import (
     RootSign,
     Row,
     Word,
+    ends_in_differential,
+    is_differential,
     row,
 )
 
@@ -63,8 +65,7 @@ def binding(layout: Layout) -> Binding:
         case Fraction() | RootSign() | Applied() | Raised() | Lowered() | Evaluated():
             return Binding.FACTOR
         case Row(items):
-            ended = len(items) > 1 and items[-2] == Word("d")
-            return max(_of_item(i, items, ended) for i in range(len(items)))
+            return max(_of_item(i, items, ends_in_differential(layout)) for i in range(len(items)))
         case Mark(kind):
             return _MARKS.get(kind, Binding.RELATION)
         case IntegralSign():
@@ -73,7 +74,7 @@ def binding(layout: Layout) -> Binding:
 
 
 def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
-    """`ended`: the row ends in a differential, behind which an integral takes in nothing more."""
+    """`ended`: the row ends in a differential."""
     item = items[i]
     if isinstance(item, IntegralSign) and ended:
         return Binding.PRODUCT
@@ -88,10 +89,7 @@ def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
 
 def _is_operator(layout: Layout) -> bool:
     """d/dt or d^2/dx^2, which waits for what it is applied to."""
-    if not isinstance(layout, Fraction):
-        return False
-    sign = layout.above.base if isinstance(layout.above, Raised) else layout.above
-    return sign in (Word("d"), Word("partial"))
+    return isinstance(layout, Fraction) and is_differential(layout.above)
 
 
 def within(layout: Layout, most: Binding) -> Layout:

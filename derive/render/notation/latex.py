@@ -9,6 +9,7 @@ from pylatexenc.latexencode import UnicodeToLatexEncoder
 
 from derive.errors import Complaint, Rejected
 from derive.render.notation.layout import (
+    DEGREE,
     GREEK,
     Applied,
     Array,
@@ -165,8 +166,7 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 
 
 def _name(name: Name) -> str:
-    base = name.base.rstrip("'")
-    primes = name.base[len(base) :]
+    base = name.letter
     letter = rf"\{base}" if base in GREEK else base
     if len(base) > 1 and base not in GREEK:
         letter = rf"\mathit{{{base}}}"
@@ -176,15 +176,14 @@ def _name(name: Name) -> str:
         letter = rf"\mathbf{{{letter}}}"
     if name.dots:
         letter = rf"\{'d' * name.dots}ot{{{letter}}}"
-    letter = f"{{{letter}{primes}}}" if primes else letter  # in braces, so that it can be squared
-    return f"{letter}_{{{_subscript(name.subscript)}}}" if name.subscript else letter
+    letter = f"{{{letter}{name.primes}}}" if name.primes else letter  # in braces, so that it can be squared
+    return f"{letter}_{{{_subscript(name)}}}" if name.subscript else letter
 
 
-def _subscript(text: str) -> str:
-    if text in GREEK:
-        return rf"\{text}"
-    parts = text.split("_")
-    between = "," if any(len(part) > 2 for part in parts) else ""
+def _subscript(name: Name) -> str:
+    if name.subscript in GREEK:
+        return rf"\{name.subscript}"
+    between, parts = name.below
     return between.join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in parts)
 
 
@@ -194,7 +193,7 @@ def unit_latex(text: str) -> str:
 
 
 def _unit(text: str) -> str:
-    if text in {"degree", "deg"}:
+    if text == DEGREE.text:
         return r"{}^\circ"
     text = text.replace("^{", "^").replace("**", "^").replace("²", "^2").replace("³", "^3").replace("°", r"{}^\circ ")
     text = re.sub(r"\^(?:(-?\d+)|\((\d+/\d+)\))", r"^{\1\2}", text)

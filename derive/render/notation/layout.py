@@ -1,6 +1,6 @@
 """Mathematics as it stands on paper, before any format: what is a fraction, what is raised, what is in brackets.
 
-`notation.py` decides the layout once; `latex.py` and `text.py` only print it.
+`notation.py` decides the layout once; `latex.py` and `text.py` only set it.
 """
 
 from __future__ import annotations
@@ -24,6 +24,21 @@ class Name:
     subscript: str = ""
     dots: int = 0
     style: str = "scalar"
+
+    @property
+    def letter(self) -> str:
+        """The base without its primes."""
+        return self.base.rstrip("'")
+
+    @property
+    def primes(self) -> str:
+        return self.base[len(self.letter) :]
+
+    @property
+    def below(self) -> tuple[str, tuple[str, ...]]:
+        """The parts of the subscript, and what stands between them: letters run together, a word is set apart."""
+        parts = tuple(self.subscript.split("_"))
+        return "," if any(len(part) > 2 for part in parts) else "", parts
 
 
 @dataclass(frozen=True)
@@ -147,6 +162,7 @@ GREEK = {
     "Omega": "Ω",
 }  # fmt: skip
 
+DEGREE = Word("degree")  # the only unit that stands close behind its number
 DOT, TIMES, PLUS, MINUS, SPACE = (Mark(kind) for kind in ("dot", "times", "plus", "minus", "space"))
 PLUS_MINUS = Mark("plus_minus")
 INNER, CROSS = Mark("inner"), Mark("cross")  # between two vectors: a dot, and a cross
@@ -195,6 +211,17 @@ def is_number(layout: Layout) -> bool:
     if isinstance(layout, Fraction):
         return is_number(layout.above) and is_number(layout.below)
     return isinstance(layout, Number)
+
+
+def is_differential(layout: Layout) -> bool:
+    """d, d^2 or a curly d."""
+    sign = layout.base if isinstance(layout, Raised) else layout
+    return sign in (Word("d"), Word("partial"))
+
+
+def ends_in_differential(layout: Layout) -> bool:
+    """... dx, behind which an integral takes in nothing more."""
+    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
 
 
 def is_enclosed(layout: Layout) -> bool:

@@ -1,7 +1,12 @@
 """From expressions to the layout of a textbook: 13/12 M a^2, not 13 M a^2/12; dots for rates; masses before lengths.
 
-`present()` pulls the common factor out of vectors and tensors; it changes no value. `Notation` holds the one thing
-that depends on the problem, the dimensions of its letters, which decide their order in a product.
+What a line is made of is decided in the engine, where lines are checked: which terms are gathered, what is one
+fraction, what is multiplied out (`derive.algebra.tidy`, `derive.algebra.collect`). How it stands on paper is decided
+here, with `products` and `binding`, once for every format: the order of terms and factors, the factor in front of a
+vector or of a bracket, roots under one sign or below, signs, fractions, brackets and dots. `latex` and `text` set what
+is laid out.
+
+`Notation` holds the one thing that depends on the problem, the dimensions of its letters, which decide their order.
 """
 
 from __future__ import annotations
@@ -36,10 +41,10 @@ from derive.algebra.rounding import Rounded, decimal_text
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
     CROSS,
+    DEGREE,
     INNER,
     MINUS,
     PLUS,
-    PLUS_MINUS,
     SPACE,
     Applied,
     Array,
@@ -64,7 +69,6 @@ from derive.render.notation.products import (
     accelerations_first,
     between,
     decimal,
-    either_sign,
     number_and_letters,
     positive_first,
     present,
@@ -99,6 +103,9 @@ class Notation:
     def _worked_out(self, expr: Any) -> Layout:
         if isinstance(expr, MatrixBase):
             return self._matrix(expr)
+        sign, size = sign_and_size(expr)
+        if sign:
+            return signed(sign, self.layout(size))
         for kinds, method in self._methods:
             if isinstance(expr, kinds):
                 return method(self, expr)
@@ -107,11 +114,11 @@ class Notation:
         raise TypeError(f"no notation for {type(expr).__name__}")
 
     def result(self, expr: Any) -> Layout:
-        """A result, with its common factor in front."""
-        return self.layout(present(expr))
+        """A result, with its common factor in front; components in running text as a list."""
+        return self.list_of(expr) if isinstance(expr, tuple) else self.layout(present(expr))
 
     def list_of(self, components: tuple[Any, ...]) -> Layout:
-        """Components in running text: (1, 1, 0)."""
+        """(1, 1, 0)"""
         items: list[Layout] = []
         for component in components:
             items += [Mark("comma")] * bool(items) + [self.layout(component)]
@@ -139,16 +146,7 @@ class Notation:
         return row(*items)
 
     def _product(self, expr: Expr) -> Layout:
-        behind = either_sign(expr)
-        if behind is not None:
-            return signed(PLUS_MINUS, self.layout(behind))
-        minus, size = sign_and_size(expr)
-        if minus:
-            return signed(MINUS, self.layout(size))
-        under_one_root = roots_together(size)
-        if under_one_root is not None:
-            size = under_one_root
-        above, below = fraction(size)
+        above, below = fraction(roots_together(expr))
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)
@@ -196,11 +194,6 @@ class Notation:
     def _as_written(self, expr: ex.Factors) -> Layout:
         """Factors in the order given, with a dot where two would run together."""
         first, *others = expr.args
-        behind = either_sign(expr)
-        if behind is not None:
-            return signed(PLUS_MINUS, self.layout(behind))
-        if isinstance(first, Expr) and first == -1 and others:
-            return signed(MINUS, self._as_written(ex.Factors(*others)))
         whole = self.layout(first)
         sign, leading = sign_apart(whole)
         items = [within(leading, Binding.MEASURED if others else Binding.OPEN)]
@@ -224,16 +217,9 @@ class Notation:
         return Raised(within(inner, Binding.ATOM), self.layout(exponent))
 
     def _rational(self, expr: Rational) -> Layout:
-        if expr < 0:
-            return row(MINUS, self._rational(-expr))
-        if expr.q == 1:
-            return Number(str(expr.p))
-        return Fraction(Number(str(expr.p)), Number(str(expr.q)))
+        return Number(str(expr.p)) if expr.q == 1 else Fraction(Number(str(expr.p)), Number(str(expr.q)))
 
     # --- names and functions ---
-
-    def _symbol(self, expr: Symbol) -> Layout:
-        return signed(PLUS_MINUS, Number("1")) if expr == ex.PLUS_MINUS else named(expr.name)
 
     def _vector_or_tensor(self, expr: MatrixSymbol) -> Layout:
         style = "vector" if expr.shape == (3, 1) else "tensor"
@@ -266,14 +252,14 @@ class Notation:
     def _matrix_product(self, expr: MatMul) -> Layout:
         scalars = [arg for arg in expr.args if not ex.is_matrix(arg)]
         others = [arg if scalars else present(arg) for arg in expr.args if ex.is_matrix(arg)]
-        minus, size = sign_and_size(Mul(*scalars)) if len(scalars) != 1 else sign_and_size(scalars[0])
+        sign, size = sign_and_size(scalars[0] if len(scalars) == 1 else Mul(*scalars))
         items: list[Layout] = [self._as_factor(size, Binding.DOTTED)] if size != 1 else []
         for i, other in enumerate(others, 1):
             inner = self.layout(other)
             if items or i < len(others):
                 inner = self._operand(inner, leads=not items, ends=len(others) == 1)
             items.append(inner)
-        return signed(MINUS, row(*items)) if minus else row(*items)
+        return signed(sign, row(*items)) if sign else row(*items)
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
         """A vector or tensor beside another; w x L may stand behind a number without brackets."""
@@ -394,7 +380,7 @@ class Notation:
         number, unit, _ = expr.args
         inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
         if unit.name in {"degree", "deg"}:
-            return row(inner, Word(unit.name))
+            return row(inner, DEGREE)
         return row(inner, SPACE, Word(unit.name)) if unit.name else inner
 
     def _rounded(self, expr: Rounded) -> Layout:
@@ -411,7 +397,7 @@ class Notation:
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),
         (Rounded, _rounded),
-        (Symbol, _symbol),
+        (Symbol, lambda self, expr: named(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),
         (Exp1, lambda self, _: Name("e")),

@@ -14,6 +14,7 @@ from derive.algebra.tidy import factored_matrix
 from derive.render.notation.layout import (
     DOT,
     MINUS,
+    PLUS_MINUS,
     SPACE,
     Applied,
     Array,
@@ -21,12 +22,13 @@ from derive.render.notation.layout import (
     Fraction,
     IntegralSign,
     Layout,
+    Mark,
     Name,
     Number,
     Raised,
     Row,
-    Word,
     begins_with_number,
+    ends_in_differential,
     first_of,
     is_enclosed,
     is_number,
@@ -54,22 +56,19 @@ def present(value: Any) -> Any:
     return value if factor == 1 else scaled(factor, rest)
 
 
-def sign_and_size(term: Any) -> tuple[bool, Any]:
-    """Whether a term is printed with a minus sign, and the term without it."""
-    if isinstance(term, ex.Factors) and term.args[0] == -1:
-        return True, ex.Factors(*term.args[1:]) if len(term.args) > 2 else term.args[1]
-    if isinstance(term, Expr) and (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative:
-        return True, -term
-    return False, term
-
-
-def either_sign(term: Any) -> Any | None:
-    """What stands behind a plus-or-minus sign, if the term has one."""
-    factors = list(term.args) if isinstance(term, ex.Factors) else list(Mul.make_args(term))
-    if ex.PLUS_MINUS not in factors:
-        return None
-    factors.remove(ex.PLUS_MINUS)
-    return ex.Factors(*factors) if isinstance(term, ex.Factors) and len(factors) > 1 else Mul(*factors)
+def sign_and_size(term: Any) -> tuple[Mark | None, Any]:
+    """The sign that a scalar is printed with, if any, and what stands behind it."""
+    if not isinstance(term, Expr) or ex.is_matrix(term):
+        return None, term
+    as_written = isinstance(term, ex.Factors)
+    factors = list(term.args if as_written else Mul.make_args(term))
+    if ex.PLUS_MINUS in factors:
+        factors.remove(ex.PLUS_MINUS)
+        return PLUS_MINUS, ex.Factors(*factors) if as_written and len(factors) > 1 else Mul(*factors)
+    if as_written and len(factors) > 1 and factors[0] == -1:
+        return MINUS, ex.Factors(*factors[1:]) if len(factors) > 2 else factors[1]
+    negative = (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative
+    return (MINUS, -term) if negative else (None, term)
 
 
 def roots_last(terms: list[Any]) -> list[Any]:
@@ -83,8 +82,8 @@ def roots_last(terms: list[Any]) -> list[Any]:
 
 def positive_first(terms: list[Any]) -> list[Any]:
     """c^2 - a^2, not -a^2 + c^2."""
-    if terms and sign_and_size(terms[0])[0]:
-        first = next((term for term in terms if not sign_and_size(term)[0]), None)
+    if terms and sign_and_size(terms[0])[0] is MINUS:
+        first = next((term for term in terms if sign_and_size(term)[0] is not MINUS), None)
         if first is not None:
             return [first, *(term for term in terms if term is not first)]
     return terms
@@ -140,15 +139,15 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
     return (content, rest) if content.is_Integer else (factor,)
 
 
-def roots_together(expr: Expr) -> Expr | None:
+def roots_together(expr: Expr) -> Expr:
     """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers within it as square roots.
 
-    Nothing for a single root, or for roots of numbers alone.
+    A single root stays as it is, and so do roots of numbers alone.
     """
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
     if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
-        return None
+        return expr
     inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
     return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
 
@@ -200,7 +199,7 @@ def between(before: Layout, after: Layout) -> Layout | None:
     if isinstance(first_of(after), Applied):
         return SPACE
     last = last_of(before)
-    if is_enclosed(after) or is_enclosed(last) or is_number(before) or _ends_in_differential(before):
+    if is_enclosed(after) or is_enclosed(last) or is_number(before) or ends_in_differential(before):
         return SPACE
     if _is_letter(before) and _is_letter(after):
         return None if before != after else DOT
@@ -210,10 +209,6 @@ def between(before: Layout, after: Layout) -> Layout | None:
 
 def _is_letter(layout: Layout) -> bool:
     return isinstance(layout, Name) or isinstance(layout, Raised) and isinstance(layout.base, Name)
-
-
-def _ends_in_differential(layout: Layout) -> bool:
-    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
 
 
 def _begins_with_vector(layout: Layout) -> bool:

@@ -22,6 +22,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 from derive.render.notation.layout import (
+    DEGREE,
     GREEK,
     Applied,
     Array,
@@ -41,6 +42,7 @@ from derive.render.notation.layout import (
     Word,
     begins_with_number,
     first_of,
+    is_differential,
     last_of,
 )
 
@@ -67,7 +69,7 @@ MARKS = {
     "on": "    ",
 }
 SIGNS = {Mark("minus"): "-", Mark("plus_minus"): "±"}  # where a sum begins
-UNITS = {"degree": "°", "deg": "°", "partial": "∂"}
+UNITS = {DEGREE.text: "°", "partial": "∂"}
 ARROWS = {"vector": "\u20d7", "tensor": "\u20e1"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
@@ -141,21 +143,16 @@ def _in_brackets(entries: Sequence[Layout]) -> Layout:
     return Fenced(Row(tuple(item for entry in entries for item in (Mark("comma"), entry))[1:]))
 
 
-def _subscript(text: str) -> str:
-    """Letters run together; a word stands behind a comma."""
-    parts = text.split("_")
-    return GREEK.get(text, ("," if any(len(part) > 2 for part in parts) else "").join(parts))
-
-
 def _line(layout: Layout) -> str:
     match layout:
         case Number(digits):
             return digits
         case Name(base, subscript, dots, style):
-            unprimed = base.rstrip("'")
-            letter = GREEK.get(unprimed, unprimed) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
-            mark = ARROWS.get(style, "") if base != "0" else ""
-            return letter + mark + base[len(unprimed) :] + (f"_{_subscript(subscript)}" if subscript else "")
+            letter = GREEK.get(layout.letter, layout.letter) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
+            arrow = ARROWS.get(style, "") if base != "0" else ""
+            between, parts = layout.below
+            below = f"_{GREEK.get(subscript, between.join(parts))}" if subscript else ""
+            return letter + arrow + layout.primes + below
         case Word(text):
             return UNITS.get(text, text)
         case Mark(kind):
@@ -189,9 +186,9 @@ def _tight(layout: Layout, *, is_above: bool = False) -> str:
     last = last_of(layout)
     if isinstance(last, Applied) and not isinstance(last.argument, Fenced):
         return f"({text})"  # sin x/2 could be the sine of x/2
-    simple = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied) or _is_differential(layout)
+    single = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied)
     product = is_above and isinstance(layout, Row) and not any(isinstance(item, Mark) for item in layout.items)
-    return text if simple or product else f"({text})"
+    return text if single or product or is_differential(first_of(layout)) else f"({text})"
 
 
 def _row(items: tuple[Layout, ...]) -> Box:
@@ -213,7 +210,7 @@ def _gap(before: tuple[Layout, ...], item: Layout) -> str:
     """Between two factors: a dot if the second begins with a figure, but not behind a differential."""
     shown = box(item).lines
     begins = len(shown) == 1 and shown[0][:1].isdigit() and not isinstance(first_of(item), Name)
-    behind_differential = len(before) > 1 and _is_sign_of_change(before[-2])
+    behind_differential = len(before) > 1 and is_differential(before[-2])
     return "·" if begins and not behind_differential else " "
 
 
@@ -221,25 +218,11 @@ def _needs_space(before: Layout, item: Layout) -> bool:
     """`13/12 M a²`, but `2a` and `3(x + y)`."""
     if isinstance(before, Mark | IntegralSign) or isinstance(item, Mark):
         return False
-    if item in (Word("degree"), Word("deg")):
-        return False
-    if _is_sign_of_change(before):
+    if item == DEGREE or is_differential(before):
         return False
     if isinstance(before, Number):
         return isinstance(item, Word | Array) or begins_with_number(item)
     return True
-
-
-def _is_sign_of_change(layout: Layout) -> bool:
-    """d, d^2 or a curly d."""
-    sign = layout.base if isinstance(layout, Raised) else layout
-    return sign in (Word("d"), Word("partial"))
-
-
-def _is_differential(layout: Layout) -> bool:
-    """d or dx, which need no brackets above or below a stroke."""
-    first = layout.items[0] if isinstance(layout, Row) else layout
-    return _is_sign_of_change(first)
 
 
 def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:

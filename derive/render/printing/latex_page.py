@@ -12,25 +12,21 @@ from typing import Any
 from sympy import Expr, MatrixBase
 
 from derive.algebra.dimensions import Dimension
-from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Ways
 from derive.page.document import Answer, Display, Document, Illustration, PartPage
 from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
 from derive.render.notation.latex import MARKS, escaped, latex, unit_latex
-from derive.render.notation.layout import Layout
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import Printed, answer_lines, printed_lines
+from derive.render.printing.lines import WIDTH, Printed, answer_lines, printed_lines
 from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Tex
 
-WIDTH = 60.0
 # About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
 LINE, ROW, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
-BOX = 70.0
 
 
 @dataclass(frozen=True)
@@ -79,10 +75,7 @@ class _Page:
         return self.inline(self.document.statement)
 
     def points(self, points: Any) -> Tex:
-        if points is None:
-            return Tex()
-        one, many = self.words.labels["points"]
-        return Tex(escaped(f"{points_text(points)} {one if points == 1 else many}"))
+        return Tex(escaped(self.words.worth(points)))
 
     def parts(self) -> Sequence[PartPage]:
         return self.document.parts
@@ -98,7 +91,7 @@ class _Page:
             case Text(text):
                 return escaped(text)
             case Math(expr):
-                inner = latex(self._inline_layout(expr), inline=True)
+                inner = latex(self.notation.result(expr), inline=True)
                 return f"${inner}$"
             case DimensionMark(dimension):
                 return f"${_dimension(dimension)}$"
@@ -109,11 +102,6 @@ class _Page:
             case ProblemRef(of, text):
                 return rf"\problemlink{{{dotted(of)}}}{{{escaped(text)}}}"
         return ""
-
-    def _inline_layout(self, expr: Any) -> Layout:
-        if isinstance(expr, tuple):
-            return self.notation.list_of(expr)
-        return self.notation.result(expr)
 
     def _reference(self, key: str) -> str:
         number = self.document.numbers[key]
@@ -130,7 +118,7 @@ class _Page:
         """The rows of an align environment; the last row of each step is numbered."""
         steps = []
         for group, stop in zip(display.groups, display.stops, strict=True):
-            *lines, last = printed_lines(group, self.notation, WIDTH)
+            *lines, last = printed_lines(group, self.notation)
             rows = [self._row(line, "") for line in lines] + [self._row(last, stop)]
             steps.append(" \\\\*\n".join(rows))  # a page ends between steps, not within one
         return Tex(" \\\\\n".join(steps))
@@ -150,7 +138,7 @@ class _Page:
         return f"{left} {mark}{sides}"
 
     def answer(self, answer: Answer) -> Tex:
-        lines = answer_lines(answer, self.notation, BOX)
+        lines = answer_lines(answer, self.notation)
         note = rf" \quad\text{{{self.inline(answer.note)}}}" if answer.note else ""
         if len(lines) == 1:
             return Tex(self._formula(lines[0], mark="") + note)
@@ -178,7 +166,7 @@ class _Page:
     def _height(self, display: Display, before: Sequence[Node]) -> float:
         """About how high a display with the words before it is, in points."""
         text = len(inline_text(before, self.notation, self.document.numbers))
-        rows = sum(len(printed_lines(group, self.notation, WIDTH)) for group in display.groups)
+        rows = sum(len(printed_lines(group, self.notation)) for group in display.groups)
         return LINE * math.ceil(text / CHARACTERS) + ROW * rows + AROUND
 
     def ways(self) -> Sequence[Ways]:
@@ -201,7 +189,7 @@ class _Page:
         """`L = (...)` as the document has it, or as it should be."""
         if isinstance(value, MatrixBase) and value.shape[1] == 1:
             value = tuple(value)
-        right = latex(self._inline_layout(value), inline=True)
+        right = latex(self.notation.result(value), inline=True)
         symbol = self.document.symbols.get(erratum.answer)
         if isinstance(value, Expr) and erratum.answer in self.document.symbols and symbol is None:
             return Tex(f"{right} = 0")  # an equation is stated by what vanishes in it

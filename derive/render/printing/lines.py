@@ -10,6 +10,7 @@ from derive.render.notation.breaking import broken
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 
+WIDTH, BOX = 60.0, 70.0  # of a line, and of a boxed result
 INDENT = 4.0  # of a line that goes on
 
 
@@ -27,7 +28,7 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-def printed_lines(equations: Equations, notation: Notation, limit: float) -> list[Printed]:
+def printed_lines(equations: Equations, notation: Notation, limit: float = WIDTH) -> list[Printed]:
     """The lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
     for line in equations.lines:
@@ -49,7 +50,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float) -> lis
     return lines
 
 
-def answer_lines(answer: Answer, notation: Notation, limit: float) -> list[Printed]:
+def answer_lines(answer: Answer, notation: Notation, limit: float = BOX) -> list[Printed]:
     """A boxed result on as few lines as it takes."""
     sides = [(answer.relation, notation.result(answer.value))]
     sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]

@@ -6,8 +6,8 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from derive.algebra import relation
 from derive.algebra.dimensions import exponents
-from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
@@ -17,9 +17,7 @@ from derive.render.notation.text import MARKS, columns, plain, to_the_right
 from derive.render.printing.lines import Printed, answer_lines, printed_lines
 
 COLUMNS = 88
-WIDTH = 60.0
-BOX = 70.0
-STARTS = tuple(MARKS[kind] for kind in ("equals", "approx", "unequal", "less", "greater", "at_most", "at_least"))
+STARTS = tuple(MARKS[kind] for kind in ("approx", *relation.MARKS.values()))
 
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
@@ -37,7 +35,7 @@ def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
         case Text(text):
             return text
         case Math(expr):
-            return plain(notation.list_of(expr) if isinstance(expr, tuple) else notation.result(expr))
+            return plain(notation.result(expr))
         case DimensionMark(dimension):
             return exponents(dimension)
         case Unit(text):
@@ -89,8 +87,7 @@ class _Page:
     def _with_points(self, text: str, points: Any) -> str:
         if points is None:
             return text
-        one, many = self.words.labels["points"]
-        worth = f"[{points_text(points)} {one if points == 1 else many}]"
+        worth = f"[{self.words.worth(points)}]"
         if columns(text) + len(worth) + 2 > COLUMNS:
             return textwrap.fill(text, COLUMNS) + "\n" + worth.rjust(COLUMNS)
         return text + " " * (COLUMNS - columns(text) - len(worth)) + worth
@@ -104,7 +101,7 @@ class _Page:
     def _display(self, display: Display) -> str:
         lines: list[str] = []
         for group in display.groups:
-            printed = printed_lines(group, self.notation, WIDTH)
+            printed = printed_lines(group, self.notation)
             indent = max((columns(plain(line.left)) for line in printed if line.left is not None), default=0)
             for line in printed:
                 lines += self._line(line, indent)
@@ -134,7 +131,7 @@ class _Page:
         return lines
 
     def _answer(self, answer: Answer) -> str:
-        lines = answer_lines(answer, self.notation, BOX)
+        lines = answer_lines(answer, self.notation)
         indent = max((columns(plain(line.left)) for line in lines if line.left is not None), default=0)
         body = [text for line in lines for text in self._body(line, indent)[0]]
         if answer.note:
