@@ -37,6 +37,7 @@ from derive.page.wording import (
     given_words,
     joined,
     name_of,
+    names_asked,
     names_of_step,
     notes_apart,
     stated_once,
@@ -382,20 +383,14 @@ class _Writer:
         if not template:
             return ()
         direct = [symbol for _, symbol in step.roles]
-        refs = [
-            Ref(key)
-            for key in step.inputs
-            if key in self.numbers and (self.symbols[key] is None or self.symbols[key] in direct)
-        ]
-        refs.sort(key=lambda ref: self.numbers[ref.key])
-        equations = [ref for ref in refs if self.symbols[ref.key] is None]
-        if "refs" in template and not refs or "equations" in template and not equations:
+        near = [key for key in step.inputs if self.symbols.get(key) is None or self.symbols[key] in direct]
+        keys = sorted((key for key in near if key in self.numbers), key=self.numbers.__getitem__)
+        found = {"refs": keys, "equations": [key for key in keys if self.symbols[key] is None]}
+        if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
-        last = self._and
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
-        return filled(
-            template, {**self.page_names, **own, "refs": joined(refs, last), "equations": joined(equations, last)}
-        )
+        references = {name: joined([Ref(key) for key in keys], self._and) for name, keys in found.items()}
+        return filled(template, {**self.page_names, **own, **references})
 
     # --- how it was checked ---
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from jinja2 import UndefinedError
+from jinja2.meta import find_undeclared_variables
 from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension, unit_of_dimension, unit_of_kind
@@ -175,6 +176,11 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
         said = (str(error).splitlines() or [""])[0] or type(error).__name__
         raise Rejected(Complaint("bad-phrase", f"a phrase cannot be read: {said}", _place_of(template))) from error
     return nodes.split(text.strip())
+
+
+def names_asked(template: str) -> set[str]:
+    """The names that a phrase asks for, whichever of them it prints."""
+    return find_undeclared_variables(_IN_PROSE.parse(template))
 
 
 def _place_of(template: str) -> Place:

@@ -21,6 +21,7 @@ from derive.page.wording import (
     Unit,
     filled,
     joined,
+    names_asked,
     names_of_step,
     phrases,
     told,
@@ -110,6 +111,11 @@ def test_an_unknown_mention_is_reported_with_its_place_and_left_out() -> None:
 def test_items_are_joined_as_in_english(count: int, text: str) -> None:
     nodes = joined([Text("x")] * count)
     assert "".join(node.text for node in nodes if isinstance(node, Text)) == text
+
+
+def test_the_names_that_a_phrase_asks_for_are_known_before_it_is_filled() -> None:
+    assert names_asked("from <<refs>> on, <% if part %>of <<part>><% endif %>") == {"refs", "part"}
+    assert names_asked("refs are references") == set()
 
 
 # --- the words of every step ---

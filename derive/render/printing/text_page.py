@@ -6,18 +6,16 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from derive.algebra import relation
 from derive.algebra.dimensions import exponents
 from derive.course.placement import STATEMENT
 from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
 from derive.render.notation.layout import Layout, Mark, row
 from derive.render.notation.notation import Notation
-from derive.render.notation.text import MARKS, columns, plain, to_the_right
+from derive.render.notation.text import box, columns, plain, to_the_right
 from derive.render.printing.lines import Printed, answer_lines, printed_lines
 
 COLUMNS = 88
-STARTS = tuple(MARKS[kind] for kind in ("approx", *relation.MARKS.values()))
 
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
@@ -110,11 +108,10 @@ class _Page:
     def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:
         """The formula, its relations below each other, and on which line they stand."""
         items: list[Layout] = [item for relation, side in line.sides for item in (Mark(relation), side)]
-        body = plain(row(*items)).split("\n")
+        body = box(row(*items))
         left = plain(line.left) if line.left else ""
-        middle = _middle(body)
-        before = [to_the_right(left if i == middle else "", indent) for i in range(len(body))]
-        return [a + text for a, text in zip(before, body, strict=True)], middle
+        before = [to_the_right(left if i == body.middle else "", indent) for i in range(len(body.lines))]
+        return [a + text.rstrip() for a, text in zip(before, body.lines, strict=True)], body.middle
 
     def _line(self, line: Printed, indent: int) -> list[str]:
         body, middle = self._body(line, indent)
@@ -145,8 +142,3 @@ class _Page:
                 "    └" + rule + "┘",
             ]
         )
-
-
-def _middle(body: Sequence[str]) -> int:
-    """The line of a formula of several on which its relation stands."""
-    return next((i for i, text in enumerate(body) if text.startswith(STARTS)), 0)
