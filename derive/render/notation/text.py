@@ -68,7 +68,7 @@ MARKS = {
     "start": "",
     "on": "    ",
 }
-SIGNS = {Mark("minus"): "-", Mark("plus_minus"): "±"}  # where a sum begins
+SIGNS: dict[Layout, str] = {Mark("minus"): "-", Mark("plus_minus"): "±"}  # where a sum begins
 UNITS = {DEGREE.text: "°", "partial": "∂"}
 ARROWS = {"vector": "\u20d7", "tensor": "\u20e1"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
@@ -97,7 +97,7 @@ class Box:
     def beside(self, other: Box) -> Box:
         above = max(self.middle, other.middle)
         below = max(len(self.lines) - self.middle, len(other.lines) - other.middle)
-        left, right = (box._padded(above, below) for box in (self, other))
+        left, right = (each._padded(above, below) for each in (self, other))
         return Box(tuple(a + b for a, b in zip(left, right, strict=True)), above)
 
     def _padded(self, above: int, below: int) -> list[str]:
@@ -148,11 +148,12 @@ def _line(layout: Layout) -> str:
         case Number(digits):
             return digits
         case Name(base, subscript, dots, style):
-            letter = GREEK.get(layout.letter, layout.letter) + {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
+            letter = GREEK.get(layout.letter, layout.letter)
+            dotted = {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
             arrow = ARROWS.get(style, "") if base != "0" else ""
             between, parts = layout.below
             below = f"_{GREEK.get(subscript, between.join(parts))}" if subscript else ""
-            return letter + arrow + layout.primes + below
+            return letter + dotted + arrow + layout.primes + below
         case Word(text):
             return UNITS.get(text, text)
         case Mark(kind):
@@ -196,7 +197,7 @@ def _row(items: tuple[Layout, ...]) -> Box:
     before: Layout | None = None
     for i, item in enumerate(items):
         leads = i == 0 or (isinstance(before, Mark) and before.kind not in ("plus", "minus", "space", "close"))
-        piece = Box((SIGNS[item],)) if leads and isinstance(item, Mark) and item in SIGNS else box(item)
+        piece = Box((SIGNS[item],)) if leads and item in SIGNS else box(item)
         if item == Mark("space") and 0 < i < len(items) - 1:
             piece = Box((_gap(items[:i], items[i + 1]),))
         elif result is not None and before is not None and _needs_space(before, item):

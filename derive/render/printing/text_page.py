@@ -56,7 +56,8 @@ class _Page:
         for part in self.document.parts:
             blocks += ["", self._part(part)]
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
-        blocks += ["", "-" * COLUMNS, self._wrapped((Text(self.words.labels["checked"] + " "), *self.document.closing))]
+        checked = Text(self.words.labels["checked"] + " ")
+        blocks += ["", "-" * COLUMNS, self._wrapped((checked, *self.document.closing))]
         return "\n".join(blocks) + "\n"
 
     def _part(self, part: PartPage) -> str:
