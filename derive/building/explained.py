@@ -14,7 +14,7 @@ from derive.course.yaml_tree import abridged
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.explanation import Explanation, Section, explanation_of, told_of
 from derive.page.wording import Phrases, phrases
-from derive.render.notation.layout import Mark, row
+from derive.render.notation.layout import Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 from derive.render.printing.text_page import inline_text
@@ -64,7 +64,7 @@ def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[
 def _value(step: Step, notation: Notation) -> str:
     """`T = 7/24 M a² ω²`; of a relation the whole."""
     result = notation.result(step.result)
-    return plain(result if step.symbol is None else row(notation.layout(step.symbol), Mark("equals"), result))
+    return plain(result if step.symbol is None else row(notation.layout(step.symbol), Operator("equals"), result))
 
 
 def _text(sections: list[Section], notation: Notation) -> str:

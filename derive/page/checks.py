@@ -14,7 +14,7 @@ from typing import Any
 from derive.algebra.equality import Compared, Evidence, Grade
 from derive.course.reference.comparison import Remark
 from derive.course.reference.errata import Erratum
-from derive.page.wording import Node, Phrases, filled
+from derive.page.wording import Inline, Phrases, filled
 from derive.steps.step import Step
 
 COUNTED = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
@@ -57,7 +57,7 @@ class Checks:
             "errata": len(self.errata),
         }
 
-    def closing(self, words: Phrases) -> tuple[Node, ...]:
+    def closing(self, words: Phrases) -> tuple[Inline, ...]:
         """The note at the end of a problem."""
         names: dict[str, Any] = {
             "lines": sum(self.lines.values()),

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 
 from derive.course.prose import FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, did_you_mean
-from derive.page.wording import Node, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
+from derive.page.wording import Inline, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
 from derive.steps.step import Step
 
 
@@ -29,7 +29,7 @@ class References:
         self.set_id, self.others, self.figures, self.words, self.faults = set_id, others, figures, words, faults
         self.equations: list[Mention] = []
 
-    def node(self, mention: Mention) -> Node | None:
+    def node(self, mention: Mention) -> Inline | None:
         """What stands in the text for a mention."""
         if mention.of == PROBLEM:
             return self._problem(mention)
@@ -50,7 +50,7 @@ class References:
                 message = "a title cannot refer to an equation or to a problem"
                 self.faults.append(Complaint("mention", message, mention.place, help="mention it in the statement"))
 
-    def _problem(self, mention: Mention) -> Node | None:
+    def _problem(self, mention: Mention) -> Inline | None:
         if mention.name in self.others:
             text = f"{self.words.labels['problem']} {self.others[mention.name]}"
             return ProblemRef(f"{self.set_id}/{mention.name}", text)
@@ -59,7 +59,7 @@ class References:
         self.faults.append(Complaint("no-such-problem", message, mention.place, help=help_line))
         return None
 
-    def _figure(self, mention: Mention) -> Node | None:
+    def _figure(self, mention: Mention) -> Inline | None:
         if mention.name in self.figures:
             return Text(f"{self.words.labels['figure']}\u00a0{self.figures[mention.name]}")
         message = f"no drawing with a caption is called `{mention.name}`"
@@ -82,9 +82,9 @@ class References:
 
 def found_before(
     steps: Iterable[Step], shown_in: Mapping[str, str], numbers: Mapping[str, int], words: Phrases
-) -> list[tuple[Node, ...]]:
+) -> list[tuple[Inline, ...]]:
     """A sentence for each part that has given some of these steps: which, and by which equations."""
-    found: dict[str, list[tuple[Node, ...]]] = {}
+    found: dict[str, list[tuple[Inline, ...]]] = {}
     for step in steps:
         label = "found" if step.key in numbers else "found_unshown"
         names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}

@@ -18,7 +18,7 @@ from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.figures import marks as m
 from derive.page.plots import curves_of
-from derive.page.wording import Math, Node, Phrases, Text, filled, joined
+from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 
 FOUND = -1  # the index of the statement, before that of part a
@@ -31,9 +31,9 @@ class Depicted:
     drawing: m.Recorded
     placement: Placement | None
     at: str
-    alt: tuple[Node, ...]
+    alt: tuple[Inline, ...]
     number: int | None = None
-    caption: tuple[Node, ...] = field(default=())
+    caption: tuple[Inline, ...] = field(default=())
 
     @property
     def key(self) -> str:
@@ -53,7 +53,7 @@ def depictions(
     drawings: Sequence[m.Recorded],
     derivation: Derivation,
     words: Phrases,
-    told: Callable[[Any], tuple[Node, ...]],
+    told: Callable[[Any], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
     """The drawings in the order of the page, and what is wrong with where the problem puts them."""
     faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
@@ -185,7 +185,9 @@ def _given_away(
 # --- what it shows ---------------------------------------------------------------------------------------------------
 
 
-def alternative(problem: Problem, drawing: m.Recorded, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
+def alternative(
+    problem: Problem, drawing: m.Recorded, placement: Placement | None, words: Phrases
+) -> tuple[Inline, ...]:
     """What is drawn, in words."""
     if isinstance(drawing, m.Plot):
         return _curves(problem, drawing, placement, words)
@@ -198,7 +200,7 @@ def alternative(problem: Problem, drawing: m.Recorded, placement: Placement | No
     return filled(words.drawings[drawing.view], {"marks": items})
 
 
-def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Node, ...]:
+def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
     """The range, and for each curve its numbers and where it turns."""
     curves = curves_of(problem, plot, placement)
     first = curves.curves[0]
@@ -232,7 +234,7 @@ def _with_unit(value: float, unit: str) -> str:
     return f"{value:.4g}{gap}{unit}".replace("-", "\u2212").strip()
 
 
-def _mark(mark: m.Mark, words: Phrases) -> tuple[Node, ...]:
+def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:
     """The words for one mark; none for a line that only helps the eye."""
     told = mark.in_words()
     if told is None:
@@ -246,7 +248,7 @@ def _mark(mark: m.Mark, words: Phrases) -> tuple[Node, ...]:
     return filled(words.drawings[phrase], found)
 
 
-def _measured(name: str, value: Any, last: str) -> tuple[Node, ...]:
+def _measured(name: str, value: Any, last: str) -> tuple[Inline, ...]:
     values = value if isinstance(value, tuple) else (value,)
     return (Text(f"{name} "), *joined([Math(each) for each in values], last))
 

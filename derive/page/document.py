@@ -27,8 +27,8 @@ from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.wording import (
     AXIS_NAMES,
     Chain,
+    Inline,
     Math,
-    Node,
     Phrases,
     Ref,
     Text,
@@ -52,13 +52,13 @@ HOMOGENEITY = "look in the script for one quantity given in another's place"
 
 
 @dataclass(frozen=True)
-class Line:
+class ChainLine:
     """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
 
     left: Any | None
     relation: str
     right: Any
-    reason: tuple[Node, ...] = ()
+    reason: tuple[Inline, ...] = ()
     presented: bool = False
 
 
@@ -67,7 +67,7 @@ class Equations:
     """The lines of one step, numbered on the last of them."""
 
     key: str
-    lines: tuple[Line, ...]
+    lines: tuple[ChainLine, ...]
     number: int
 
 
@@ -97,7 +97,7 @@ class Display:
 
 @dataclass(frozen=True)
 class Paragraph:
-    nodes: tuple[Node, ...]
+    nodes: tuple[Inline, ...]
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class Answer:
     value: Any
     relation: str = "equals"
     numbers: tuple[tuple[str, Any], ...] = ()
-    note: tuple[Node, ...] = ()
+    note: tuple[Inline, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -126,9 +126,9 @@ class Illustration:
 
     key: str
     stem: str
-    alt: tuple[Node, ...]
+    alt: tuple[Inline, ...]
     number: int | None
-    caption: tuple[Node, ...]
+    caption: tuple[Inline, ...]
     at: str
     rests_on: tuple[str, ...] = ()
 
@@ -139,7 +139,7 @@ Block = Paragraph | Display | Answers | Illustration
 @dataclass(frozen=True)
 class PartPage:
     label: str
-    ask: tuple[Node, ...]
+    ask: tuple[Inline, ...]
     points: Fraction | None
     blocks: tuple[Block, ...]
 
@@ -149,14 +149,14 @@ class Document:
     """One problem's page."""
 
     id: str
-    title: tuple[Node, ...]
+    title: tuple[Inline, ...]
     points: Fraction | None
-    statement: tuple[Node, ...]
+    statement: tuple[Inline, ...]
     illustrations: tuple[Illustration, ...]
     parts: tuple[PartPage, ...]
-    note: tuple[Node, ...]
+    note: tuple[Inline, ...]
     checks: Checks
-    closing: tuple[Node, ...]
+    closing: tuple[Inline, ...]
     numbers: Mapping[str, int]
     symbols: Mapping[str, Any]
     shown_in: Mapping[str, str]  # step -> label of the part that shows it
@@ -250,7 +250,7 @@ class _Writer:
             names[given.name] = given_words(given, self.problem.measured, self.words)
         return names
 
-    def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Node, ...]:
+    def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
         self.references.note(pieces, names)
         return told(pieces, names, self._unknown, self.references.node)
@@ -261,7 +261,7 @@ class _Writer:
             Complaint("undefined-name", f"nothing on this page is called `{name}`", place, help=help_line)
         )
 
-    def _assumed(self) -> tuple[Node, ...]:
+    def _assumed(self) -> tuple[Inline, ...]:
         """What the script takes to hold of the letters, said with what is given."""
         if not self.derivation.assumed:
             return ()
@@ -336,7 +336,7 @@ class _Writer:
         if after:
             blocks.append(Paragraph(after))
 
-    def _phrase(self, step: Step) -> tuple[Node, ...]:
+    def _phrase(self, step: Step) -> tuple[Inline, ...]:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own["amounts"] = self._amounts(step)
@@ -346,7 +346,7 @@ class _Writer:
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         return filled(self.words.phrase(step, self.before), {**self.page_names, **own})
 
-    def _amounts(self, step: Step) -> tuple[Node, ...]:
+    def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """The numbers that a step puts in for the first time, in the units in which it does."""
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new = [m for m in self.problem.measured if self.problem.amounts[m.symbol] in used - self.converted]
@@ -354,7 +354,7 @@ class _Writer:
         items = [conversion(m, self.problem.amounts[m.symbol], self.problem.figures) for m in new]
         return joined(items, self._and)
 
-    def _lines(self, step: Step, mode: str) -> tuple[Line, ...]:
+    def _lines(self, step: Step, mode: str) -> tuple[ChainLine, ...]:
         level = Level.FULL if mode == "full" else self.level
         forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
         if mode == "result":
@@ -363,15 +363,15 @@ class _Writer:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         return tuple(lines)
 
-    def _line(self, step: Step, form: Form, before: str | None) -> Line:
+    def _line(self, step: Step, form: Form, before: str | None) -> ChainLine:
         stands_alone = before is None and not isinstance(form.expr, Relation)
         template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, template)
         if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
-            return Line(None, _sign_before(form), form.expr.right, reason)
+            return ChainLine(None, _sign_before(form), form.expr.right, reason)
         if isinstance(form.expr, Relation):
-            return Line(form.expr.left, form.expr.word, form.expr.right, reason)
-        return Line(
+            return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason)
+        return ChainLine(
             left=step.symbol if before is None else None,
             relation=_sign_before(form),
             right=form.expr,
@@ -379,7 +379,7 @@ class _Writer:
             presented=form.because == "result",
         )
 
-    def _reason(self, step: Step, template: str) -> tuple[Node, ...]:
+    def _reason(self, step: Step, template: str) -> tuple[Inline, ...]:
         if not template:
             return ()
         direct = [symbol for _, symbol in step.roles]
@@ -430,12 +430,12 @@ def _illustrated(
     return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place >= steps))
 
 
-def _around_chain(nodes: tuple[Node, ...]) -> tuple[tuple[Node, ...], tuple[Node, ...]]:
+def _around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[Inline, ...]]:
     at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
     return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
 
 
-def _trimmed(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
+def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
     """Without blank text at either end."""
     kept = list(nodes)
     while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):

@@ -12,7 +12,7 @@ from derive.course.problem import Problem
 from derive.course.written import ANY_OUTCOME, SHOWN
 from derive.errors import Place
 from derive.page.phrasebook import Phrase
-from derive.page.wording import ASKED, AXIS_NAMES, Node, Phrases, Text, filled, joined, names_of_step
+from derive.page.wording import ASKED, AXIS_NAMES, Inline, Phrases, Text, filled, joined, names_of_step
 from derive.steps.derivation import Derivation
 from derive.steps.step import Step
 
@@ -127,7 +127,7 @@ def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Itera
 
 # --- in words --------------------------------------------------------------------------------------------------------
 
-Section = tuple[str, tuple[tuple[Node, ...], ...]]  # its heading, and what is told under it
+Section = tuple[str, tuple[tuple[Inline, ...], ...]]  # its heading, and what is told under it
 
 
 def told_of(explanation: Explanation, words: Phrases) -> list[Section]:
@@ -144,14 +144,14 @@ class _Teller:
     def __init__(self, explanation: Explanation, words: Phrases):
         self.of, self.step, self.words = explanation, explanation.step, words
 
-    def line(self, name: str, **names: Any) -> tuple[Node, ...]:
+    def line(self, name: str, **names: Any) -> tuple[Inline, ...]:
         texts = {name: Text(value) if isinstance(value, str) and value else value for name, value in names.items()}
         return filled(self.words.labels["explain"][name], {"key": Text(self.step.key), **texts})
 
-    def listed(self, names: Sequence[str], last: str = "and") -> tuple[Node, ...]:
+    def listed(self, names: Sequence[str], last: str = "and") -> tuple[Inline, ...]:
         return joined([Text(name) for name in names], self.words.labels[last])
 
-    def why(self) -> list[tuple[Node, ...]]:
+    def why(self) -> list[tuple[Inline, ...]]:
         needs = [
             self.line("needed", part=n.part, through=self.listed(n.through), answer=n.answer)
             if n.answer != self.step.key
@@ -160,14 +160,14 @@ class _Teller:
         ]
         return [*needs, self.line("rests_on", inputs=self.listed(self.step.inputs))]
 
-    def checked(self) -> list[tuple[Node, ...]]:
+    def checked(self) -> list[tuple[Inline, ...]]:
         grades = self.words.grades
         counts = self.listed([f"{count} {grades[grade]}" for grade, count in self.of.lines.items()])
         compared = [self.line("lines", count=sum(self.of.lines.values()), counts=counts)] if self.of.lines else []
         routes = [self.line("route", words=words, grade=grades[grade]) for words, grade in self.of.routes]
         return [self.line("grade", grade=grades[self.step.grade.value]), *compared, *routes]
 
-    def wording(self) -> list[tuple[Node, ...]]:
+    def wording(self) -> list[tuple[Inline, ...]]:
         stock = self.line("sentence", place=self.of.sentence_at, sentence=" ".join(self.of.sentence.split()))
         if not self.of.names:
             return [stock]
@@ -177,10 +177,10 @@ class _Teller:
         outcomes = self.listed([outcome for outcome in self.of.outcomes if outcome != self.step.outcome])
         return [*replaced, stock, self.line("replace", outcome=self.step.outcome, outcomes=outcomes, names=names)]
 
-    def shown(self) -> list[tuple[Node, ...]]:
+    def shown(self) -> list[tuple[Inline, ...]]:
         if not self.of.names:
             return []
         return [self.line("show", now=self.of.shown, values=self.listed(SHOWN, "or"))]
 
-    def law(self) -> list[tuple[Node, ...]]:
+    def law(self) -> list[tuple[Inline, ...]]:
         return [(Text(self.step.law_at),)] if self.step.law_at else []

@@ -46,7 +46,7 @@ class Phrase(str):
         return _place(self.source, self.keys)
 
 
-class Table(dict[str, Any]):
+class PhraseTable(dict[str, Any]):
     """Phrases by their names; one that is missing is a fault of the file."""
 
     def __init__(self, source: Source, keys: tuple[str, ...]):
@@ -59,7 +59,7 @@ class Table(dict[str, Any]):
         raise Rejected(Complaint("no-phrase", message, _place(self.source, self.keys_above), help=help_line))
 
 
-def read_phrases(folder: Path) -> Table:
+def read_phrases(folder: Path) -> PhraseTable:
     """All phrases of a folder's files, or `Rejected` with the line at fault."""
     page = _phrases_of(folder / OF_EVERY_PAGE)
     for file in sorted(folder.glob("*.yaml")):
@@ -73,7 +73,7 @@ def read_phrases(folder: Path) -> Table:
     return page
 
 
-def _phrases_of(file: Path) -> Table:
+def _phrases_of(file: Path) -> PhraseTable:
     shown_as = f"{SHOWN_AS}/{file.name}"
     source = read_source(file, shown_as)
     try:
@@ -82,14 +82,14 @@ def _phrases_of(file: Path) -> Table:
         yaml_tree(source)  # which tells what is wrong, and where
         lines = str(error).splitlines() or [type(error).__name__]
         raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
-    table: Table = _Checked(source).phrases(loaded, _SHAPE, ())
+    table: PhraseTable = _Checked(source).phrases(loaded, _SHAPE, ())
     return table
 
 
-def _add(page: Table, topic: Table) -> None:
+def _add(page: PhraseTable, topic: PhraseTable) -> None:
     """The phrases of a topic to those of the page; what two files tell is told twice."""
     for sort, table in topic.items():
-        known = page.setdefault(sort, Table(page.source, (sort,)))
+        known = page.setdefault(sort, PhraseTable(page.source, (sort,)))
         for name, phrases in table.items():
             if name in known:
                 place = _place(topic.source, (sort, name))
@@ -115,7 +115,7 @@ class _Checked:
             return [self.phrases(each, shape[0], keys) for each in value]
         if not isinstance(value, dict):
             _wrong(self.source, keys, "a table of phrases")
-        table = Table(self.source, keys)
+        table = PhraseTable(self.source, keys)
         for name, each in value.items():
             if not isinstance(name, str):
                 _wrong(self.source, keys, f"a table of phrases by their names, and `{abridged(str(name))}` is none")

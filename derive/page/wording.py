@@ -52,7 +52,7 @@ class DimensionMark:
 
 
 @dataclass(frozen=True)
-class Unit:
+class UnitMark:
     text: str
 
 
@@ -82,7 +82,7 @@ ASKED = {"point", "axis_letter", "strictly"}  # words that a phrase chooses by, 
 
 AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
 
-Node = Text | Math | DimensionMark | Unit | Ref | ProblemRef | Chain
+Inline = Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class Phrases:
         one, many = self.labels["points"]
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 
-    def term(self, word: str) -> tuple[Node, ...]:
+    def term(self, word: str) -> tuple[Inline, ...]:
         """The words for a word of a step or of what is given: `diagonal` is "the long diagonal"."""
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
@@ -140,18 +140,18 @@ class _Nodes:
     """Collects what a template prints: a node leaves a token in the text, and `split` puts it back."""
 
     def __init__(self) -> None:
-        self.found: list[Node | tuple[Node, ...]] = []
+        self.found: list[Inline | tuple[Inline, ...]] = []
 
     def token(self, value: Any) -> Any:
         if value == ():
             return ""  # so that a phrase can ask whether there is anything
-        if not isinstance(value, Node | tuple):
+        if not isinstance(value, Inline | tuple):
             return value
         self.found.append(value)
         return f"\x00{len(self.found) - 1}\x00"
 
-    def split(self, text: str) -> tuple[Node, ...]:
-        nodes: list[Node] = []
+    def split(self, text: str) -> tuple[Inline, ...]:
+        nodes: list[Inline] = []
         for i, piece in enumerate(_TOKEN.split(text)):
             if i % 2 == 0:
                 if piece:
@@ -162,7 +162,7 @@ class _Nodes:
         return tuple(nodes)
 
 
-def filled(template: str, names: Mapping[str, Any]) -> tuple[Node, ...]:
+def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
     """A phrase of ours with its names filled in."""
     nodes = _Nodes()
     try:
@@ -191,13 +191,13 @@ def told(
     pieces: Sequence[Any],
     names: Mapping[str, Any],
     missing: Callable[[str, Place], None],
-    referred: Callable[[Mention], Node | None] = lambda mention: None,
-) -> tuple[Node, ...]:
+    referred: Callable[[Mention], Inline | None] = lambda mention: None,
+) -> tuple[Inline, ...]:
     """An instructor's prose with its mentions filled; an unknown name is reported and left out.
 
     `referred` is what a mention of an equation or a problem stands for, if it stands for anything.
     """
-    nodes: list[Node] = []
+    nodes: list[Inline] = []
     for piece in pieces:
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
@@ -207,17 +207,17 @@ def told(
         elif piece.name in names:
             value = names[piece.name]
             nodes.extend(
-                value if isinstance(value, tuple) else (value if isinstance(value, Node) else Text(str(value)),)
+                value if isinstance(value, tuple) else (value if isinstance(value, Inline) else Text(str(value)),)
             )
         else:
             missing(piece.name, piece.place)
     return tuple(nodes)
 
 
-def joined(items: Iterable[tuple[Node, ...] | Node], last: str = "and") -> tuple[Node, ...]:
+def joined(items: Iterable[tuple[Inline, ...] | Inline], last: str = "and") -> tuple[Inline, ...]:
     """`a, b and c`."""
     groups = [item if isinstance(item, tuple) else (item,) for item in items]
-    nodes: list[Node] = []
+    nodes: list[Inline] = []
     for i, group in enumerate(groups):
         if i:
             nodes.append(Text(f" {last} " if i == len(groups) - 1 else ", "))
@@ -225,7 +225,7 @@ def joined(items: Iterable[tuple[Node, ...] | Node], last: str = "and") -> tuple
     return tuple(nodes)
 
 
-def name_of(step: Step) -> Node:
+def name_of(step: Step) -> Inline:
     """What prose calls the result of a step: its symbol, or the number of a relation that has none."""
     return Ref(step.key) if step.symbol is None else Math(step.symbol)
 
@@ -244,13 +244,13 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         names["dimension"] = DimensionMark(dimension)
     unit = unit_of_kind(step.kind) if step.kind else unit_of_dimension(dimension) if dimension is not None else ""
     if unit:
-        names["unit"] = Unit(unit)
+        names["unit"] = UnitMark(unit)
     return names
 
 
-def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Node, ...]]:
+def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
     """What is said beside answers of one symbol: a general result, and what it becomes in a case."""
-    notes: dict[str, tuple[Node, ...]] = {}
+    notes: dict[str, tuple[Inline, ...]] = {}
     for step in steps:
         phrase = words.labels["in_case"].get(step.rule)
         general = [g for g in steps if g.key in step.inputs and step.symbol is not None and g.symbol == step.symbol]
@@ -260,7 +260,7 @@ def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Node, 
     return notes
 
 
-def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Node, ...]:
+def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:
     """What is given, as the statement says it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
@@ -280,12 +280,12 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
 
 
-def stated_once(nodes: Sequence[Node], last: str) -> tuple[Node, ...]:
+def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
     """Prose in which the number of a letter is told only where the letter comes first: `a = 10 cm`, then `a`.
 
     `last` is the word before the letters behind an expression: in `a/2 with a = 10 cm` it goes with them.
     """
-    kept: list[Node] = []
+    kept: list[Inline] = []
     known: set[Any] = set()
     for i, node in enumerate(nodes):
         kept.append(node)
@@ -302,10 +302,10 @@ def stated_once(nodes: Sequence[Node], last: str) -> tuple[Node, ...]:
     return tuple(kept)
 
 
-def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Node, ...]:
+def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline, ...]:
     """`omega = 900 rpm = 30 pi rad/s = 94.25 rad/s` (rounded), `M = 1.5 kg`."""
     written = Amount(measured.number, measured.unit, measured.factor)
-    nodes: list[Node] = [Math(measured.symbol), Text(" = "), Math(written)]
+    nodes: list[Inline] = [Math(measured.symbol), Text(" = "), Math(written)]
     if measured.unit != amount.args[1].name:
         nodes += [Text(" = "), Math(amount)]
     if not measured.si.is_Rational:
@@ -313,7 +313,7 @@ def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Node, 
     return tuple(nodes)
 
 
-def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Node, ...]:
+def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Inline, ...]:
     return Math(symbol), Text(" = "), Math(amounts[symbol])
 
 

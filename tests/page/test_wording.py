@@ -18,7 +18,7 @@ from derive.page.wording import (
     DimensionMark,
     Math,
     Text,
-    Unit,
+    UnitMark,
     filled,
     joined,
     names_asked,
@@ -185,7 +185,7 @@ def test_a_step_offers_its_roles_its_unit_and_its_dimension() -> None:
     names = names_of_step(step, WORDS, dimension_of_kind("torque"))
     assert names["omega"] == Math(known_block()["spin"].symbol)
     assert names["momentum"] == Math(known_block()["angular_momentum"].symbol)
-    assert names["unit"] == Unit("N m")
+    assert names["unit"] == UnitMark("N m")
     assert names["dimension"] == DimensionMark(dimension_of_kind("torque"))
     assert names["x"] == AXIS_NAMES["x"]
 

@@ -42,7 +42,7 @@ from sympy import (
 from derive.algebra import expressions as ex
 from derive.algebra.expressions import explicit
 from derive.course.arithmetic import rational
-from derive.render.notation.text import Box
+from derive.render.notation.text import TextBox
 from tests.printed.meaning import differentiated, in_unit, over_the_mass, taken_at
 from tests.printed.names import Misprint
 
@@ -373,7 +373,7 @@ def _in_body(letter: Any) -> Any:
     return type(letter)(letter.name.replace("/d(t)", "/d(t in the body)"), real=True)
 
 
-def in_one_line(box: Box) -> str:
+def in_one_line(box: TextBox) -> str:
     """Matrices of several lines as `⟦a;b\\nc;d⟧` in the line that goes on, tall brackets as brackets."""
     lines = [_columns(line) for line in box.lines]
     line = lines[box.middle]
@@ -401,7 +401,7 @@ def _columns(line: str) -> list[str]:
 
 
 def read_text(
-    box: Box, names: Mapping[str, Any], units: Iterable[str] = (), bound: Iterable[Any] = (), positions: Any = None
+    box: TextBox, names: Mapping[str, Any], units: Iterable[str] = (), bound: Iterable[Any] = (), positions: Any = None
 ) -> tuple[list[list[Any]], list[str]]:
     """The sides of a printed chain, in each branch of its signs, and the marks between them."""
     text = in_one_line(box)

@@ -20,7 +20,7 @@ from derive.render.notation.breaking import broken
 from derive.render.notation.latex import latex
 from derive.render.notation.layout import Layout, Row, row
 from derive.render.notation.notation import Notation
-from derive.render.notation.text import box, plain
+from derive.render.notation.text import plain, text_box
 from tests.printed.from_latex import read_printed
 from tests.printed.from_text import in_one_line, read_text
 from tests.printed.meaning import letters_of, meaning
@@ -51,7 +51,7 @@ def read_back(expr: Any, layout: Any, notation: Notation) -> Iterator[tuple[str,
             except (DeriveError, AssertionError, AttributeError, ValueError) as error:
                 raise Misprint(f"{format}: {text}\n    {error}") from error
         yield (format, text, *seen[text])
-    shown = box(layout)
+    shown = text_box(layout)
     try:
         found = read_text(shown, printed_apart(names, plain), units_in(expr), bound, positions)
     except (AssertionError, AttributeError, ValueError, TypeError) as error:

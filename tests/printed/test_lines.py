@@ -14,7 +14,7 @@ from derive.algebra import expressions as ex
 from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.rounding import rounded_form
 from derive.render.notation.latex import latex
-from derive.render.notation.text import box, columns, plain
+from derive.render.notation.text import columns, plain, text_box
 from tests.printed.draws import Variant, check_variant
 from tests.printed.expressions import LETTERS, NOTATION, Draw
 from tests.printed.from_text import TextReader
@@ -90,7 +90,7 @@ def test_a_line_whose_letters_are_printed_alike_is_a_misprint() -> None:
 
 
 def test_marks_above_letters_take_no_room_in_a_block_of_lines() -> None:
-    block = box(NOTATION.layout(ex.applied(tensor, ex.applied(Matrix(3, 3, range(9)), w))))
+    block = text_box(NOTATION.layout(ex.applied(tensor, ex.applied(Matrix(3, 3, range(9)), w))))
     assert {columns(line) for line in block.lines} == {block.width}
 
 

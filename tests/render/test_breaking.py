@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from sympy import Symbol, cos, sin, sqrt, symbols
 
 from derive.algebra.expressions import Relation
-from derive.page.document import Answer, Equations, Line
+from derive.page.document import Answer, ChainLine, Equations
 from derive.render.notation.breaking import broken
 from derive.render.notation.latex import latex
-from derive.render.notation.layout import Mark, Row, first_of, row, width
+from derive.render.notation.layout import Operator, Row, first_of, row, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 from derive.render.printing.lines import answer_lines, printed_lines
@@ -32,7 +32,7 @@ def test_a_sum_is_broken_before_its_signs_and_nothing_is_lost(terms: int, room: 
     lines = broken(layout, room, room)
     assert row(*lines) == layout
     assert all(width(line) <= room for line in lines)
-    assert all(first_of(line) == Mark("plus") for line in lines[1:])
+    assert all(first_of(line) == Operator("plus") for line in lines[1:])
 
 
 def test_a_formula_that_fits_stays_in_one_piece() -> None:
@@ -43,9 +43,11 @@ def test_a_formula_that_fits_stays_in_one_piece() -> None:
 def test_a_bracket_that_is_too_long_is_opened_and_closed_on_different_lines() -> None:
     layout = NOTATION.layout(Symbol("M") * LONG.subs(theta, 1).factor() * theta)
     first, *between, last = broken(layout, 30, 30)
-    assert isinstance(first, Row) and Mark("open") in first.items
-    assert isinstance(last, Row) and Mark("close") in last.items
-    assert all(isinstance(line, Row) and not {Mark("open"), Mark("close")} & set(line.items) for line in between)
+    assert isinstance(first, Row) and Operator("open") in first.items
+    assert isinstance(last, Row) and Operator("close") in last.items
+    assert all(
+        isinstance(line, Row) and not {Operator("open"), Operator("close")} & set(line.items) for line in between
+    )
     assert without_marks("".join(map(plain, [first, *between, last]))) == without_marks(plain(layout))
 
 
@@ -65,7 +67,7 @@ def test_roots_and_arguments_are_not_broken(expr: object) -> None:
 def test_the_reason_and_the_number_stand_at_the_last_line() -> None:
     from derive.page.wording import Text
 
-    equations = Equations("T", (Line(Symbol("T"), "equals", LONG, (Text("why"),)),), 7)
+    equations = Equations("T", (ChainLine(Symbol("T"), "equals", LONG, (Text("why"),)),), 7)
     lines = printed_lines(equations, NOTATION, 40)
     assert len(lines) > 2
     assert [line.number for line in lines] == [None] * (len(lines) - 1) + [7]
@@ -75,7 +77,7 @@ def test_the_reason_and_the_number_stand_at_the_last_line() -> None:
 
 def test_a_long_left_side_ends_with_its_relation() -> None:
     relation = Relation(LONG, "=", 0)
-    equations = Equations("motion", (Line(relation.left, relation.word, relation.right),), 1)
+    equations = Equations("motion", (ChainLine(relation.left, relation.word, relation.right),), 1)
     lines = printed_lines(equations, NOTATION, 40)
     assert [len(line.sides) for line in lines] == [1] * (len(lines) - 1) + [2]
     assert lines[-1].sides[-1] == ("equals", NOTATION.layout(relation.right))

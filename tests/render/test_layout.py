@@ -11,7 +11,15 @@ from derive.algebra import expressions as ex
 from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import PLUS_MINUS, rate
 from derive.render.notation.latex import latex
-from derive.render.notation.layout import Name, Raised, Word, ends_in_differential, is_differential, named, row
+from derive.render.notation.layout import (
+    Name,
+    Raised,
+    Upright,
+    ends_in_differential,
+    is_differential,
+    layout_of_name,
+    row,
+)
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
@@ -32,13 +40,13 @@ NOTATION = Notation()
 def test_a_name_has_its_letter_its_primes_and_what_stands_below(
     name: str, letter: str, primes: str, below: tuple[str, tuple[str, ...]]
 ) -> None:
-    found = named(name)
+    found = layout_of_name(name)
     assert (found.letter, found.primes, found.below) == (letter, primes, below)
 
 
 def test_a_differential_is_told_from_a_letter_d() -> None:
-    d = Word("d")
-    assert all(is_differential(sign) for sign in (d, Word("partial"), Raised(d, Name("n"))))
+    d = Upright("d")
+    assert all(is_differential(sign) for sign in (d, Upright("partial"), Raised(d, Name("n"))))
     assert not is_differential(Name("d"))
     assert ends_in_differential(row(Name("f"), d, Name("x")))
     assert not ends_in_differential(row(d, Name("x"), Name("f")))

@@ -40,8 +40,9 @@ from derive.algebra.rounding import rounded_form
 from derive.errors import Rejected
 from derive.render.notation import layout as on_paper
 from derive.render.notation.latex import escaped, latex
-from derive.render.notation.layout import GREEK, Name
-from derive.render.notation.notation import Notation, named, present
+from derive.render.notation.layout import GREEK_LETTERS, Name, layout_of_name
+from derive.render.notation.notation import Notation
+from derive.render.notation.products import present
 from derive.render.notation.text import plain
 from tests.mechanics.block import M, a, b, c, known_block, omega
 
@@ -168,19 +169,19 @@ def test_without_dimensions_letters_stand_in_their_own_order() -> None:
     ],
 )
 def test_a_name_is_a_letter_a_subscript_and_dots(name: str, layout: Name) -> None:
-    assert named(name) == layout
+    assert layout_of_name(name) == layout
 
 
 def test_every_greek_letter_is_printed_in_its_own_way() -> None:
-    printed = [(latex(named(name)), plain(named(name))) for name in GREEK]
-    assert len({as_tex for as_tex, _ in printed}) == len({as_text for _, as_text in printed}) == len(GREEK)
-    assert all(as_tex == f"\\{name}" for (as_tex, _), name in zip(printed, GREEK, strict=True))
+    printed = [(latex(layout_of_name(name)), plain(layout_of_name(name))) for name in GREEK_LETTERS]
+    assert len({as_tex for as_tex, _ in printed}) == len({as_text for _, as_text in printed}) == len(GREEK_LETTERS)
+    assert all(as_tex == f"\\{name}" for (as_tex, _), name in zip(printed, GREEK_LETTERS, strict=True))
     assert all(len(as_text) == 1 and not as_text.isascii() for _, as_text in printed)
 
 
 def test_letters_that_tex_or_unicode_lack_are_not_in_the_table() -> None:
-    assert "omicron" not in GREEK
-    assert len(set(GREEK.values())) == len(GREEK)
+    assert "omicron" not in GREEK_LETTERS
+    assert len(set(GREEK_LETTERS.values())) == len(GREEK_LETTERS)
 
 
 def test_a_function_of_two_arguments_is_not_printed_with_one() -> None:
@@ -223,7 +224,7 @@ def test_a_command_in_a_text_is_not_a_command() -> None:
 def value_on_paper(layout: Any, values: dict[Any, float]) -> float:
     """What a reader computes from the layout: products by standing side by side, signs, fractions, powers."""
     match layout:
-        case on_paper.Number(digits):
+        case on_paper.Digits(digits):
             return float(digits)
         case on_paper.Name("pi"):
             return 3.141592653589793
@@ -232,7 +233,7 @@ def value_on_paper(layout: Any, values: dict[Any, float]) -> float:
         case on_paper.Fraction(above, below):
             return value_on_paper(above, values) / value_on_paper(below, values)
         case on_paper.Raised(base, power):
-            assert isinstance(base, on_paper.Name | on_paper.Number | on_paper.Fenced), (
+            assert isinstance(base, on_paper.Name | on_paper.Digits | on_paper.Fenced), (
                 f"{base} is raised without brackets"
             )
             return float(value_on_paper(base, values) ** value_on_paper(power, values))
@@ -242,7 +243,7 @@ def value_on_paper(layout: Any, values: dict[Any, float]) -> float:
             value = value_on_paper(inside, values)
             return abs(value) if kind == "|" else value
         case on_paper.Applied(name, argument, power):
-            assert isinstance(argument, on_paper.Name | on_paper.Number | on_paper.Fenced), (
+            assert isinstance(argument, on_paper.Name | on_paper.Digits | on_paper.Fenced), (
                 f"{argument} has no brackets"
             )
             value = float(PRINTED[name](value_on_paper(argument, values)))
@@ -259,7 +260,7 @@ def sum_on_paper(items: tuple[Any, ...], values: dict[Any, float]) -> float:
         if item in (on_paper.PLUS, on_paper.MINUS):
             total += sign * product if product is not None else 0.0
             sign, product = (1.0 if item == on_paper.PLUS else -1.0), None
-        elif item not in (on_paper.DOT, on_paper.TIMES, on_paper.SPACE):
+        elif item not in (on_paper.DOT, on_paper.TIMES, on_paper.THIN_SPACE):
             product = (1.0 if product is None else product) * value_on_paper(item, values)
     return total
 

@@ -26,7 +26,7 @@ from matplotlib.transforms import Affine2D
 from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot
 from derive.render.drawing.labels import Placed, placed
-from derive.render.drawing.mathtext import Run, runs
+from derive.render.drawing.mathtext import Span, runs
 from derive.render.notation.notation import Notation
 
 INK, QUIET, LINE, BLANK = "#1F3A5F", "#5B6370", "#22252A", "#FFFFFF"
@@ -167,13 +167,13 @@ class _Letters:
         return self._known[label]
 
 
-def _runs(label: Any, notation: Notation) -> tuple[Run, ...]:
+def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
     """A label is a name or an expression, or a word that is printed as it is."""
-    return (Run(rf"$\mathrm{{{label}}}$"),) if isinstance(label, str) else runs(notation.result(label))
+    return (Span(rf"$\mathrm{{{label}}}$"),) if isinstance(label, str) else runs(notation.result(label))
 
 
 @cache
-def _path(run: Run) -> tuple[Path, float]:
+def _path(run: Span) -> tuple[Path, float]:
     path = TextPath((0, 0), run.text, size=LETTERS, prop=FontProperties())
     return path, path.get_extents().x1
 

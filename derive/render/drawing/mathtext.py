@@ -16,34 +16,34 @@ _UNKNOWN = {r"\tfrac": r"\frac", r"\lvert ": "|", r"\rvert ": "|", r"\mathopen{}
 
 
 @dataclass(frozen=True)
-class Run:
+class Span:
     """A piece of mathtext between its dollar signs, to be drawn bold or not."""
 
     text: str
     bold: bool = False
 
 
-def runs(layout: Layout) -> tuple[Run, ...]:
+def runs(layout: Layout) -> tuple[Span, ...]:
     """The runs of a label, from left to right."""
     items = layout.items if isinstance(layout, Row) else (layout,)
-    found: list[Run] = []
+    found: list[Span] = []
     pending: list[Layout] = []
     for item in items:
         if isinstance(item, Name) and item.style == "vector":
             found += _plain(pending)
             pending = []
             letter = replace(item, subscript="", style="scalar")
-            found.append(Run(_mathtext(letter), bold=True))
+            found.append(Span(_mathtext(letter), bold=True))
             if item.subscript:
                 below = latex(Name("X", item.subscript)).removeprefix("X")
-                found.append(Run("${}" + below + "$"))
+                found.append(Span("${}" + below + "$"))
         else:
             pending.append(item)
     return tuple(found + _plain(pending))
 
 
-def _plain(items: list[Layout]) -> list[Run]:
-    return [Run(_mathtext(Row(tuple(items))))] if items else []
+def _plain(items: list[Layout]) -> list[Span]:
+    return [Span(_mathtext(Row(tuple(items))))] if items else []
 
 
 def _mathtext(layout: Layout) -> str:

@@ -11,20 +11,20 @@ from enum import IntEnum
 from derive.render.notation.layout import (
     Applied,
     Array,
+    Bracketed,
+    Digits,
     Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Limits,
     Lowered,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     RootSign,
     Row,
-    Word,
+    Upright,
     ends_in_differential,
     is_differential,
     row,
@@ -60,13 +60,13 @@ _SIGNS = {"plus", "minus", "plus_minus"}
 
 def binding(layout: Layout) -> Binding:
     match layout:
-        case Number() | Name() | Fenced() | Limits() | Array() | Word():
+        case Digits() | Name() | Fenced() | Bracketed() | Array() | Upright():
             return Binding.ATOM
         case Fraction() | RootSign() | Applied() | Raised() | Lowered() | Evaluated():
             return Binding.FACTOR
         case Row(items):
             return max(_of_item(i, items, ends_in_differential(layout)) for i in range(len(items)))
-        case Mark(kind):
+        case Operator(kind):
             return _MARKS.get(kind, Binding.RELATION)
         case IntegralSign():
             return Binding.OPEN
@@ -78,11 +78,11 @@ def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
     item = items[i]
     if isinstance(item, IntegralSign) and ended:
         return Binding.PRODUCT
-    if i == 0 and isinstance(item, Mark) and item.kind in _SIGNS:
+    if i == 0 and isinstance(item, Operator) and item.kind in _SIGNS:
         return Binding.SIGNED
-    if isinstance(item, Mark | IntegralSign):
+    if isinstance(item, Operator | IntegralSign):
         return binding(item)
-    if isinstance(item, Word) and item.text not in ("d", "partial"):
+    if isinstance(item, Upright) and item.text not in ("d", "partial"):
         return Binding.MEASURED
     return Binding.OPEN if _is_operator(item) and i + 1 < len(items) else Binding.PRODUCT
 
@@ -97,13 +97,13 @@ def within(layout: Layout, most: Binding) -> Layout:
     return Fenced(layout) if binding(layout) > most else layout
 
 
-def sign_apart(layout: Layout) -> tuple[Mark | None, Layout]:
+def sign_apart(layout: Layout) -> tuple[Operator | None, Layout]:
     """The sign that a layout begins with, unless it is that of a sum's first term, and the layout without it."""
-    if isinstance(layout, Row) and isinstance(layout.items[0], Mark) and binding(layout) is Binding.SIGNED:
+    if isinstance(layout, Row) and isinstance(layout.items[0], Operator) and binding(layout) is Binding.SIGNED:
         return layout.items[0], row(*layout.items[1:])
     return None, layout
 
 
-def signed(sign: Mark, layout: Layout) -> Layout:
+def signed(sign: Operator, layout: Layout) -> Layout:
     """The layout with a sign before it."""
     return row(sign, within(layout, Binding.OPEN))

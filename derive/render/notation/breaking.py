@@ -6,10 +6,10 @@ once its denominator stands in front.
 
 from __future__ import annotations
 
-from derive.render.notation.layout import Fenced, Fraction, Layout, Mark, Number, Row, row, width
+from derive.render.notation.layout import Digits, Fenced, Fraction, Layout, Operator, Row, row, width
 
-SIGNS = {"plus", "minus"}
-SMALL = 0.5  # of the room: a bracket below this stays in one piece
+BREAKS_BEFORE = {"plus", "minus"}
+SMALL_PART = 0.5  # of the room: a bracket below this stays in one piece
 
 
 def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
@@ -33,14 +33,14 @@ def _pieces(layout: Layout, room: float) -> list[Layout]:
     items = layout.items if isinstance(layout, Row) else (layout,)
     at = max(range(len(items)), key=lambda i: width(items[i]))
     before, widest, after = items[:at], items[at], items[at + 1 :]
-    if isinstance(widest, Fraction) and len(_terms(widest.above)) > 1 and width(widest) > SMALL * room:
-        before, widest = (*before, Fraction(Number("1"), widest.below)), Fenced(widest.above)
-    if not isinstance(widest, Fenced) or widest.kind != "(" or width(widest) <= SMALL * room:
+    if isinstance(widest, Fraction) and len(_terms(widest.above)) > 1 and width(widest) > SMALL_PART * room:
+        before, widest = (*before, Fraction(Digits("1"), widest.below)), Fenced(widest.above)
+    if not isinstance(widest, Fenced) or widest.kind != "(" or width(widest) <= SMALL_PART * room:
         return [layout]
     first, *others = _pieces(widest.inside, room)
     if not others:
         return [layout]
-    return [row(*before, Mark("open"), first), *others[:-1], row(others[-1], Mark("close"), *after)]
+    return [row(*before, Operator("open"), first), *others[:-1], row(others[-1], Operator("close"), *after)]
 
 
 def _terms(layout: Layout) -> list[Layout]:
@@ -49,7 +49,7 @@ def _terms(layout: Layout) -> list[Layout]:
         return [layout]
     terms: list[list[Layout]] = [[]]
     for item in layout.items:
-        if isinstance(item, Mark) and item.kind in SIGNS and terms[-1]:
+        if isinstance(item, Operator) and item.kind in BREAKS_BEFORE and terms[-1]:
             terms.append([])
         terms[-1].append(item)
     return [row(*term) for term in terms]

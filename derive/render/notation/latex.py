@@ -9,29 +9,29 @@ from pylatexenc.latexencode import UnicodeToLatexEncoder
 
 from derive.errors import Complaint, Rejected
 from derive.render.notation.layout import (
-    DEGREE,
-    GREEK,
+    DEGREE_SIGN,
+    GREEK_LETTERS,
     Applied,
     Array,
+    Bracketed,
+    Digits,
     Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Limits,
     Lowered,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     RootSign,
     Row,
-    Word,
+    Upright,
     begins_with_number,
 )
 
-FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
-MARKS = {
+TEX_FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
+TEX_OPERATORS = {
     "dot": r"\cdot ",
     "inner": r"\cdot ",
     "times": r"\times ",
@@ -66,16 +66,16 @@ class _Printer:
 
     def show(self, layout: Layout) -> str:
         match layout:
-            case Number(digits):
+            case Digits(digits):
                 return digits
             case Name():
                 return _name(layout)
-            case Word(text):
+            case Upright(text):
                 if text == "partial":
                     return r"\partial "
                 return text if text == "d" else rf"\mathrm{{{_unit(text)}}}"
-            case Mark(kind):
-                return MARKS[kind]
+            case Operator(kind):
+                return TEX_OPERATORS[kind]
             case Row(items):
                 return self._row(items)
             case Fraction(above, below):
@@ -91,7 +91,7 @@ class _Printer:
                 left, right = ("(", ")") if kind == "(" else ("|", "|")
                 tall = _is_tall(inside, self.inline)
                 return self._fenced(left, self.show(inside), right, tall)
-            case Limits(inside, lower, upper):
+            case Bracketed(inside, lower, upper):
                 bounds = f"_{{{self.show(lower)}}}^{{{self.show(upper)}}}"
                 return rf"\mathopen{{}}\left[{self.show(inside)}\right]{bounds}"
             case Evaluated(inside, where):
@@ -102,7 +102,7 @@ class _Printer:
                 return rf"\int_{{{self.show(lower)}}}^{{{self.show(upper)}}}\! "
             case Applied(name, argument, power):
                 raised = f"^{{{self.show(power)}}}" if power else ""
-                command = rf"\{name}" if name in FUNCTIONS else rf"\operatorname{{{name}}}"
+                command = rf"\{name}" if name in TEX_FUNCTIONS else rf"\operatorname{{{name}}}"
                 gap = "" if isinstance(argument, Fenced) or raised else " "
                 return f"{command}{raised}{gap}{self.show(argument)}"
             case Array(rows):
@@ -143,16 +143,18 @@ def _separated(pieces: list[str]) -> list[str]:
 
 def _runs_into(before: Layout, item: Layout) -> bool:
     """A thin space where two factors touch: after a fraction, before a bracket or a vector."""
-    if isinstance(item, Mark) or isinstance(before, Mark | IntegralSign) or begins_with_number(item):
+    if isinstance(item, Operator) or isinstance(before, Operator | IntegralSign) or begins_with_number(item):
         return False
-    return isinstance(before, Fraction | Array | RootSign) or isinstance(item, Array | Fenced) and before != Word("d")
+    return (
+        isinstance(before, Fraction | Array | RootSign) or isinstance(item, Array | Fenced) and before != Upright("d")
+    )
 
 
 def _is_tall(layout: Layout, inline: bool) -> bool:
     match layout:
         case Fraction():
             return not inline
-        case Array() | Limits() | Evaluated():
+        case Array() | Bracketed() | Evaluated():
             return True
         case IntegralSign():
             return not inline
@@ -167,8 +169,8 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 
 def _name(name: Name) -> str:
     base = name.letter
-    letter = rf"\{base}" if base in GREEK else base
-    if len(base) > 1 and base not in GREEK:
+    letter = rf"\{base}" if base in GREEK_LETTERS else base
+    if len(base) > 1 and base not in GREEK_LETTERS:
         letter = rf"\mathit{{{base}}}"
     if name.style == "vector":
         letter = rf"\bm{{{letter}}}"
@@ -181,7 +183,7 @@ def _name(name: Name) -> str:
 
 
 def _subscript(name: Name) -> str:
-    if name.subscript in GREEK:
+    if name.subscript in GREEK_LETTERS:
         return rf"\{name.subscript}"
     between, parts = name.below
     return between.join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in parts)
@@ -193,7 +195,7 @@ def unit_latex(text: str) -> str:
 
 
 def _unit(text: str) -> str:
-    if text == DEGREE.text:
+    if text == DEGREE_SIGN.text:
         return r"{}^\circ"
     text = text.replace("^{", "^").replace("**", "^").replace("²", "^2").replace("³", "^3").replace("°", r"{}^\circ ")
     text = re.sub(r"\^(?:(-?\d+)|\((\d+/\d+)\))", r"^{\1\2}", text)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Number:
+class Digits:
     """Digits as printed."""
 
     digits: str
@@ -42,14 +42,14 @@ class Name:
 
 
 @dataclass(frozen=True)
-class Word:
+class Upright:
     """A unit or another word that is printed upright."""
 
     text: str
 
 
 @dataclass(frozen=True)
-class Mark:
+class Operator:
     """An operator or relation: + - = times dot inner cross approx comma space."""
 
     kind: str
@@ -96,7 +96,7 @@ class Fenced:
 
 
 @dataclass(frozen=True)
-class Limits:
+class Bracketed:
     """[F] between limits."""
 
     inside: Layout
@@ -137,24 +137,24 @@ class Array:
 
 
 Layout = (
-    Number
+    Digits
     | Name
-    | Word
-    | Mark
+    | Upright
+    | Operator
     | Row
     | Fraction
     | Raised
     | Lowered
     | RootSign
     | Fenced
-    | Limits
+    | Bracketed
     | Evaluated
     | IntegralSign
     | Applied
     | Array
 )
 
-GREEK = {
+GREEK_LETTERS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
     "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
@@ -162,10 +162,10 @@ GREEK = {
     "Omega": "Ω",
 }  # fmt: skip
 
-DEGREE = Word("degree")  # the only unit that stands close behind its number
-DOT, TIMES, PLUS, MINUS, SPACE = (Mark(kind) for kind in ("dot", "times", "plus", "minus", "space"))
-PLUS_MINUS = Mark("plus_minus")
-INNER, CROSS = Mark("inner"), Mark("cross")  # between two vectors: a dot, and a cross
+DEGREE_SIGN = Upright("degree")  # the only unit that stands close behind its number
+DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))
+EITHER_SIGN = Operator("plus_minus")
+INNER, CROSS = Operator("inner"), Operator("cross")  # between two vectors: a dot, and a cross
 
 
 def row(*items: Layout) -> Layout:
@@ -191,7 +191,7 @@ def begins_with_number(layout: Layout) -> bool:
         return begins_with_number(first.base)
     if isinstance(first, Fraction):
         return begins_with_number(first.above) and is_numeric(first)
-    return isinstance(first, Number)
+    return isinstance(first, Digits)
 
 
 def is_numeric(layout: Layout) -> bool:
@@ -203,32 +203,32 @@ def is_numeric(layout: Layout) -> bool:
             return is_numeric(inside)
         case Row(items):
             return all(is_numeric(item) for item in items)
-    return isinstance(layout, Number)
+    return isinstance(layout, Digits)
 
 
 def is_number(layout: Layout) -> bool:
     """A plain number, or a fraction of plain numbers."""
     if isinstance(layout, Fraction):
         return is_number(layout.above) and is_number(layout.below)
-    return isinstance(layout, Number)
+    return isinstance(layout, Digits)
 
 
 def is_differential(layout: Layout) -> bool:
     """d, d^2 or a curly d."""
     sign = layout.base if isinstance(layout, Raised) else layout
-    return sign in (Word("d"), Word("partial"))
+    return sign in (Upright("d"), Upright("partial"))
 
 
 def ends_in_differential(layout: Layout) -> bool:
     """... dx, behind which an integral takes in nothing more."""
-    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Word("d")
+    return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Upright("d")
 
 
 def is_enclosed(layout: Layout) -> bool:
-    return isinstance(layout, Fenced | Limits | Array)
+    return isinstance(layout, Fenced | Bracketed | Array)
 
 
-def named(name: str) -> Name:
+def layout_of_name(name: str) -> Name:
     """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots."""
     match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
     if not match:
@@ -242,13 +242,13 @@ def named(name: str) -> Name:
 def width(layout: Layout) -> float:
     """About how many characters wide a layout is in print."""
     match layout:
-        case Number(digits):
+        case Digits(digits):
             return len(digits)
         case Name(_, subscript, _, _):
             return 1.2 + 0.7 * len(subscript)
-        case Word(text):
+        case Upright(text):
             return 0.9 * len(text)
-        case Mark(kind):
+        case Operator(kind):
             return {"space": 0.4, "dot": 1.2, "inner": 1.2, "open": 0.8, "close": 0.8}.get(kind, 2)
         case Row(items):
             return sum(width(item) for item in items)
@@ -262,7 +262,7 @@ def width(layout: Layout) -> float:
             return width(inside) + 1.5
         case Fenced(inside, _):
             return width(inside) + 1.6
-        case Limits(inside, lower, upper):
+        case Bracketed(inside, lower, upper):
             return width(inside) + 1.6 + 0.7 * max(width(lower), width(upper))
         case Evaluated(inside, where):
             return width(inside) + 0.3 + 0.7 * width(where)

@@ -41,33 +41,33 @@ from derive.algebra.rounding import Rounded, decimal_text
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
     CROSS,
-    DEGREE,
+    DEGREE_SIGN,
     INNER,
     MINUS,
     PLUS,
-    SPACE,
+    THIN_SPACE,
     Applied,
     Array,
+    Bracketed,
+    Digits,
     Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Limits,
     Lowered,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     RootSign,
-    Word,
+    Upright,
     begins_with_number,
-    named,
+    layout_of_name,
     row,
 )
 from derive.render.notation.products import (
     accelerations_first,
-    between,
+    between_factors,
     decimal,
     number_and_letters,
     positive_first,
@@ -81,7 +81,7 @@ from derive.render.notation.products import (
 )
 
 SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
-FUNCTIONS = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
+PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
 
 
 class Notation:
@@ -121,7 +121,7 @@ class Notation:
         """(1, 1, 0)"""
         items: list[Layout] = []
         for component in components:
-            items += [Mark("comma")] * bool(items) + [self.layout(component)]
+            items += [Operator("comma")] * bool(items) + [self.layout(component)]
         return Fenced(row(*items))
 
     # --- sums and products ---
@@ -180,7 +180,7 @@ class Notation:
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:
-            return Number("1")
+            return Digits("1")
         if len(factors) == 1:
             return self.layout(factors[0])
         *before, last = factors
@@ -199,7 +199,7 @@ class Notation:
         items = [within(leading, Binding.MEASURED if others else Binding.OPEN)]
         for i, factor in enumerate(others, 1):
             inner = self._as_factor(factor, Binding.OPEN if i == len(others) else Binding.DOTTED)
-            mark = between(whole if sign and i == 1 else items[-1], inner)
+            mark = between_factors(whole if sign and i == 1 else items[-1], inner)
             items += [mark] if mark else []
             items.append(inner)
         return signed(sign, row(*items)) if sign else row(*items)
@@ -207,29 +207,29 @@ class Notation:
     def _power(self, expr: Pow) -> Layout:
         base, exponent = expr.args
         if exponent.is_Rational and exponent < 0:
-            return Fraction(Number("1"), self.layout(Pow(base, -exponent)))
+            return Fraction(Digits("1"), self.layout(Pow(base, -exponent)))
         if exponent == Rational(1, 2):
             return RootSign(self.layout(base))
         if isinstance(base, Function) and not isinstance(base, AppliedUndef) and exponent.is_Integer:
-            name = FUNCTIONS.get(base.func.__name__, base.func.__name__)
-            return Applied(name, self._argument(base), Number(str(exponent)))
+            name = PRINTED_NAMES.get(base.func.__name__, base.func.__name__)
+            return Applied(name, self._argument(base), Digits(str(exponent)))
         inner = self.layout(base)
         return Raised(within(inner, Binding.ATOM), self.layout(exponent))
 
     def _rational(self, expr: Rational) -> Layout:
-        return Number(str(expr.p)) if expr.q == 1 else Fraction(Number(str(expr.p)), Number(str(expr.q)))
+        return Digits(str(expr.p)) if expr.q == 1 else Fraction(Digits(str(expr.p)), Digits(str(expr.q)))
 
     # --- names and functions ---
 
     def _vector_or_tensor(self, expr: MatrixSymbol) -> Layout:
         style = "vector" if expr.shape == (3, 1) else "tensor"
-        plain = named(expr.name)
+        plain = layout_of_name(expr.name)
         return Name(plain.base, plain.subscript, plain.dots, style)
 
     def _function(self, expr: Function) -> Layout:
         if isinstance(expr, AppliedUndef):
-            return named(expr.func.__name__)
-        return Applied(FUNCTIONS.get(expr.func.__name__, expr.func.__name__), self._argument(expr))
+            return layout_of_name(expr.func.__name__)
+        return Applied(PRINTED_NAMES.get(expr.func.__name__, expr.func.__name__), self._argument(expr))
 
     def _argument(self, expr: Function) -> Layout:
         if len(expr.args) > 1:
@@ -238,7 +238,7 @@ class Notation:
         return inner if isinstance(inner, Name) else Fenced(inner)
 
     def _derivative(self, expr: Derivative) -> Layout:
-        name, order = named(expr.expr.func.__name__), int(expr.derivative_count)
+        name, order = layout_of_name(expr.expr.func.__name__), int(expr.derivative_count)
         return Name(name.base, name.subscript, order)
 
     # --- vectors and tensors ---
@@ -267,7 +267,7 @@ class Notation:
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)
 
-    def _between_vectors(self, mark: Mark, most: Binding) -> Callable[[Any], Layout]:
+    def _between_vectors(self, mark: Operator, most: Binding) -> Callable[[Any], Layout]:
         def laid_out(expr: Any) -> Layout:
             left, right = (within(self.layout(present(arg)), most) for arg in expr.args)
             return row(left, mark, right)
@@ -305,32 +305,32 @@ class Notation:
     def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
         """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer."""
         inner = self.layout(what)
-        below = row(Word(sign), by)
+        below = row(Upright(sign), by)
         if isinstance(inner, Name) or isinstance(what.base if isinstance(what, Pow) else what, ex.Norm):
-            return Fraction(row(Word(sign), inner), below)
+            return Fraction(row(Upright(sign), inner), below)
         behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
-        return row(Fraction(Word(sign), below), SPACE, behind)
+        return row(Fraction(Upright(sign), below), THIN_SPACE, behind)
 
     def _slope(self, expr: ex.Slope) -> Layout:
         """U'(x) is written dU/dx, and so on."""
         f, x, order = expr.args
-        times = [] if order == 1 else [Number(str(order))]
-        d = Raised(Word("d"), times[0]) if times else Word("d")
+        times = [] if order == 1 else [Digits(str(order))]
+        d = Raised(Upright("d"), times[0]) if times else Upright("d")
         by = Raised(self.layout(x), times[0]) if times else self.layout(x)
         inner = self.layout(f)
         if isinstance(inner, Name):
-            return Fraction(row(d, inner), row(Word("d"), by))
-        return row(Fraction(d, row(Word("d"), by)), SPACE, Fenced(inner))
+            return Fraction(row(d, inner), row(Upright("d"), by))
+        return row(Fraction(d, row(Upright("d"), by)), THIN_SPACE, Fenced(inner))
 
     def _at(self, expr: ex.At) -> Layout:
         f, x, place = expr.args
         return Evaluated(
-            within(self.layout(f), Binding.FACTOR), row(self.layout(x), Mark("equals"), self.layout(place))
+            within(self.layout(f), Binding.FACTOR), row(self.layout(x), Operator("equals"), self.layout(place))
         )
 
     def _relation(self, expr: ex.Relation) -> Layout:
         left, right = (self.side(side) for side in expr.sides)
-        return row(left, Mark(expr.word), right)
+        return row(left, Operator(expr.word), right)
 
     def side(self, expr: Any) -> Layout:
         """A side of an equation: a number common to its terms is not put before a bracket."""
@@ -346,29 +346,29 @@ class Notation:
         limits = list(reversed(expr.limits))
         signs = []
         for x, lower, upper in limits:
-            signs.append((IntegralSign(self.layout(lower), self.layout(upper)), row(Word("d"), self.layout(x))))
+            signs.append((IntegralSign(self.layout(lower), self.layout(upper)), row(Upright("d"), self.layout(x))))
         if len(limits) == 1:
             sign, differential = signs[0]
             if expr.function == 1:
                 return row(sign, differential)
-            return row(sign, self._as_factor(expr.function), SPACE, differential)
+            return row(sign, self._as_factor(expr.function), THIN_SPACE, differential)
         items: list[Layout] = [item for sign in signs for item in sign]
-        return row(*items, *([SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
+        return row(*items, *([THIN_SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
 
     def _mass_integral(self, expr: ex.MassIntegral) -> Layout:
-        return row(IntegralSign(), self._as_factor(expr.args[0]), SPACE, Word("d"), Name("m"))
+        return row(IntegralSign(), self._as_factor(expr.args[0]), THIN_SPACE, Upright("d"), Name("m"))
 
     def _bracket(self, expr: ex.Bracket) -> Layout:
         antiderivative, _, lower, upper = expr.args
         above, below = fraction(antiderivative)
         whole = self.layout(above) if below == 1 else Fraction(self.layout(above), self.layout(below))
-        return Limits(whole, self.layout(lower), self.layout(upper))
+        return Bracketed(whole, self.layout(lower), self.layout(upper))
 
     # --- as written ---
 
     def _group(self, expr: ex.Group) -> Layout:
         inner = self.layout(expr.args[0])
-        return inner if isinstance(inner, Name | Number) else Fenced(inner)
+        return inner if isinstance(inner, Name | Digits) else Fenced(inner)
 
     def _ratio(self, expr: ex.Ratio) -> Layout:
         return Fraction(*(self.layout(arg) for arg in expr.args))
@@ -380,24 +380,24 @@ class Notation:
         number, unit, _ = expr.args
         inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
         if unit.name in {"degree", "deg"}:
-            return row(inner, DEGREE)
-        return row(inner, SPACE, Word(unit.name)) if unit.name else inner
+            return row(inner, DEGREE_SIGN)
+        return row(inner, THIN_SPACE, Upright(unit.name)) if unit.name else inner
 
     def _rounded(self, expr: Rounded) -> Layout:
         text = decimal_text(expr)
         negative, text = text.startswith("-"), text.lstrip("-")
         digits, _, power = text.partition("e")
         items: list[Layout] = [MINUS] if negative else []
-        items.append(Number(digits))
+        items.append(Digits(digits))
         if power:
-            ten = Raised(Number("10"), Number(power) if not power.startswith("-") else row(MINUS, Number(power[1:])))
-            items += [Mark("times"), ten]
+            ten = Raised(Digits("10"), Digits(power) if not power.startswith("-") else row(MINUS, Digits(power[1:])))
+            items += [Operator("times"), ten]
         return row(*items)
 
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),
         (Rounded, _rounded),
-        (Symbol, lambda self, expr: named(expr.name)),
+        (Symbol, lambda self, expr: layout_of_name(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),
         (Exp1, lambda self, _: Name("e")),

@@ -13,18 +13,18 @@ from derive.algebra.expressions import scaled
 from derive.algebra.tidy import factored_matrix
 from derive.render.notation.layout import (
     DOT,
+    EITHER_SIGN,
     MINUS,
-    PLUS_MINUS,
-    SPACE,
+    THIN_SPACE,
     Applied,
     Array,
+    Digits,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     Row,
     begins_with_number,
@@ -41,9 +41,9 @@ def decimal(number: Rational) -> Layout:
     """1.5, as it was written, not 3/2; a third stays a fraction."""
     sign = (MINUS,) if number < 0 else ()
     if set(factorint(number.q)) - {2, 5}:
-        return row(*sign, Fraction(Number(str(abs(number.p))), Number(str(number.q))))
+        return row(*sign, Fraction(Digits(str(abs(number.p))), Digits(str(number.q))))
     places = max(factorint(number.q).values(), default=0)
-    return row(*sign, Number(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+    return row(*sign, Digits(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
 
 
 def present(value: Any) -> Any:
@@ -56,7 +56,7 @@ def present(value: Any) -> Any:
     return value if factor == 1 else scaled(factor, rest)
 
 
-def sign_and_size(term: Any) -> tuple[Mark | None, Any]:
+def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
     """The sign that a scalar is printed with, if any, and what stands behind it."""
     if not isinstance(term, Expr) or ex.is_matrix(term):
         return None, term
@@ -64,7 +64,7 @@ def sign_and_size(term: Any) -> tuple[Mark | None, Any]:
     factors = list(term.args if as_written else Mul.make_args(term))
     if ex.PLUS_MINUS in factors:
         factors.remove(ex.PLUS_MINUS)
-        return PLUS_MINUS, ex.Factors(*factors) if as_written and len(factors) > 1 else Mul(*factors)
+        return EITHER_SIGN, ex.Factors(*factors) if as_written and len(factors) > 1 else Mul(*factors)
     if as_written and len(factors) > 1 and factors[0] == -1:
         return MINUS, ex.Factors(*factors[1:]) if len(factors) > 2 else factors[1]
     negative = (term.is_Mul or term.is_Rational) and term.as_coeff_Mul()[0].is_negative
@@ -192,19 +192,19 @@ def _would_be_argument(before: Layout, item: Layout) -> bool:
     return bare and (isinstance(letter, Fraction) or isinstance(letter, Name) and letter.style == "scalar")
 
 
-def between(before: Layout, after: Layout) -> Layout | None:
+def between_factors(before: Layout, after: Layout) -> Layout | None:
     """What stands between two factors as written: nothing between different letters, a dot where they run together."""
     if begins_with_number(after):
         return DOT
     if isinstance(first_of(after), Applied):
-        return SPACE
+        return THIN_SPACE
     last = last_of(before)
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or ends_in_differential(before):
-        return SPACE
+        return THIN_SPACE
     if _is_letter(before) and _is_letter(after):
         return None if before != after else DOT
     starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
-    return SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
+    return THIN_SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
 
 
 def _is_letter(layout: Layout) -> bool:

@@ -22,31 +22,31 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 from derive.render.notation.layout import (
-    DEGREE,
-    GREEK,
+    DEGREE_SIGN,
+    GREEK_LETTERS,
     Applied,
     Array,
+    Bracketed,
+    Digits,
     Evaluated,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Limits,
     Lowered,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     RootSign,
     Row,
-    Word,
+    Upright,
     begins_with_number,
     first_of,
     is_differential,
     last_of,
 )
 
-MARKS = {
+TEXT_OPERATORS = {
     "dot": "·",
     "inner": "·",
     "times": "×",
@@ -68,9 +68,9 @@ MARKS = {
     "start": "",
     "on": "    ",
 }
-SIGNS: dict[Layout, str] = {Mark("minus"): "-", Mark("plus_minus"): "±"}  # where a sum begins
-UNITS = {DEGREE.text: "°", "partial": "∂"}
-ARROWS = {"vector": "\u20d7", "tensor": "\u20e1"}
+LEADING_SIGNS: dict[Layout, str] = {Operator("minus"): "-", Operator("plus_minus"): "±"}  # where a sum begins
+UNITS = {DEGREE_SIGN.text: "°", "partial": "∂"}
+ACCENTS = {"vector": "\u20d7", "tensor": "\u20e1"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
 
@@ -84,7 +84,7 @@ def to_the_right(text: str, width: int) -> str:
 
 
 @dataclass(frozen=True)
-class Box:
+class TextBox:
     """Lines of equal width; `middle` is the one that a line of text continues."""
 
     lines: tuple[str, ...]
@@ -94,11 +94,11 @@ class Box:
     def width(self) -> int:
         return columns(self.lines[0])
 
-    def beside(self, other: Box) -> Box:
+    def beside(self, other: TextBox) -> TextBox:
         above = max(self.middle, other.middle)
         below = max(len(self.lines) - self.middle, len(other.lines) - other.middle)
         left, right = (each._padded(above, below) for each in (self, other))
-        return Box(tuple(a + b for a, b in zip(left, right, strict=True)), above)
+        return TextBox(tuple(a + b for a, b in zip(left, right, strict=True)), above)
 
     def _padded(self, above: int, below: int) -> list[str]:
         blank = " " * self.width
@@ -108,23 +108,23 @@ class Box:
 
 def plain(layout: Layout) -> str:
     """A layout as text, possibly of several lines."""
-    return "\n".join(line.rstrip() for line in box(layout).lines)
+    return "\n".join(line.rstrip() for line in text_box(layout).lines)
 
 
-def box(layout: Layout) -> Box:
+def text_box(layout: Layout) -> TextBox:
     match layout:
         case Array(rows):
             return _array(rows)
         case Row(items):
             return _row(items)
         case Fenced(inside, kind):
-            inner = box(inside)
+            inner = text_box(inside)
             if len(inner.lines) > 1:
                 return _tall_fence(inner, kind)
-            return Box((f"({inner.lines[0]})" if kind == "(" else f"|{inner.lines[0]}|",))
+            return TextBox((f"({inner.lines[0]})" if kind == "(" else f"|{inner.lines[0]}|",))
         case Lowered(base, word):
-            return box(base).beside(Box((f"_{word}",)))
-    return Box((_line(_on_one_line(layout)),))
+            return text_box(base).beside(TextBox((f"_{word}",)))
+    return TextBox((_line(_on_one_line(layout)),))
 
 
 def _on_one_line(layout: Any) -> Any:
@@ -140,24 +140,24 @@ def _on_one_line(layout: Any) -> Any:
 
 
 def _in_brackets(entries: Sequence[Layout]) -> Layout:
-    return Fenced(Row(tuple(item for entry in entries for item in (Mark("comma"), entry))[1:]))
+    return Fenced(Row(tuple(item for entry in entries for item in (Operator("comma"), entry))[1:]))
 
 
 def _line(layout: Layout) -> str:
     match layout:
-        case Number(digits):
+        case Digits(digits):
             return digits
         case Name(base, subscript, dots, style):
-            letter = GREEK.get(layout.letter, layout.letter)
+            letter = GREEK_LETTERS.get(layout.letter, layout.letter)
             dotted = {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
-            arrow = ARROWS.get(style, "") if base != "0" else ""
+            arrow = ACCENTS.get(style, "") if base != "0" else ""
             between, parts = layout.below
-            below = f"_{GREEK.get(subscript, between.join(parts))}" if subscript else ""
+            below = f"_{GREEK_LETTERS.get(subscript, between.join(parts))}" if subscript else ""
             return letter + dotted + arrow + layout.primes + below
-        case Word(text):
+        case Upright(text):
             return UNITS.get(text, text)
-        case Mark(kind):
-            return MARKS[kind]
+        case Operator(kind):
+            return TEXT_OPERATORS[kind]
         case Fraction(above, below):
             return f"{_tight(above, is_above=True)}/{_tight(below)}"
         case Raised(base, power):
@@ -167,8 +167,8 @@ def _line(layout: Layout) -> str:
             return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
         case RootSign(inside):
             inner = plain(inside)
-            return f"√{inner}" if isinstance(inside, Number | Name) else f"√({inner})"
-        case Limits(inside, lower, upper):
+            return f"√{inner}" if isinstance(inside, Digits | Name) else f"√({inner})"
+        case Bracketed(inside, lower, upper):
             return f"[{plain(inside)}]({plain(lower)}..{plain(upper)})"
         case Evaluated(inside, where):
             return f"{plain(inside)}|({plain(where)})"
@@ -187,29 +187,29 @@ def _tight(layout: Layout, *, is_above: bool = False) -> str:
     last = last_of(layout)
     if isinstance(last, Applied) and not isinstance(last.argument, Fenced):
         return f"({text})"  # sin x/2 could be the sine of x/2
-    single = isinstance(layout, Number | Name | Raised | RootSign | Fenced | Applied)
-    product = is_above and isinstance(layout, Row) and not any(isinstance(item, Mark) for item in layout.items)
+    single = isinstance(layout, Digits | Name | Raised | RootSign | Fenced | Applied)
+    product = is_above and isinstance(layout, Row) and not any(isinstance(item, Operator) for item in layout.items)
     return text if single or product or is_differential(first_of(layout)) else f"({text})"
 
 
-def _row(items: tuple[Layout, ...]) -> Box:
-    result: Box | None = None
+def _row(items: tuple[Layout, ...]) -> TextBox:
+    result: TextBox | None = None
     before: Layout | None = None
     for i, item in enumerate(items):
-        leads = i == 0 or (isinstance(before, Mark) and before.kind not in ("plus", "minus", "space", "close"))
-        piece = Box((SIGNS[item],)) if leads and item in SIGNS else box(item)
-        if item == Mark("space") and 0 < i < len(items) - 1:
-            piece = Box((_gap(items[:i], items[i + 1]),))
+        leads = i == 0 or (isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close"))
+        piece = TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
+        if item == Operator("space") and 0 < i < len(items) - 1:
+            piece = TextBox((_gap(items[:i], items[i + 1]),))
         elif result is not None and before is not None and _needs_space(before, item):
-            result = result.beside(Box((_gap(items[:i], item),)))
+            result = result.beside(TextBox((_gap(items[:i], item),)))
         result = piece if result is None else result.beside(piece)
         before = item
-    return result or Box(("",))
+    return result or TextBox(("",))
 
 
 def _gap(before: tuple[Layout, ...], item: Layout) -> str:
     """Between two factors: a dot if the second begins with a figure, but not behind a differential."""
-    shown = box(item).lines
+    shown = text_box(item).lines
     begins = len(shown) == 1 and shown[0][:1].isdigit() and not isinstance(first_of(item), Name)
     behind_differential = len(before) > 1 and is_differential(before[-2])
     return "·" if begins and not behind_differential else " "
@@ -217,32 +217,32 @@ def _gap(before: tuple[Layout, ...], item: Layout) -> str:
 
 def _needs_space(before: Layout, item: Layout) -> bool:
     """`13/12 M a²`, but `2a` and `3(x + y)`."""
-    if isinstance(before, Mark | IntegralSign) or isinstance(item, Mark):
+    if isinstance(before, Operator | IntegralSign) or isinstance(item, Operator):
         return False
-    if item == DEGREE or is_differential(before):
+    if item == DEGREE_SIGN or is_differential(before):
         return False
-    if isinstance(before, Number):
-        return isinstance(item, Word | Array) or begins_with_number(item)
+    if isinstance(before, Digits):
+        return isinstance(item, Upright | Array) or begins_with_number(item)
     return True
 
 
-def _array(rows: tuple[tuple[Layout, ...], ...]) -> Box:
+def _array(rows: tuple[tuple[Layout, ...], ...]) -> TextBox:
     cells = [[plain(entry) for entry in line] for line in rows]
     widths = [max(columns(line[j]) for line in cells) for j in range(len(cells[0]))]
     lines = ["  ".join(to_the_right(text, width) for text, width in zip(line, widths, strict=True)) for line in cells]
     if len(lines) == 1:
-        return Box((f"({lines[0]})",))
+        return TextBox((f"({lines[0]})",))
     if len(rows[0]) == 1:  # a column: one line, as vectors are written in running text
-        return Box(("(" + ", ".join(line[0] for line in cells) + ")",))
+        return TextBox(("(" + ", ".join(line[0] for line in cells) + ")",))
     left = ["⎡"] + ["⎢"] * (len(lines) - 2) + ["⎣"]
     right = ["⎤"] + ["⎥"] * (len(lines) - 2) + ["⎦"]
-    return Box(tuple(a + line + b for a, line, b in zip(left, lines, right, strict=True)), len(lines) // 2)
+    return TextBox(tuple(a + line + b for a, line, b in zip(left, lines, right, strict=True)), len(lines) // 2)
 
 
-def _tall_fence(inner: Box, kind: str) -> Box:
+def _tall_fence(inner: TextBox, kind: str) -> TextBox:
     n = len(inner.lines)
     if kind != "(":
-        return Box(tuple(f"|{line}|" for line in inner.lines), inner.middle)
+        return TextBox(tuple(f"|{line}|" for line in inner.lines), inner.middle)
     left = ["⎛"] + ["⎜"] * (n - 2) + ["⎝"]
     right = ["⎞"] + ["⎟"] * (n - 2) + ["⎠"]
-    return Box(tuple(a + line + b for a, line, b in zip(left, inner.lines, right, strict=True)), inner.middle)
+    return TextBox(tuple(a + line + b for a, line, b in zip(left, inner.lines, right, strict=True)), inner.middle)

@@ -30,7 +30,7 @@ from derive.algebra.expressions import (
 from derive.render.printing.plain_sympy import Setting, Written, identifier, written
 from derive.steps.step import Step
 
-Text = str | list[str]  # a list: one for each of two roots
+PerRoot = str | list[str]  # a list: one for each of two roots
 
 
 @dataclass(frozen=True)
@@ -100,11 +100,11 @@ class StepNames:
     values: Mapping[Any, Any]
     has_formula: bool
 
-    def text(self, expr: Any) -> Text:
+    def text(self, expr: Any) -> PerRoot:
         """The text of a line or of a part of it; two if the step is about two roots."""
         return _of_each_root(written(expr, setting).text for setting in self._settings(self._called))
 
-    def text_of_value(self, expr: Any) -> Text:
+    def text_of_value(self, expr: Any) -> PerRoot:
         """The text of an expression in which letters alone are meant."""
         return _of_each_root(written(expr, setting).text for setting in self._settings({}))
 
@@ -117,7 +117,7 @@ class StepNames:
         return factor_between(before.residual, here.residual)
 
     @property
-    def symbol(self) -> Text:
+    def symbol(self) -> PerRoot:
         """The left side: written out if it is a formula of names, else what it is called."""
         symbol = self.step.symbol
         if isinstance(symbol, MatrixBase):
@@ -125,13 +125,13 @@ class StepNames:
         return self.text(symbol) if self.has_formula else self.identifiers[symbol]
 
     @property
-    def names(self) -> dict[str, Text]:
+    def names(self) -> dict[str, PerRoot]:
         """Each name that stands in a line, and what it stands for."""
         used = {name: called for line in self.lines for name, called in line.used.items()}
         return {called: self.text_of_value(self.values[name]) for name, called in used.items()}
 
     @property
-    def motion(self) -> dict[str, Text]:
+    def motion(self) -> dict[str, PerRoot]:
         """What the equations of motion make of each rate."""
         plain = Setting(moving=self.moving)
         return {written(rate, plain).text: self.text_of_value(value) for rate, value in self.step.motion}
@@ -195,7 +195,7 @@ def factor_between(before: Any, here: Any) -> Any:
     return simpler if equal(before, simpler * here) else quotient
 
 
-def _of_each_root(texts: Iterable[str]) -> Text:
+def _of_each_root(texts: Iterable[str]) -> PerRoot:
     several = list(texts)
     return several if len(several) > 1 else several[0]
 

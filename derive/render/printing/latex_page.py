@@ -16,16 +16,16 @@ from derive.course.placement import STATEMENT
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Ways
 from derive.page.document import Answer, Display, Document, Illustration, PartPage
-from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit, filled
-from derive.render.notation.latex import MARKS, escaped, latex, unit_latex
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark, filled
+from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_latex
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import WIDTH, Printed, answer_lines, printed_lines
+from derive.render.printing.lines import LINE_WIDTH, Printed, answer_lines, printed_lines
 from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Tex
 
 # About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
-LINE, ROW, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
+LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 
 
@@ -83,10 +83,10 @@ class _Page:
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
 
-    def inline(self, nodes: Sequence[Node]) -> Tex:
+    def inline(self, nodes: Sequence[Inline]) -> Tex:
         return Tex("".join(self._node(node) for node in nodes))
 
-    def _node(self, node: Node) -> str:
+    def _node(self, node: Inline) -> str:
         match node:
             case Text(text):
                 return escaped(text)
@@ -95,7 +95,7 @@ class _Page:
                 return f"${inner}$"
             case DimensionMark(dimension):
                 return f"${_dimension(dimension)}$"
-            case Unit(text):
+            case UnitMark(text):
                 return f"${unit_latex(text)}$"
             case Ref(key):
                 return self._reference(key)
@@ -110,7 +110,7 @@ class _Page:
     def anchor(self) -> Tex:
         return Tex(dotted(self.document.id))
 
-    def plain(self, nodes: Sequence[Node], columns: int) -> str:
+    def plain(self, nodes: Sequence[Inline], columns: int) -> str:
         """For bookmarks, which are no TeX."""
         return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
 
@@ -124,7 +124,7 @@ class _Page:
         return Tex(" \\\\\n".join(steps))
 
     def _row(self, printed: Printed, stop: str) -> str:
-        body = self._formula(printed, r"\fit{%s}" if printed.width > WIDTH else "%s") + stop
+        body = self._formula(printed, r"\fit{%s}" if printed.width > LINE_WIDTH else "%s") + stop
         reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
         if printed.number is None:
             return body + (rf" \tag*{{{reason}\blanknumber}}" if reason else r" \notag")
@@ -134,7 +134,9 @@ class _Page:
     def _formula(self, printed: Printed, fitted: str = "%s", mark: str = "&") -> str:
         """The line; `mark` is where lines below each other are aligned."""
         left = fitted % latex(printed.left) if printed.left else ""
-        sides = " ".join(f"{MARKS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides)
+        sides = " ".join(
+            f"{TEX_OPERATORS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides
+        )
         return f"{left} {mark}{sides}"
 
     def answer(self, answer: Answer) -> Tex:
@@ -154,7 +156,7 @@ class _Page:
         alt, caption = self.inline(drawing.alt), self.inline(drawing.caption)
         return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
 
-    def margin(self, display: Display, before: Sequence[Node] = ()) -> Tex:
+    def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
         """The note beside a display and the words before it: as much of it as ends before the next note begins."""
         lines = [escaped(self.words.grades[display.grade])]
         said = [f"{self.words.labels['second_route']}: {route}" for route in display.routes]
@@ -163,11 +165,11 @@ class _Page:
             lines.append(escaped(fitting[0]))
         return Tex(r"\\ ".join(lines))
 
-    def _height(self, display: Display, before: Sequence[Node]) -> float:
+    def _height(self, display: Display, before: Sequence[Inline]) -> float:
         """About how high a display with the words before it is, in points."""
         text = len(inline_text(before, self.notation, self.document.numbers))
         rows = sum(len(printed_lines(group, self.notation)) for group in display.groups)
-        return LINE * math.ceil(text / CHARACTERS) + ROW * rows + AROUND
+        return LINE_HEIGHT * math.ceil(text / CHARACTERS) + ROW_HEIGHT * rows + AROUND
 
     def ways(self) -> Sequence[Ways]:
         return self.document.checks.ways

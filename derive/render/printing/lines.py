@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from derive.page.document import Answer, Equations, Line
-from derive.page.wording import Node, Text
+from derive.page.document import Answer, ChainLine, Equations
+from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 
-WIDTH, BOX = 60.0, 70.0  # of a line, and of a boxed result
-INDENT = 4.0  # of a line that goes on
+LINE_WIDTH, ANSWER_WIDTH = 60.0, 70.0  # of a line, and of a boxed result
+LINE_INDENT = 4.0  # of a line that goes on
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Printed:
 
     left: Layout | None
     sides: tuple[tuple[str, Layout], ...]
-    reason: tuple[Node, ...]
+    reason: tuple[Inline, ...]
     number: int | None = None
 
     @property
@@ -28,7 +28,7 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-def printed_lines(equations: Equations, notation: Notation, limit: float = WIDTH) -> list[Printed]:
+def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> list[Printed]:
     """The lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
     for line in equations.lines:
@@ -50,7 +50,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = WIDTH
     return lines
 
 
-def answer_lines(answer: Answer, notation: Notation, limit: float = BOX) -> list[Printed]:
+def answer_lines(answer: Answer, notation: Notation, limit: float = ANSWER_WIDTH) -> list[Printed]:
     """A boxed result on as few lines as it takes."""
     sides = [(answer.relation, notation.result(answer.value))]
     sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]
@@ -68,11 +68,11 @@ def _fitted(line: Printed, limit: float) -> list[Printed]:
     ((relation, side),) = line.sides
     if line.left is not None and width(line.left) > width(side):
         room = limit - 2 - width(side)
-        first, *others = broken(line.left, room, room - INDENT)
+        first, *others = broken(line.left, room, room - LINE_INDENT)
         begun, ends = Printed(None, (("start", first),), ()), line.sides
     else:
         room = limit - 2 - (width(line.left) if line.left is not None else 0)
-        first, *others = broken(side, room, room - INDENT)
+        first, *others = broken(side, room, room - LINE_INDENT)
         begun, ends = Printed(line.left, ((relation, first),), ()), line.sides[:0]
     if not others:
         return [line]
@@ -80,10 +80,10 @@ def _fitted(line: Printed, limit: float) -> list[Printed]:
     return [begun, *between, replace(last, sides=(*last.sides, *ends), reason=line.reason)]
 
 
-def reason_width(reason: tuple[Node, ...]) -> float:
+def reason_width(reason: tuple[Inline, ...]) -> float:
     """A reason is set small, with a gap before it."""
     return 3 + 0.75 * sum(len(node.text) if isinstance(node, Text) else 3 for node in reason) if reason else 0
 
 
-def right_side(line: Line, notation: Notation) -> Layout:
+def right_side(line: ChainLine, notation: Notation) -> Layout:
     return notation.result(line.right) if line.presented else notation.layout(line.right)

@@ -9,13 +9,13 @@ from typing import Any
 from derive.algebra.dimensions import exponents
 from derive.course.placement import STATEMENT
 from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Math, Node, Phrases, ProblemRef, Ref, Text, Unit
-from derive.render.notation.layout import Layout, Mark, row
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
-from derive.render.notation.text import box, columns, plain, to_the_right
+from derive.render.notation.text import columns, plain, text_box, to_the_right
 from derive.render.printing.lines import Printed, answer_lines, printed_lines
 
-COLUMNS = 88
+PAGE_COLUMNS = 88
 
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
@@ -23,12 +23,12 @@ def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     return _Page(document, words, notation).text()
 
 
-def inline_text(nodes: Sequence[Node], notation: Notation, numbers: Mapping[str, int] | None = None) -> str:
+def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, int] | None = None) -> str:
     """Running text; `numbers` are those of the equations it may refer to."""
     return " ".join("".join(_node(node, notation, numbers or {}) for node in nodes).split())
 
 
-def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
+def _node(node: Inline, notation: Notation, numbers: Mapping[str, int]) -> str:
     match node:
         case Text(text):
             return text
@@ -36,7 +36,7 @@ def _node(node: Node, notation: Notation, numbers: Mapping[str, int]) -> str:
             return plain(notation.result(expr))
         case DimensionMark(dimension):
             return exponents(dimension)
-        case Unit(text):
+        case UnitMark(text):
             return text
         case Ref(key):
             return f"({numbers[key]})"
@@ -51,18 +51,18 @@ class _Page:
 
     def text(self) -> str:
         title = self._with_points(self._inline(self.document.title), self.document.points)
-        blocks = [title, "=" * COLUMNS, self._wrapped(self.document.statement)]
+        blocks = [title, "=" * PAGE_COLUMNS, self._wrapped(self.document.statement)]
         blocks += [line for i in self.document.illustrations if i.at == STATEMENT for line in ("", self._drawing(i))]
         for part in self.document.parts:
             blocks += ["", self._part(part)]
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
         checked = Text(self.words.labels["checked"] + " ")
-        blocks += ["", "-" * COLUMNS, self._wrapped((checked, *self.document.closing))]
+        blocks += ["", "-" * PAGE_COLUMNS, self._wrapped((checked, *self.document.closing))]
         return "\n".join(blocks) + "\n"
 
     def _part(self, part: PartPage) -> str:
         heading = self._with_points(f"({part.label}) {self._inline(part.ask)}", part.points)
-        blocks = [heading, "-" * min(columns(heading), COLUMNS)]
+        blocks = [heading, "-" * min(columns(heading), PAGE_COLUMNS)]
         for block in part.blocks:
             match block:
                 case Paragraph(nodes):
@@ -87,14 +87,14 @@ class _Page:
         if points is None:
             return text
         worth = f"[{self.words.worth(points)}]"
-        if columns(text) + len(worth) + 2 > COLUMNS:
-            return textwrap.fill(text, COLUMNS) + "\n" + worth.rjust(COLUMNS)
-        return text + " " * (COLUMNS - columns(text) - len(worth)) + worth
+        if columns(text) + len(worth) + 2 > PAGE_COLUMNS:
+            return textwrap.fill(text, PAGE_COLUMNS) + "\n" + worth.rjust(PAGE_COLUMNS)
+        return text + " " * (PAGE_COLUMNS - columns(text) - len(worth)) + worth
 
-    def _wrapped(self, nodes: Sequence[Node]) -> str:
-        return textwrap.fill(self._inline(nodes), COLUMNS, break_long_words=False, break_on_hyphens=False)
+    def _wrapped(self, nodes: Sequence[Inline]) -> str:
+        return textwrap.fill(self._inline(nodes), PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False)
 
-    def _inline(self, nodes: Sequence[Node]) -> str:
+    def _inline(self, nodes: Sequence[Inline]) -> str:
         return inline_text(nodes, self.notation, self.document.numbers)
 
     def _display(self, display: Display) -> str:
@@ -108,8 +108,8 @@ class _Page:
 
     def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:
         """The formula, its relations below each other, and on which line they stand."""
-        items: list[Layout] = [item for relation, side in line.sides for item in (Mark(relation), side)]
-        body = box(row(*items))
+        items: list[Layout] = [item for relation, side in line.sides for item in (Operator(relation), side)]
+        body = text_box(row(*items))
         left = plain(line.left) if line.left else ""
         before = [to_the_right(left if i == body.middle else "", indent) for i in range(len(body.lines))]
         return [a + text.rstrip() for a, text in zip(before, body.lines, strict=True)], body.middle
@@ -118,13 +118,13 @@ class _Page:
         body, middle = self._body(line, indent)
         lines = ["    " + text for text in body]
         reason = f"[{self._inline(line.reason)}]" if line.reason else ""
-        if reason and columns(lines[middle]) + columns(reason) + 10 <= COLUMNS:
+        if reason and columns(lines[middle]) + columns(reason) + 10 <= PAGE_COLUMNS:
             lines[middle] += "  " + reason
         elif reason:
-            lines.append(to_the_right(reason, COLUMNS - 8))
+            lines.append(to_the_right(reason, PAGE_COLUMNS - 8))
         if line.number is not None:
             number = f"({line.number})"
-            room = COLUMNS - len(number) - columns(lines[middle])
+            room = PAGE_COLUMNS - len(number) - columns(lines[middle])
             lines[middle] += (" " * room if room > 0 else "  ") + number
         return lines
 
