@@ -267,18 +267,9 @@ class Notation:
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)
 
-    def _between_vectors(self, mark: Operator, most: Binding) -> Callable[[Any], Layout]:
-        def laid_out(expr: Any) -> Layout:
-            left, right = (within(self.layout(present(arg)), most) for arg in expr.args)
-            return row(left, mark, right)
-
-        return laid_out
-
-    def _dot(self, expr: ex.Dot) -> Layout:
-        return self._between_vectors(INNER, Binding.DOTTED)(expr)
-
-    def _cross(self, expr: ex.Cross) -> Layout:
-        return self._between_vectors(CROSS, Binding.PRODUCT)(expr)
+    def _between_vectors(self, mark: Operator, most: Binding, expr: ex.Dot | ex.Cross) -> Layout:
+        left, right = (within(self.layout(present(arg)), most) for arg in expr.args)
+        return row(left, mark, right)
 
     def _outer(self, expr: ex.Outer) -> Layout:
         left, right = (self.layout(arg) for arg in expr.args)
@@ -287,7 +278,7 @@ class Notation:
     def _norm(self, expr: ex.Norm) -> Layout:
         return Fenced(self.layout(present(expr.args[0])), "|")
 
-    def _rate(self, expr: ex.CarriedRate | ex.BodyRate) -> Layout:
+    def _rate(self, expr: ex.TimeRate | ex.CarriedRate | ex.BodyRate) -> Layout:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
@@ -299,28 +290,20 @@ class Notation:
     def _partial(self, expr: ex.Partial) -> Layout:
         return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
 
-    def _time_rate(self, expr: ex.TimeRate) -> Layout:
-        return self._differentiated("d", expr.args[0], Name("t"))
-
-    def _differentiated(self, sign: str, what: Any, by: Layout) -> Layout:
-        """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer."""
+    def _differentiated(self, sign: str, what: Any, by: Layout, order: int = 1) -> Layout:
+        """dL/dt for a name, d|L|^2/dt for a length, d/dt of anything longer; d^2U/dx^2 of the second order."""
         inner = self.layout(what)
+        above, by = (each if order == 1 else Raised(each, Digits(str(order))) for each in (Upright(sign), by))
         below = row(Upright(sign), by)
         if isinstance(inner, Name) or isinstance(what.base if isinstance(what, Pow) else what, ex.Norm):
-            return Fraction(row(Upright(sign), inner), below)
+            return Fraction(row(above, inner), below)
         behind = inner if isinstance(inner, Fraction) and isinstance(what, ex.Partial) else Fenced(inner)
-        return row(Fraction(Upright(sign), below), THIN_SPACE, behind)
+        return row(Fraction(above, below), THIN_SPACE, behind)
 
     def _slope(self, expr: ex.Slope) -> Layout:
         """U'(x) is written dU/dx, and so on."""
         f, x, order = expr.args
-        times = [] if order == 1 else [Digits(str(order))]
-        d = Raised(Upright("d"), times[0]) if times else Upright("d")
-        by = Raised(self.layout(x), times[0]) if times else self.layout(x)
-        inner = self.layout(f)
-        if isinstance(inner, Name):
-            return Fraction(row(d, inner), row(Upright("d"), by))
-        return row(Fraction(d, row(Upright("d"), by)), THIN_SPACE, Fenced(inner))
+        return self._differentiated("d", f, self.layout(x), order)
 
     def _at(self, expr: ex.At) -> Layout:
         f, x, place = expr.args
@@ -413,19 +396,18 @@ class Notation:
         (ex.Root, _root),
         (ex.Bracket, _bracket),
         (ex.Amount | ex.MatrixAmount, _amount),
-        (ex.Dot, _dot),
-        (ex.Cross, _cross),
+        (ex.Dot, lambda self, expr: self._between_vectors(INNER, Binding.DOTTED, expr)),
+        (ex.Cross, lambda self, expr: self._between_vectors(CROSS, Binding.PRODUCT, expr)),
         (ex.Outer, _outer),
         (ex.Norm, _norm),
         (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
-        (ex.CarriedRate, _rate),
+        (ex.CarriedRate | ex.TimeRate, _rate),
         (ex.BodyRate, _body_rate),
         (ex.Component, _component),
         (ex.MassIntegral, _mass_integral),
         (Integral, _integral),
         (Identity, _identity),
         (ex.Partial, _partial),
-        (ex.TimeRate, _time_rate),
         (ex.Slope, _slope),
         (ex.At, _at),
         (ex.Truncated, lambda self, expr: self.layout(expr.args[0])),

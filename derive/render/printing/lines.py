@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from derive.page.document import Answer, ChainLine, Equations
+from derive.page.document import Answer, Equations
 from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken
 from derive.render.notation.layout import Layout, width
@@ -32,7 +32,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     """The lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
     for line in equations.lines:
-        side = (line.relation, right_side(line, notation))
+        side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
         last = packed[-1] if packed else None
         if line.left is not None and packed:
             packed.append(Printed(notation.side(line.left), (side,), line.reason))
@@ -83,7 +83,3 @@ def _fitted(line: Printed, limit: float) -> list[Printed]:
 def reason_width(reason: tuple[Inline, ...]) -> float:
     """A reason is set small, with a gap before it."""
     return 3 + 0.75 * sum(len(node.text) if isinstance(node, Text) else 3 for node in reason) if reason else 0
-
-
-def right_side(line: ChainLine, notation: Notation) -> Layout:
-    return notation.result(line.right) if line.presented else notation.layout(line.right)
