@@ -115,8 +115,8 @@ def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
 class Faults:
     """Collects complaints, so that one run of the command tells everything that is wrong with a file."""
 
-    def __init__(self) -> None:
-        self._complaints: dict[Complaint, None] = {}
+    def __init__(self, complaints: Iterable[Complaint] = ()) -> None:
+        self._complaints = dict.fromkeys(complaints)
 
     def __bool__(self) -> bool:
         return bool(self._complaints)

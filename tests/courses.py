@@ -6,9 +6,8 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+from derive.building.cache import Cache
 from derive.building.solution import rendered
-from derive.building.stored import key_of
-from derive.course.problem import load_problem
 from derive.render.rendered import Rendered
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -40,5 +39,4 @@ def course_in(
 
 def rendered_once(root: Path, problem_id: str, detail: str | None = None, draws: bool = False) -> Rendered:
     """The problem in every format, like `rendered`; a derivation that some test has made already is not made again."""
-    key = key_of(load_problem(root, problem_id))
-    return rendered(root, problem_id, detail, Path(os.environ["XDG_STATE_HOME"]) / "derivations" / key, draws)
+    return rendered(root, problem_id, detail, Cache(Path(os.environ["XDG_STATE_HOME"]) / "derivations"), draws)

@@ -30,9 +30,7 @@ fi
 """
 
 
-def rendered(
-    root: Path, problem_id: str, detail: str | None, kept: Path | None = None, draws: bool = False
-) -> Rendered:
+def rendered(root: Path, problem_id: str, detail: str | None, cache: object = None, draws: bool = False) -> Rendered:
     path = f"problems/{problem_id}.yaml"
     said = (root / path).read_text().strip()
     if said == "loop":

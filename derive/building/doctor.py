@@ -8,8 +8,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from derive.building.cache import PACKAGES, package_version
 from derive.building.files import shown_path
-from derive.building.manifest import PACKAGES, package_version
 from derive.building.sets import set_names
 from derive.building.tex import chosen_engine, engines, typeset
 from derive.errors import DeriveError

@@ -1,24 +1,19 @@
 """The drawings of a page as files, drawn anew only when what they show has changed.
 
-Beside the kept steps each drawing is kept under a digest of everything that decides its bytes: its description, the
-numbers and the size, its words, derive's modules and matplotlib.
+What decides the bytes of a drawing: its description, the numbers and the size, its words, derive's modules and
+matplotlib.
 """
 
 from __future__ import annotations
 
-import base64
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sympy import Symbol
 
-from derive import FOLDER
 from derive.algebra.expressions import explicit
-from derive.building import sealed
-from derive.building.manifest import digest, package_version
+from derive.building.cache import Cache, digest, engine_digest
 from derive.course.placement import Placement
 from derive.course.problem import Problem
 from derive.errors import Rejected
@@ -36,6 +31,7 @@ from derive.render.rendered import Files
 if TYPE_CHECKING:
     from derive.render.drawing.canvas import Sheet
 
+SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 
 
@@ -45,53 +41,52 @@ def drawing_files(
     document: Document,
     words: Phrases,
     notation: Notation,
-    kept: Path | None,
+    cache: Cache,
 ) -> Files:
     """A PDF and an SVG of each drawing on the page, by file name."""
     by_key = {drawing.key: drawing for drawing in drawings}
     return tuple(
         (f"{shown.stem}.{suffix}", content)
         for shown in document.illustrations
-        for suffix, content in _sheet(problem, by_key[shown.key], shown, words, notation, kept).items()
+        for suffix, content in _sheet(problem, by_key[shown.key], shown, words, notation, cache).items()
     )
 
 
 def _sheet(
-    problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, kept: Path | None
+    problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
 ) -> dict[str, bytes]:
     placement = placement_of(problem, drawing.key)
     values = numbers_of(problem, placement)
     curves = curves_of(problem, drawing, placement) if isinstance(drawing, Plot) else None
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
-    key = _key(drawing, repr((sorted(values.items(), key=str), curves, width, alt, words.drawings)))
-    file = kept.with_name(f"{kept.name.partition('.')[0]}.{drawing.key}.drawing.json") if kept else None
-    sheet = _recalled(file, key) if file else None
-    if sheet is None:
+    seen = (drawings_to_data([drawing]), sorted(values.items(), key=str), curves, width, alt, words.drawings)
+    keys = {each: digest("drawing", each, engine_digest("matplotlib"), repr(seen)) for each in SUFFIXES}
+    files = {each: content for each, key in keys.items() if (content := cache.recalled(key))}
+    if len(files) < len(keys):
         try:
-            drawn = _plot(drawing, curves, notation, words, width, alt) if curves else None
-            drawn = drawn or _scene(drawing, values, notation, width, alt)
+            drawn = _drawn(drawing, curves or values, notation, words, width, alt)
         except Rejected as error:  # a mark knows no file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
-        sheet = {"pdf": drawn.pdf, "svg": drawn.svg}
-        if file:
-            _keep(file, key, sheet)
-    return sheet
+        files = {"pdf": drawn.pdf, "svg": drawn.svg}
+        for each, key in keys.items():
+            cache.keep(key, files[each])
+    return files
 
 
-def _scene(drawing: Any, values: Mapping[Symbol, float], notation: Notation, width: float | None, alt: str) -> Sheet:
+def _drawn(
+    what: Any, seen: Mapping[Symbol, float] | Curves, notation: Notation, words: Phrases, width: float | None, alt: str
+) -> Sheet:
+    if isinstance(seen, Curves):
+        from derive.render.drawing.plotting import plot_sheet
+
+        return plot_sheet(what, seen, notation, words, width, alt)
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture
 
-    pieces = picture(drawing, Numbers(values), width or WIDTH, (width or WIDTH) * HEIGHT / WIDTH)
+    pieces = picture(what, Numbers(seen), width or WIDTH, (width or WIDTH) * HEIGHT / WIDTH)
     return sheet_of(pieces, notation, alt)
-
-
-def _plot(plot: Any, curves: Curves, notation: Notation, words: Phrases, width: float | None, alt: str) -> Sheet:
-    from derive.render.drawing.plotting import plot_sheet
-
-    return plot_sheet(plot, curves, notation, words, width, alt)
 
 
 def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, float]:
@@ -104,27 +99,3 @@ def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, fl
     for letter, expr in said.items():
         found[letter] = Numbers(found).of(expr)
     return found
-
-
-# --- kept between builds ---------------------------------------------------------------------------------------------
-
-
-def _key(drawing: Recorded, facts: str) -> str:
-    modules = [p.read_bytes() for p in sorted(FOLDER.rglob("*.py"))]
-    description = json.dumps(drawings_to_data([drawing]))
-    return digest(*modules, f"{package_version('matplotlib')}", description, facts)
-
-
-def _recalled(file: Path, key: str) -> dict[str, bytes] | None:
-    """What was kept under this key; nothing if it was kept under another, was altered, or cannot be read."""
-    kept = sealed.recalled(file, key)
-    if not isinstance(kept, dict) or set(kept) != {"pdf", "svg"}:
-        return None
-    try:
-        return {suffix: base64.b64decode(text) for suffix, text in kept.items()}
-    except (ValueError, TypeError):
-        return None
-
-
-def _keep(file: Path, key: str, sheet: Mapping[str, bytes]) -> None:
-    sealed.keep(file, key, {suffix: base64.b64encode(content).decode() for suffix, content in sheet.items()})

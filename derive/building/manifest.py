@@ -1,57 +1,24 @@
 """What a set's outputs were made from: the record that tells which of them must be made again.
 
 A problem is current while the content of every file it was derived from, the engine and the options are what they
-were; a document, while its TeX source, the TeX engine and its own content are. Only content is compared, never times.
+were; an output, while its own content is. Only content is compared, never times.
 """
 
 from __future__ import annotations
 
-import hashlib
+import json
 import re
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from derive import FOLDER
 from derive.building import sealed
+from derive.building.cache import digest, file_digest
+from derive.course.names import DOCUMENTS
 from derive.render.formats import formats
 
-PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc", "matplotlib")
-SOLUTIONS, SHEET = DOCUMENTS = ("solutions", "problems")  # of a whole set: with the solutions, and for students
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
-MAX_INPUT = 64 * 1024 * 1024
-
-
-def digest(*parts: str | bytes) -> str:
-    sha = hashlib.sha256()
-    for part in parts:
-        raw = part.encode() if isinstance(part, str) else part
-        sha.update(b"%d:" % len(raw) + raw)
-    return sha.hexdigest()
-
-
-def file_digest(path: Path) -> str:
-    """Of the file's content; empty if there is none, so that a file which appears counts as a change."""
-    try:
-        return digest(sealed.regular_content(path, MAX_INPUT))
-    except OSError:
-        return ""
-
-
-def package_version(name: str) -> str | None:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return None
-
-
-def engine_digest(root: Path) -> str:
-    """Of derive's own modules, the templates, and the packages that decide what is derived."""
-    folders = sorted({FOLDER, root / "templates", FOLDER.parent / "templates"})
-    files = sorted(p for f in folders for p in f.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
-    modules = [part for p in files for part in (p.name, p.read_bytes())]
-    return digest(*modules, *(f"{name}=={package_version(name)}" for name in PACKAGES))
 
 
 @dataclass
@@ -63,21 +30,20 @@ class Manifest:
     complete: bool = False  # whether the last build came to its end without a fault
     tex_engine: str = ""
     set_inputs: dict[str, str] = field(default_factory=dict)
-    recipes: dict[str, str] = field(default_factory=dict)  # problem -> digest of engine and options
-    inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> path -> digest of content
+    inputs: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files it was derived from
+    pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
-    sources: dict[str, str] = field(default_factory=dict)  # pdf -> digest of its TeX and engine
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
         """What was recorded here; an empty record if there is none, or it is not as it was written."""
-        recorded = sealed.recalled(folder / ".manifest.json", _record_of(folder))
+        recorded = sealed.data_of(sealed.unsealed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
     def save(self) -> None:
         recorded = {name: value for name, value in asdict(self).items() if name != "folder"}
-        sealed.keep(self.folder / ".manifest.json", _record_of(self.folder), recorded)
+        sealed.seal(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
     def remove(self, output: str) -> None:
         """Take an output away if it is a file of this folder and still as it was written."""
@@ -85,28 +51,25 @@ class Manifest:
         if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
-        self.sources.pop(output, None)
 
     def forget(self, problem: str) -> None:
         """Take away what was made of a problem that the set no longer has."""
         for output in self.outputs_of(problem):
             self.remove(output)
-        for table in (self.recipes, self.inputs, self.drawings):
+        for table in (self.pages, self.inputs, self.drawings):
             table.pop(problem, None)
-        for file in (self.folder / ".derived").glob(f"{problem}.*.json"):
-            file.unlink(missing_ok=True)
 
-    def is_derived(self, name: str, recipe: str, root: Path) -> bool:
-        """Whether what was derived for that problem still holds, whatever became of its outputs."""
-        inputs = self.inputs.get(name)
-        return bool(inputs) and self.recipes.get(name) == recipe and self._unchanged(inputs or {}, root)
+    def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
+        """What its page is kept under: a digest of how it was made, and of what `read` tells of each of its inputs."""
+        inputs = self.inputs.get(problem, [])
+        return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
-    def is_current(self, recipe: str, root: Path) -> bool:
+    def is_current(self, recipe: str, read: Callable[[str], str]) -> bool:
         """Whether nothing at all need be done for the set."""
         return (
             self.complete
-            and self._unchanged(self.set_inputs, root)
-            and all(self.is_derived(name, recipe, root) for name in self.problems)
+            and all(read(path) == content for path, content in self.set_inputs.items())
+            and all(self.pages.get(name) == self.page_key(name, recipe, read) for name in self.problems)
             and all(self.holds(name) for part in [*self.problems, *DOCUMENTS] for name in self.outputs_of(part))
         )
 
@@ -117,24 +80,6 @@ class Manifest:
     def holds(self, output: str) -> bool:
         """Whether that output is there and as it was written."""
         return self.outputs.get(output, "") != "" and file_digest(self.folder / output) == self.outputs[output]
-
-    def _unchanged(self, inputs: dict[str, str], root: Path) -> bool:
-        return all(file_digest(root / path) == content for path, content in inputs.items())
-
-    def kept(self, name: str) -> Any:
-        """The data of the derived problem as they were kept; nothing if they came of something else."""
-        return sealed.recalled(self._store(name), self._origin(name))
-
-    def keep(self, name: str, derived: Any, recipe: str, inputs: dict[str, str]) -> None:
-        self.recipes[name], self.inputs[name] = recipe, inputs
-        sealed.keep(self._store(name), self._origin(name), derived)
-
-    def _origin(self, name: str) -> str:
-        inputs = sorted(self.inputs.get(name, {}).items())
-        return digest(name, self.recipes.get(name, ""), *(part for pair in inputs for part in pair))
-
-    def _store(self, name: str) -> Path:
-        return self.folder / ".derived" / f"{name}.rendered.json"
 
 
 def _record_of(folder: Path) -> str:
@@ -149,13 +94,13 @@ def _is_record(recorded: Any) -> bool:
         return False
     if any(type(value) is not type(getattr(empty, name)) for name, value in recorded.items()):
         return False
-    texts = [recorded["set_inputs"], recorded["recipes"], recorded["outputs"], recorded["sources"]]
-    lists = [recorded["problems"], *recorded["drawings"].values()]
+    texts = [*recorded["set_inputs"].values(), *recorded["pages"].values(), *recorded["outputs"].values()]
+    lists = [recorded["problems"], *recorded["inputs"].values(), *recorded["drawings"].values()]
     return (
-        all(isinstance(text, str) for table in [*texts, *recorded["inputs"].values()] for text in _values(table))
-        and all(isinstance(each, list) and all(isinstance(text, str) for text in each) for each in lists)
+        all(isinstance(each, list) for each in lists)
+        and all(isinstance(text, str) for text in [*texts, *(text for each in lists for text in each)])
         and all(_is_plain(name) for each in recorded["drawings"].values() for name in each)
-        and all(_is_plain(name) for name in [*recorded["outputs"], *recorded["sources"]])
+        and all(_is_plain(name) for name in recorded["outputs"])
     )
 
 
@@ -163,10 +108,6 @@ def _is_plain(output: str) -> bool:
     """Whether it is the name of a file that a build may have written."""
     parts = _PLAIN_NAME.fullmatch(output)
     return parts is not None and parts[1] in {"pdf", "svg", "tex", *(form.suffix for form in formats().values())}
-
-
-def _values(table: Any) -> list[Any]:
-    return list(table.values()) if isinstance(table, dict) else [None]
 
 
 def outputs_of(name: str) -> list[str]:

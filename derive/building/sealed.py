@@ -1,6 +1,6 @@
 """What is kept between builds, sealed with a key of this machine's own: only what derive itself wrote is believed.
 
-Everything kept is JSON and is read as data. The key lies in the user's state folder, outside every course: who can
+Everything kept is read as data. The key lies in the user's state folder, outside every course: who can
 write a course's `build` cannot seal. Where no key can be kept there is one for this process alone, so that nothing
 that another process kept is believed and everything is derived.
 """
@@ -13,40 +13,41 @@ import os
 import secrets
 import stat
 import tempfile
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from derive.building.files import write
 
-KEY_BYTES = 32
+KEY_BYTES = SEAL_BYTES = 32
 MAX_BYTES = 64 * 1024 * 1024
 
 
-def keep(file: Path, what: str, kept: Any) -> None:
-    """Keep data of JSON under `what` it was made from."""
-    text = json.dumps(kept)
-    write(file, json.dumps({"of": what, "seal": _seal(file.name, what, text), "kept": text}))
+def seal(file: Path, what: str, content: bytes) -> None:
+    """Write content with the seal that it is derive's, and `what` it is."""
+    write(file, _seal(what, content) + content)
 
 
-def recalled(file: Path, what: str) -> Any:
-    """What was kept under this; nothing if it was kept under something else, was altered, or cannot be read."""
+def unsealed(file: Path, what: str) -> bytes | None:
+    """The content that was sealed as this; nothing if it is something else, was altered, or cannot be read."""
     try:
-        raw = regular_content(file, MAX_BYTES)
-        sealed = json.loads(raw)
-        if not isinstance(sealed, dict) or sealed.get("of") != what:
-            return None
-        text, seal = sealed.get("kept"), sealed.get("seal")
-        if not isinstance(text, str) or not isinstance(seal, str):
-            return None
-        if not hmac.compare_digest(seal.encode(), _seal(file.name, what, text).encode()):
-            return None
-        return json.loads(text)
-    except (OSError, ValueError, RecursionError):
+        raw = regular_content(file)
+    except OSError:
+        return None
+    content = raw[SEAL_BYTES:]
+    return content if hmac.compare_digest(raw[:SEAL_BYTES], _seal(what, content)) else None
+
+
+def data_of(content: bytes | None) -> Any:
+    """The data of JSON that were sealed; nothing if there are none."""
+    try:
+        return json.loads(content or b"null")
+    except (ValueError, RecursionError):
         return None
 
 
-def regular_content(file: Path, limit: int) -> bytes:
+def regular_content(file: Path, limit: int = MAX_BYTES) -> bytes:
     """The content of a file of a bearable size; what is no file, such as a pipe, is never waited for."""
     with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as opened:
         facts = os.fstat(opened.fileno())
@@ -55,9 +56,8 @@ def regular_content(file: Path, limit: int) -> bytes:
         return opened.read(limit + 1)
 
 
-def _seal(*parts: str) -> str:
-    raw = b"".join(b"%d:%s" % (len(part.encode()), part.encode()) for part in parts)
-    return hmac.new(_key(), raw, "sha256").hexdigest()
+def _seal(what: str, content: bytes) -> bytes:
+    return hmac.digest(_key(), b"%d:%s" % (len(what.encode()), what.encode()) + content, "sha256")
 
 
 def key_file() -> Path | None:
@@ -94,19 +94,12 @@ def _read_key(file: Path) -> bytes | None:
 
 def _make_key(file: Path) -> None:
     """Put a new key there, whole or not at all; if another process was first, its key stays."""
-    name = ""
-    try:
+    with suppress(OSError):  # no key is kept, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         if os.path.lexists(file):  # damaged, or open to others: whatever it sealed is derived anew
             file.unlink()
-        handle, name = tempfile.mkstemp(prefix=f".{file.name}.", dir=file.parent)  # readable by its owner alone
-        with open(handle, "wb") as temporary:
+        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # its owner's alone
             temporary.write(secrets.token_bytes(KEY_BYTES))
             temporary.flush()
-            os.fsync(handle)
-        os.link(name, file)
-    except OSError:
-        pass  # no key is kept, or another process was first
-    finally:
-        if name:
-            Path(name).unlink(missing_ok=True)
+            os.fsync(temporary.fileno())
+            os.link(temporary.name, file)

@@ -15,7 +15,7 @@ from derive.page.wording import Phrases, phrases
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.rendered import Rendered, Tex
 
-COLUMNS = (
+COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "agree", "agree_to_figures", "errata",
 )  # fmt: skip
@@ -70,7 +70,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
         "total": _total(problems),
         "worth": lambda points: words.worth(Fraction(points)) if points else "",
         "rows": _rows(problems, words),
-        "columns_of_counts": COLUMNS,
+        "columns_of_counts": COUNTED,
         "labels": words.labels,
         "grades": words.grades,
     }
@@ -80,7 +80,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
     """The table of how the set was checked: a line for each problem, and their sums."""
     rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
-    sums = {name: sum(counts[name] for _, counts in rows) for name in COLUMNS}
+    sums = {name: sum(counts[name] for _, counts in rows) for name in COUNTED}
     return [*rows, (words.labels["checked_page"]["all"], sums)] if len(rows) > 1 else rows
 
 

@@ -8,37 +8,30 @@ from __future__ import annotations
 
 import fcntl
 import os
-import re
 import stat
 import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from derive import FOLDER
+from derive.building.cache import PACKAGES, Cache, digest, engine_digest, file_digest, folder_digest
 from derive.building.files import folder, shown_path, write, writing
-from derive.building.manifest import (
-    DOCUMENTS,
-    SHEET,
-    SOLUTIONS,
-    Manifest,
-    digest,
-    engine_digest,
-    file_digest,
-    outputs_of,
-)
+from derive.building.manifest import Manifest, outputs_of
+from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
+from derive.course.names import DOCUMENTS, NAME, SHEET, SOLUTIONS
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.render.formats import formats
+from derive.render.rendered import Files, Rendered
 
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
-    from derive.render.rendered import Files, Rendered
 
-SET_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 # What the Makefile has other rules for, as targets or as folders.
 TARGETS = frozenset(
     ["all", "always", "bench", "build", "check", "clean", "derive", "help", "problems", "templates", "test", "tests"]
@@ -86,7 +79,7 @@ def set_names(root: Path) -> list[str]:
 
 def wrong_set_name(name: str) -> str:
     """Why a set cannot be called so; empty if it can."""
-    if not SET_NAME.fullmatch(name):
+    if not NAME.fullmatch(name):
         return "the name of a set has letters, digits, `-` and `_` only"
     return "`make` has a target of that name" if name in TARGETS else ""
 
@@ -142,7 +135,9 @@ class _Build:
     ):
         self.root, self.set_id, self.options, self.engine, self.outputs = root, set_id, options, engine, outputs
         self.started = time.time_ns()
-        self.recipe = digest(engine_digest(root), options.detail or "")
+        templates = [folder_digest(each / "templates") for each in (root, FOLDER, FOLDER.parent)]
+        self.recipe = digest(engine_digest(*PACKAGES), *templates, options.detail or "")
+        self.cache = Cache(outputs / ".derived", fresh=options.force)
         self.manifest = Manifest.read(outputs)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
@@ -155,7 +150,7 @@ class _Build:
 
     def report(self) -> Report:
         manifest, result = self.manifest, self.result
-        current = manifest.tex_engine == self.engine.identity and manifest.is_current(self.recipe, self.root)
+        current = manifest.tex_engine == self.engine.identity and manifest.is_current(self.recipe, self._digest)
         if current and not self.options.force:
             self.names = manifest.problems
         else:
@@ -175,7 +170,7 @@ class _Build:
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         with self.crew:
             try:
-                for name in self.manifest.recipes.keys() - set(self.names):
+                for name in self.manifest.pages.keys() - set(self.names):
                     self.manifest.forget(name)
                 for name in self.names:
                     self._derive(name)
@@ -192,10 +187,6 @@ class _Build:
             finally:
                 # An interrupted build saves what it has finished, and is not complete.
                 self.manifest.save()
-
-    def _kept(self, name: str) -> Path | None:
-        """Where the steps of a problem are kept between builds; nowhere if everything is to be done again."""
-        return None if self.options.force else self.outputs / ".derived" / f"{name}.steps.json"
 
     def _tick(self, running: list[str]) -> None:
         done = f"{len(self.derived)} of {len(self.names)} derived"
@@ -214,38 +205,36 @@ class _Build:
         return outcome.error is None
 
     def _derive(self, name: str) -> None:
-        current = not self.options.force and self.manifest.is_derived(name, self.recipe, self.root)
-        kept = self._recalled(name) if current else None
-        if kept is not None:
-            self.derived[name] = kept
-            self._document(name)
+        key = self.manifest.page_key(name, self.recipe, self._digest)
+        kept = Rendered.from_data(self.cache.recalled_data(key))
+        if kept:
+            told_before = self.manifest.pages.get(name) == key
+            self._take(name, key, kept, () if told_before else kept.warnings)
             return
         from derive.building.solution import rendered
 
         problem = f"{self.set_id}/{name}"
-        work = partial(rendered, self.root, problem, self.options.detail, self._kept(name), draws=True)
+        work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
         self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
-
-    def _recalled(self, name: str) -> Rendered | None:
-        data = self.manifest.kept(name)
-        if data is None:
-            return None
-        from derive.render.rendered import Rendered
-
-        return Rendered.from_data(data)
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:
         if not self._took(outcome):
             return
-        derived = self.derived[name] = outcome.value
+        page: Rendered = outcome.value
         self.result.derived += 1
-        self.result.warnings += derived.warnings
-        paths = {*derived.inputs, f"problems/{self.set_id}/reference.yaml"}
-        inputs = {path: self._input_digest(path) for path in sorted(paths)}
-        self.manifest.keep(name, derived.to_data(), self.recipe, inputs)
-        self._check_files(name, derived)
-        self._document(name)
+        self.manifest.inputs[name] = sorted({*page.inputs, f"problems/{self.set_id}/reference.yaml"})
+        key = self.manifest.page_key(name, self.recipe, self._input_digest)
+        self.cache.keep_data(key, page.to_data())
+        self._take(name, key, page, page.warnings)
         self._whole()
+
+    def _take(self, name: str, key: str, page: Rendered, warnings: Sequence[Complaint]) -> None:
+        """A page of the set, derived now or before, and all that stands beside it."""
+        self.result.warnings += warnings
+        self.manifest.pages[name] = key
+        self.derived[name] = page
+        self._check_files(name, page)
+        self._document(name)
 
     def _check_files(self, name: str, derived: Rendered) -> None:
         """Drawings that the problem no longer has are removed; a name is not given to two outputs."""
@@ -259,11 +248,14 @@ class _Build:
             message = f"the drawing `{file}` of `{name}` would have the name of another output"
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
+    def _digest(self, path: str) -> str:
+        return file_digest(self.root / path)
+
     def _input_digest(self, path: str) -> str:
         """Of a file as it was when the build began; one that changed since then must be read again next time."""
         file = self.root / path
         edited = file.exists() and file.stat().st_mtime_ns > self.started
-        return "edited during the build" if edited else file_digest(file)
+        return "edited during the build" if edited else self._digest(path)
 
     def _document(self, name: str) -> None:
         from derive.building.set_document import problem_document
@@ -286,12 +278,7 @@ class _Build:
         self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files)
 
     def _typeset(
-        self,
-        name: str,
-        document: Callable[[], str],
-        texts: dict[str, str],
-        files: Files,
-        aux: Path | None = None,
+        self, name: str, document: Callable[[], str], texts: dict[str, str], files: Files, aux: Path | None = None
     ) -> None:
         pdf = f"{name}.pdf"
         try:
@@ -299,11 +286,11 @@ class _Build:
         except DeriveError as error:
             self.result.complaints += error.complaints
             return
-        source = digest(tex, self.engine.identity, *(content for _, content in files))
+        source = digest("pdf", tex, self.engine.identity, *(content for _, content in files))
         texts = {f"{name}.tex": tex, **texts}
-        current = self.manifest.sources.get(pdf) == source and self.manifest.holds(pdf)
-        if current and not self.options.force:
-            self._record(texts)
+        kept = self.cache.recalled(source)
+        if kept is not None:
+            self._record({pdf: kept, **texts})
             return
         limit = self.options.limit
         beside = [file for file in files if file[0].endswith(".pdf")]
@@ -320,7 +307,8 @@ class _Build:
             return
         if outcome.value:
             self.result.changed.append(self.outputs / pdf)
-        self.manifest.sources[pdf] = source
+        with suppress(OSError):  # of somebody who takes it away in this moment
+            self.cache.keep(source, regular_content(self.outputs / pdf))
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         self._record(texts)
 
@@ -342,6 +330,5 @@ class _Build:
         outputs = [f"build/{self.set_id}/{name}" for name in names]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         write(self.outputs / ".outputs", "\n".join([options, *outputs, ""]))
-        (self.outputs / ".outputs.mk").unlink(missing_ok=True)  # what an earlier derive told as rules of `make`
         write(self.outputs / ".built", "")
         os.utime(self.outputs / ".built", ns=(self.started, self.started))

@@ -6,6 +6,7 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,9 @@ from sympy import Expr, Integer, Symbol
 from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension, dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.algebra.expressions import Relation
+from derive.building.cache import NO_CACHE, Cache
 from derive.building.drawn import drawing_files
-from derive.building.stored import Solved, keep, key_of, recalled
+from derive.building.solved import Solved, steps_key
 from derive.course.parts import Part, points_text
 from derive.course.problem import Problem, load_problem, run_solve
 from derive.course.problem_set import problem_set
@@ -42,26 +44,23 @@ from derive.steps.step import Level, Quantity, Step
 
 
 def rendered(
-    root: Path, problem_id: str, detail: str | None = None, kept: Path | None = None, draws: bool = False
+    root: Path, problem_id: str, detail: str | None = None, cache: Cache = NO_CACHE, draws: bool = False
 ) -> Rendered:
     """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
 
-    `kept` is a file in which the steps are kept for the next time, and from which they are taken if they still hold;
-    `draws` says whether the files of its drawings are wanted too.
+    Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time; `draws`
+    says whether the files of its drawings are wanted too.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
     words = phrases(template_folder(root))
-    solved, failures = _solved(problem, kept)
+    solved, failures = _solved(problem, cache)
     derivation, values = solved.derivation, solved.values
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
     level = Level(detail or "standard")
     document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
-    found = Faults()
-    for fault in faults:
-        found.add(fault)
-    found.stop()
+    Faults(faults).stop()
     notation = Notation(document.dimensions)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
     fragments = problem_latex(document, words, notation, template_folder(root))
@@ -81,22 +80,23 @@ def rendered(
         steps=len(derivation.steps) + len(values),
         compared=len(solved.compared),
         agreed=not failures,
-        files=drawing_files(problem, solved.drawings, document, words, notation, kept) if draws else (),
+        files=drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else (),
     )
 
 
-def _solved(problem: Problem, kept: Path | None) -> tuple[Solved, tuple[Complaint, ...]]:
+def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ...]]:
     """The steps, as they were kept or derived now, and what disagrees with the reference."""
-    key = key_of(problem) if kept else ""
-    solved = recalled(kept, key) if kept else None
-    if solved is not None:
-        return solved, ()
+    key = steps_key(problem)
+    kept = Solved.from_data(cache.recalled_data(key))
+    if kept is not None:
+        return kept, ()
     derivation, values, known, run = derived(problem)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.remark() for c in compared), tuple(run.drawings))
-    if kept and not failures:
-        keep(kept, key, solved)
+    if not failures:
+        with suppress(ValueError, RecursionError):  # what JSON cannot hold is derived again next time
+            cache.keep_data(key, solved.to_data())
     return solved, failures
 
 
@@ -125,7 +125,8 @@ def derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Qu
     instead = standing_in(quantity.step for quantity in known.values())
     asked = [{instead.get(key, str(key)): key for key in part.answers} for part in problem.parts]
     _check_answers(known, asked)
-    _check_letters(problem, known)
+    if clashes := letter_clashes(problem, known):
+        raise Rejected(clashes)
     derivation = derivation_of(asked, known, run)
     values: dict[str, Step] = {}
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
@@ -155,13 +156,6 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
         for key in keys
         if key not in known
     ]
-    if faults:
-        raise Rejected(faults)
-
-
-def _check_letters(problem: Problem, known: dict[str, Quantity]) -> None:
-    """A letter of the problem's own may not stand for anything else as well."""
-    faults = letter_clashes(problem, known)
     if faults:
         raise Rejected(faults)
 

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence as List
 from dataclasses import dataclass
 from pathlib import Path
 
+from derive.course.names import DOCUMENTS, NAME
 from derive.course.schema import TEXT, Record, as_written, key, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, Faults, Misused, Rejected, did_you_mean, nearest
 
-DOCUMENTS = ("solutions", "problems")  # what a build calls the documents of the whole set
 _NOT_PROBLEMS = ("set", "reference")
-_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 
 
 @dataclass(frozen=True)
@@ -52,7 +50,7 @@ def problem_ids(root: Path) -> list[str]:
 
 
 def _named_well(file: Path) -> bool:
-    return bool(_ID.fullmatch(file.stem) and _ID.fullmatch(file.parent.name))
+    return bool(NAME.fullmatch(file.stem) and NAME.fullmatch(file.parent.name))
 
 
 def path_of(root: Path, problem_id: str) -> str:
@@ -75,7 +73,7 @@ def _meant(problem_id: str, known: list[str]) -> str:
 def set_ids(root: Path) -> list[str]:
     """Every folder below `problems/` that says it is a set."""
     folders = sorted(file.parent.name for file in (root / "problems").glob("*/set.yaml"))
-    return [name for name in folders if _ID.fullmatch(name)]
+    return [name for name in folders if NAME.fullmatch(name)]
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:

@@ -11,12 +11,11 @@ from typing import Any
 import pytest
 from pypdf import PdfReader
 
-from derive.building import manifest
 from derive.building import tex as engine_runs
-from derive.building.set_document import COLUMNS, problem_document, set_document, sheet_document
+from derive.building.cache import Cache
+from derive.building.set_document import COUNTED, problem_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
-from derive.course import problem_set as sets_of_problems
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered, Tex
@@ -173,7 +172,7 @@ def test_a_problem_gets_its_number_where_it_is_listed_and_nothing_in_it_is_repla
 
 def test_the_last_page_counts_steps_lines_routes_and_references(solved: list[Rendered]) -> None:
     counts = solved[1].counts
-    assert set(counts) == set(COLUMNS)
+    assert set(counts) == set(COUNTED)
     assert (counts["agree"], counts["agree_to_figures"], counts["errata"]) == (1, 0, 2)
     assert sum(counts[f"steps_{grade}"] for grade in ("proved", "sampled", "approximation", "definition")) == 30
     assert counts["steps_definition"] == 3
@@ -195,7 +194,7 @@ def test_second_routes_are_told_by_result(solved: list[Rendered]) -> None:
 
 
 def test_kept_steps_tell_the_same_errata(course: Path, solved: list[Rendered]) -> None:
-    kept = course / "kept.json"
+    kept = Cache(course / "kept")
     assert rendered(course, "hw9/block", None, kept) == solved[1]
     assert rendered(course, "hw9/block", None, kept) == solved[1]
 
@@ -316,7 +315,3 @@ def test_an_empty_set_is_told_to_be_empty(tmp_path: Path) -> None:
     (root / "problems" / "hw9" / "set.yaml").write_text(f"{HEADING}problems: []\n", encoding="utf-8")
     with pytest.raises(Rejected, match="`problems` must be a list of names, but it is empty"):
         problem_set(root, "hw9")
-
-
-def test_no_problem_takes_the_name_of_a_document() -> None:
-    assert sets_of_problems.DOCUMENTS == manifest.DOCUMENTS

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -14,11 +12,9 @@ from pathlib import Path
 import pytest
 from fake_course import Course, stand_in_course
 
-from derive.building.files import write
 from derive.building.manifest import DOCUMENTS, outputs_of
 from derive.building.sets import Options, Report, built_set
-from derive.building.workers import Bug, Crew, Job, done
-from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from derive.errors import BuildFailed, Misused
 
 
 @pytest.fixture
@@ -231,39 +227,6 @@ def test_outputs_that_cannot_be_written_are_one_complaint(course: Course) -> Non
     assert complaint.message == "cannot write `build/hw1`: a file stands where a folder should be"
 
 
-def test_a_full_disk_leaves_the_earlier_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    target = tmp_path / "page.pdf"
-    write(target, "before")
-
-    def full(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", full)
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(BuildFailed, match=r"error\[cannot-write\]: cannot write `page.pdf`: the disk is full"):
-        write(target, "after")
-    assert [(p.name, p.read_text()) for p in tmp_path.iterdir()] == [("page.pdf", "before")]
-
-
-def test_a_damaged_record_is_no_obstacle(course: Course) -> None:
-    build(course)
-    (course.outputs / ".manifest.json").write_text("{")
-    (course.outputs / ".derived" / "one.pickle").write_text("?")
-    assert build(course).derived == 2
-
-
-def test_a_kept_derivation_of_another_text_is_not_used(course: Course) -> None:
-    build(course)
-    record = (course.outputs / ".manifest.json").read_bytes()
-    course.problem("one", "edited")
-    build(course)
-    # as if the second build had been killed before it wrote its record, and the edit then taken back
-    (course.outputs / ".manifest.json").write_bytes(record)
-    course.problem("one", "first")
-    build(course)
-    assert "first" in (course.outputs / "one.pdf").read_text()
-
-
 def test_make_is_told_the_outputs_and_the_options(course: Course) -> None:
     build(course, Options(detail="brief"))
     options, *outputs = (course.outputs / ".outputs").read_text().splitlines()
@@ -297,88 +260,6 @@ def test_a_second_build_waits_and_says_so(course: Course) -> None:
 
     built_set(course.root, "hw1", Options(), tell)
     assert said == ["waiting for another build of `hw1`"]
-
-
-def test_a_worker_does_not_hold_the_lock_of_its_build(course: Course) -> None:
-    held: list[bool] = []
-    with open(course.root / "lock", "w") as lock:
-        code = "import fcntl, sys; fcntl.lockf(open(sys.argv[1], 'w'), fcntl.LOCK_EX | fcntl.LOCK_NB)"
-        probe = [sys.executable, "-c", code, str(course.root / "lock")]
-
-        def while_it_works(_: list[str]) -> None:
-            fcntl.lockf(lock, fcntl.LOCK_EX)
-            held.append(subprocess.run(probe, capture_output=True).returncode != 0)
-            fcntl.lockf(lock, fcntl.LOCK_UN)
-            held.append(subprocess.run(probe, capture_output=True).returncode != 0)
-
-        fcntl.lockf(lock, fcntl.LOCK_EX)
-        with Crew(2, while_it_works) as crew:
-            crew.put(Job("sleeper", lambda: time.sleep(60)))
-            crew.put(Job("next", lambda: None))
-            waiting = crew.outcomes()
-            assert next(waiting).job.name == "next"
-    assert held[:2] == [True, False]
-
-
-def test_a_worker_returns_its_value_and_raises_its_complaint() -> None:
-    assert done(Job("sum", lambda: sum(range(10**5)))) == sum(range(10**5))
-
-    def refuse() -> None:
-        raise DeriveError(Complaint("no", "not today"))
-
-    with pytest.raises(DeriveError, match="not today"):
-        done(Job("refusal", refuse))
-    with pytest.raises(Bug, match="KeyError"):
-        done(Job("bug", lambda: {}["x"]))
-
-
-def test_a_large_value_comes_back_whole() -> None:
-    assert len(done(Job("large", lambda: "x" * 3_000_000))) == 3_000_000
-
-
-def test_killing_a_worker_takes_its_programs_along(tmp_path: Path) -> None:
-    note = tmp_path / "pid"
-
-    def work() -> None:
-        program = subprocess.Popen(["sleep", "60"])
-        note.write_text(str(program.pid))
-        program.wait()
-
-    with pytest.raises(BuildFailed, match="time-limit"):
-        done(Job("sleeper", work, limit=1))
-    assert is_gone(int(note.read_text()))
-
-
-def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
-    note = tmp_path / "pid"
-    code = (
-        "import os, pathlib, sys, time\n"
-        "from derive.building.workers import Job, done\n"
-        "def work():\n"
-        "    pathlib.Path(sys.argv[1]).write_text(str(os.getpid()))\n"
-        "    time.sleep(60)\n"
-        "done(Job('sleeper', work))\n"
-    )
-    parent = subprocess.Popen([sys.executable, "-c", code, str(note)])
-    for _ in range(500):
-        if note.is_file() and note.read_text():
-            break
-        time.sleep(0.02)
-    parent.send_signal(signal.SIGKILL)
-    parent.wait()
-    assert is_gone(int(note.read_text()))
-
-
-def is_gone(pid: int) -> bool:
-    for _ in range(500):
-        try:
-            os.kill(pid, 0)
-        except ProcessLookupError:
-            return True
-        if Path(f"/proc/{pid}/stat").is_file() and Path(f"/proc/{pid}/stat").read_text().split(") ")[1][0] == "Z":
-            return True
-        time.sleep(0.02)
-    return False
 
 
 def test_drawings_are_written_beside_the_page_and_removed_with_it(course: Course) -> None:

@@ -10,13 +10,14 @@ from pathlib import Path
 import pytest
 
 from derive.building import drawn
+from derive.building.cache import Cache
 from derive.building.set_document import problem_document
 from derive.building.sets import Options, built_set
 from derive.building.solution import rendered
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered
-from tests.building.test_stored import forbid_deriving
+from tests.building.test_solved import forbid_deriving
 from tests.courses import ROOT, course_in, rendered_once
 
 CAPTION = "  vectors:\n"
@@ -203,13 +204,13 @@ def test_a_derivation_draws_nothing(tmp_path: Path) -> None:
 def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
     tmp_path: Path, block: Rendered, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    course, kept = course_in(tmp_path), tmp_path / "block.steps.json"
+    course, kept = course_in(tmp_path), Cache(tmp_path / "kept")
     assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
     file = course / "problems" / "hw9" / "block.yaml"
     file.write_text(file.read_text().replace("points: 10", "points: 10\nnote: words"))
     with monkeypatch.context() as patch:
         forbid_deriving(patch)
-        patch.setattr(drawn, "_scene", lambda *_: pytest.fail("drawn again"))
+        patch.setattr(drawn, "_drawn", lambda *_: pytest.fail("drawn again"))
         assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
     file.write_text(file.read_text().replace("[a, 2*a, 3*a]", "[a, 2*a, 2*a]"))
     changed = dict(rendered(course, "hw9/block", None, kept, draws=True).files)
@@ -217,15 +218,12 @@ def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
 
 
 def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: Rendered) -> None:
-    course, kept = course_in(tmp_path), tmp_path / "block.steps.json"
+    course, kept = course_in(tmp_path), Cache(tmp_path / "kept")
     rendered(course, "hw9/block", None, kept, draws=True)
-    file = tmp_path / "block.vectors.drawing.json"
-    data = json.loads(file.read_text())
-    files = json.loads(data["kept"])
-    data["kept"] = json.dumps({**files, "pdf": files["svg"]})
-    file.write_text(json.dumps(data))
-    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
-    file.write_text("[]")
+    sheets = [file for file in (tmp_path / "kept").iterdir() if b"%PDF-" in file.read_bytes()]
+    assert len(sheets) == 2
+    sheets[0].write_bytes(sheets[0].read_bytes().replace(b"%%EOF", b"%%EOG"))
+    sheets[1].write_bytes(b"[]")
     assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
 
 

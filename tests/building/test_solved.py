@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import json
+import shutil
 from pathlib import Path
 
 import pytest
 
 from derive.building import solution
+from derive.building.cache import Cache
 from derive.building.solution import rendered
+from derive.building.solved import Solved
 from derive.render.rendered import Rendered
 from tests.courses import course_in
 
@@ -19,17 +21,19 @@ def course(tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="module")
-def known(tmp_path_factory: pytest.TempPathFactory) -> tuple[Rendered, str]:
-    """The page of the course as it is, and what is kept of it: derived once for all tests."""
+def known(tmp_path_factory: pytest.TempPathFactory) -> tuple[Rendered, Path]:
+    """The page of the course as it is, and the one file that is kept of it: derived once for all tests."""
     course = course_in(tmp_path_factory.mktemp("known"))
-    return rendered(course, "hw9/block", None, course / "kept.json"), (course / "kept.json").read_text()
+    page = rendered(course, "hw9/block", None, Cache(course / "kept"))
+    (file,) = (course / "kept").iterdir()
+    return page, file
 
 
 @pytest.fixture
-def kept(course: Path, known: tuple[Rendered, str]) -> Path:
-    file = course / "kept.json"
-    file.write_text(known[1])
-    return file
+def kept(course: Path, known: tuple[Rendered, Path]) -> Cache:
+    (course / "kept").mkdir()
+    shutil.copy(known[1], course / "kept")
+    return Cache(course / "kept")
 
 
 def change(course: Path, name: str, old: str, new: str) -> None:
@@ -47,13 +51,13 @@ def forbid_deriving(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_what_was_kept_gives_the_same_page(
-    course: Path, kept: Path, known: tuple[Rendered, str], monkeypatch: pytest.MonkeyPatch
+    course: Path, kept: Cache, known: tuple[Rendered, Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     forbid_deriving(monkeypatch)
     assert rendered(course, "hw9/block", None, kept) == known[0]
 
 
-def test_new_words_need_no_new_derivation(course: Path, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_new_words_need_no_new_derivation(course: Path, kept: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     change(course, "block.yaml", "title: A block turning", "title: A brick turning")
     change(course, "block.yaml", "answer: inertia_tensor\n    points: 3", "answer: inertia_tensor\n    points: 3.0")
     forbid_deriving(monkeypatch)
@@ -74,7 +78,7 @@ def test_new_words_need_no_new_derivation(course: Path, kept: Path, monkeypatch:
     ],
 )
 def test_any_other_change_is_derived_anew(
-    course: Path, kept: Path, monkeypatch: pytest.MonkeyPatch, file: str, old: str, new: str
+    course: Path, kept: Cache, monkeypatch: pytest.MonkeyPatch, file: str, old: str, new: str
 ) -> None:
     change(course, file, old, new)
     forbid_deriving(monkeypatch)
@@ -82,33 +86,52 @@ def test_any_other_change_is_derived_anew(
         rendered(course, "hw9/block", None, kept)
 
 
-def test_what_is_derived_anew_is_kept_in_turn(course: Path, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_derived_anew_is_kept_in_turn(course: Path, kept: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     change(course, "block.yaml", "axis: diagonal", "axis: z")
     fresh = rendered(course, "hw9/block", None, kept)
     forbid_deriving(monkeypatch)
     assert rendered(course, "hw9/block", None, kept) == fresh
 
 
-def test_a_changed_reference_is_compared_anew(course: Path, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_changed_reference_is_compared_anew(course: Path, kept: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     (course / "problems" / "hw9" / "reference.yaml").write_text("[]\n")
     forbid_deriving(monkeypatch)
     with pytest.raises(AssertionError, match="derived again"):
         rendered(course, "hw9/block", None, kept)
 
 
-@pytest.mark.parametrize("damage", ["", "{", "[]", '{"of": 1}'])
 def test_a_damaged_file_is_as_good_as_none(
-    course: Path, kept: Path, monkeypatch: pytest.MonkeyPatch, damage: str
+    course: Path, kept: Cache, known: tuple[Rendered, Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    key = json.loads(kept.read_text())["of"]
-    kept.write_text(damage.replace("1", f'"{key}"'))
+    file = course / "kept" / known[1].name
+    whole = file.read_bytes()
     forbid_deriving(monkeypatch)
-    with pytest.raises(AssertionError, match="derived again"):
-        rendered(course, "hw9/block", None, kept)
+    for damaged in (b"", whole[:32], whole[:-1], whole + b" ", bytes([whole[0] ^ 1]) + whole[1:]):
+        file.write_bytes(damaged)
+        with pytest.raises(AssertionError, match="derived again"):
+            rendered(course, "hw9/block", None, kept)
 
 
-def test_an_altered_line_is_not_believed(course: Path, kept: Path, known: tuple[Rendered, str]) -> None:
-    altered = kept.read_text().replace(", 13, 12]", ", 13, 22]")
-    assert altered != kept.read_text()
-    kept.write_text(altered)
+def test_an_altered_line_is_not_believed(course: Path, kept: Cache, known: tuple[Rendered, Path]) -> None:
+    file = course / "kept" / known[1].name
+    altered = file.read_bytes().replace(b", 13, 12]", b", 13, 22]")
+    assert altered != file.read_bytes()
+    file.write_bytes(altered)
     assert rendered(course, "hw9/block", None, kept) == known[0]
+    assert file.read_bytes() == known[1].read_bytes(), "and the right line is kept again"
+
+
+@pytest.mark.parametrize("data", [None, [], {}, {"derivation": 3}, {"values": {"steps": []}}])
+def test_data_of_another_shape_are_no_derivation(data: object) -> None:
+    assert Solved.from_data(data) is None
+
+
+def test_what_json_cannot_hold_is_derived_and_not_kept(
+    course: Path, known: tuple[Rendered, Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(_: Solved) -> None:
+        raise ValueError("no JSON")
+
+    monkeypatch.setattr(Solved, "to_data", refuse)
+    assert rendered(course, "hw9/block", None, Cache(course / "kept")) == known[0]
+    assert not (course / "kept").exists()

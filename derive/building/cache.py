@@ -1,0 +1,111 @@
+"""What builds keep of the work that they did: each value under a digest of everything that it depends on.
+
+Steps, pages, drawings and PDFs are kept in one folder, sealed. What was kept under a digest holds for as long as the
+folder does, so nothing in it is ever out of date; what was used longest ago is let go when there is too much.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+from contextlib import suppress
+from dataclasses import dataclass
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from derive import FOLDER
+from derive.building import sealed
+
+PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc", "matplotlib")
+LIMIT = 256 * 1024 * 1024
+
+
+def digest(*parts: str | bytes) -> str:
+    """Of the parts and of where each of them ends."""
+    sha = sha256()
+    for part in parts:
+        raw = part.encode() if isinstance(part, str) else part
+        sha.update(b"%d:" % len(raw) + raw)
+    return sha.hexdigest()
+
+
+def file_digest(path: Path) -> str:
+    """Of the file's content; empty if there is none, so that a file which appears counts as a change."""
+    try:
+        return digest(sealed.regular_content(path))
+    except OSError:
+        return ""
+
+
+@functools.cache
+def engine_digest(*packages: str) -> str:
+    """Of derive's own modules, and of the packages that decide a result with them."""
+    versions = [f"{name}=={package_version(name)}" for name in packages]
+    return digest(folder_digest(FOLDER, "*.py"), *versions)
+
+
+def folder_digest(folder: Path, pattern: str = "*") -> str:
+    """Of the files below the folder, with their names."""
+    files = sorted(p for p in folder.rglob(pattern) if p.is_file() and "__pycache__" not in p.parts)
+    return digest(*(part for p in files for part in (str(p.relative_to(folder)), p.read_bytes())))
+
+
+def package_version(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+@dataclass(frozen=True)
+class Cache:
+    """The values kept in a folder, if there is one; `fresh` finds none of them, and all is made anew and kept again."""
+
+    folder: Path | None = None
+    fresh: bool = False
+    limit: int = LIMIT
+
+    def recalled(self, key: str) -> bytes | None:
+        """What was kept under that digest; nothing if it is not there as it was kept."""
+        if self.folder is None or self.fresh:
+            return None
+        content = sealed.unsealed(self.folder / key, key)
+        if content is not None:
+            with suppress(OSError):  # it may be a file of somebody else
+                os.utime(self.folder / key, follow_symlinks=False)
+        return content
+
+    def recalled_data(self, key: str) -> Any:
+        """Like `recalled`, for data of JSON."""
+        return sealed.data_of(self.recalled(key))
+
+    def keep(self, key: str, content: bytes) -> None:
+        """Keep it, and let go what was used longest ago if that is too much."""
+        if self.folder is None:
+            return
+        sealed.seal(self.folder / key, key, content)
+        room = self.limit
+        for _, size, file in sorted(map(_facts, self.folder.iterdir()), reverse=True):
+            if size <= room:
+                room -= size
+            else:
+                with suppress(OSError):
+                    file.unlink()
+
+    def keep_data(self, key: str, data: Any) -> None:
+        self.keep(key, json.dumps(data).encode())
+
+
+NO_CACHE = Cache()
+
+
+def _facts(file: Path) -> tuple[int, int, Path]:
+    """When a file was used last, and its size; nothing of one that another build has just let go."""
+    try:
+        facts = file.lstat()
+    except OSError:
+        return 0, 0, file
+    return facts.st_mtime_ns, facts.st_size, file

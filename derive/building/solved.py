@@ -1,0 +1,61 @@
+"""A derivation as it is kept from one build to the next, so that a reworded page is not derived again.
+
+It depends on derive's own modules and SymPy, the script, what is given, which steps answer the parts and in what form,
+and the reference; not on words, points and templates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from derive.building.cache import digest, engine_digest
+from derive.course.problem import Problem
+from derive.course.reference.comparison import Remark
+from derive.course.reference.errata import Erratum
+from derive.course.reference.statements import reference_path
+from derive.figures.encoding import drawings_from_data, drawings_to_data
+from derive.figures.marks import Recorded
+from derive.steps.derivation import Derivation, from_json, to_json
+from derive.steps.step import Step
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A problem's steps, those that give its answers their numbers, what its reference says of them, its drawings."""
+
+    derivation: Derivation
+    values: Mapping[str, Step]
+    compared: tuple[Remark, ...]
+    drawings: tuple[Recorded, ...] = ()
+
+    def to_data(self) -> dict[str, Any]:
+        """As data of JSON; a ValueError or RecursionError where JSON cannot hold its numbers or expressions."""
+        return {
+            "derivation": to_json(self.derivation),
+            "answers": list(self.values),
+            "values": to_json(Derivation(tuple(self.values.values()), ())),
+            "compared": [[t.facts, t.here, t.erratum and t.erratum.encoded()] for t in self.compared],
+            "drawings": drawings_to_data(self.drawings),
+        }
+
+    @classmethod
+    def from_data(cls, data: Any) -> Solved | None:
+        """What `to_data` gave; nothing if the data are of any other shape."""
+        try:
+            values = from_json(data["values"])
+            told = tuple(Remark(f, here, Erratum.decoded(e) if e else None) for f, here, e in data["compared"])
+            answers = dict(zip(data["answers"], values.steps, strict=True))
+            return cls(from_json(data["derivation"]), answers, told, drawings_from_data(data["drawings"]))
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            return None
+
+
+def steps_key(problem: Problem) -> str:
+    """A digest of everything that the steps depend on."""
+    files = [problem.root / problem.script_path, problem.root / reference_path(problem)]
+    texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
+    asked = [(part.answers, sorted((str(key), form) for key, form in part.forms.items())) for part in problem.parts]
+    facts = repr((problem.id, problem.givens, problem.symbols, problem.measured, problem.figures, asked))
+    return digest("steps", engine_digest("sympy", "mpmath"), *texts, facts)

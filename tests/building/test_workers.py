@@ -1,0 +1,179 @@
+"""Workers: what they return and raise comes back, and whatever ends them is told; none outlives its parent."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derive.building.workers import Bug, Crew, Job, done, job_of, memory_limit
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from tests.courses import ROOT
+
+
+def test_a_worker_that_takes_too_much_memory_is_told_with_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DERIVE_MEMORY", "0.5")
+    with pytest.raises(BuildFailed, match=r"error\[memory-limit\]: `greedy` took over 0.5 GiB of memory"):
+        done(Job("`greedy`", lambda: bytearray(10**9)))
+
+
+@pytest.mark.parametrize("text", ["much", "0.1", "-1", "1e3", "nan", "4 GiB"])
+def test_a_memory_limit_that_is_none_is_misuse(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+    monkeypatch.setenv("DERIVE_MEMORY", text)
+    with pytest.raises(Misused, match="DERIVE_MEMORY must be a number of GiB"):
+        memory_limit()
+
+
+def imported_loop(folder: Path, body: str) -> Callable[[], Any]:
+    """A script beside a problem's file, as a function."""
+    script = folder / "problems" / "hw1" / "block.py"
+    script.parent.mkdir(parents=True, exist_ok=True)
+    script.write_text(f"import ctypes, os, signal\n\n\ndef solve():\n    {body}\n")
+    spec = spec_from_file_location("block", script)
+    assert spec
+    assert spec.loader
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    solve: Callable[[], Any] = module.solve
+    return solve
+
+
+@pytest.mark.parametrize(
+    ("body", "code"),
+    [
+        ("while True: pass", "time-limit"),
+        ("return bytearray(10**11)", "memory-limit"),
+        ("return solve()", "too-deep"),
+        ("ctypes.string_at(0)", "worker-died"),
+    ],
+)
+def test_a_worker_that_gives_no_answer_is_told_at_the_line_of_its_script(tmp_path: Path, body: str, code: str) -> None:
+    with pytest.raises(BuildFailed) as caught:
+        done(job_of(tmp_path, "hw1/block", imported_loop(tmp_path, body), 1))
+    (complaint,) = caught.value.complaints
+    assert complaint.code == code
+    place = complaint.place
+    assert place
+    assert (place.path, place.line, place.text.strip()) == ("problems/hw1/block.py", 5, body)
+
+
+def test_a_worker_that_is_killed_is_told_with_its_file(tmp_path: Path) -> None:
+    with pytest.raises(BuildFailed) as caught:
+        done(job_of(tmp_path, "hw1/block", lambda: os.kill(os.getpid(), 9)))
+    assert str(caught.value).startswith("problems/hw1/block.yaml:1:1: error[worker-died]: `hw1/block` ended")
+
+
+def test_what_the_system_is_short_of_is_a_complaint() -> None:
+    def short() -> None:
+        raise OSError(24, "Too many open files")
+
+    with pytest.raises(BuildFailed, match=r"error\[system\]: the system refuses: too many files are open"):
+        done(Job("x", short))
+
+
+def test_a_value_that_cannot_cross_to_the_parent_is_a_bug_and_no_hang() -> None:
+    with pytest.raises(Bug):
+        done(Job("x", lambda: lambda: None))
+
+
+def test_an_interrupt_during_a_fork_is_not_lost() -> None:
+    code = (
+        "import os, signal\n"
+        "from derive.building.workers import Job, done\n"
+        "os.register_at_fork(before=lambda: os.kill(os.getpid(), signal.SIGINT))\n"
+        "try: done(Job('x', lambda: 1)); print('lost')\n"
+        "except KeyboardInterrupt: print('heard')\n"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT)
+    assert run.stdout == "heard\n"
+
+
+def test_a_worker_does_not_hold_the_lock_of_its_build(tmp_path: Path) -> None:
+    held: list[bool] = []
+    with open(tmp_path / "lock", "w") as lock:
+        code = "import fcntl, sys; fcntl.lockf(open(sys.argv[1], 'w'), fcntl.LOCK_EX | fcntl.LOCK_NB)"
+        probe = [sys.executable, "-c", code, str(tmp_path / "lock")]
+
+        def while_it_works(_: list[str]) -> None:
+            fcntl.lockf(lock, fcntl.LOCK_EX)
+            held.append(subprocess.run(probe, capture_output=True).returncode != 0)
+            fcntl.lockf(lock, fcntl.LOCK_UN)
+            held.append(subprocess.run(probe, capture_output=True).returncode != 0)
+
+        fcntl.lockf(lock, fcntl.LOCK_EX)
+        with Crew(2, while_it_works) as crew:
+            crew.put(Job("sleeper", lambda: time.sleep(60)))
+            crew.put(Job("next", lambda: None))
+            waiting = crew.outcomes()
+            assert next(waiting).job.name == "next"
+    assert held[:2] == [True, False]
+
+
+def test_a_worker_returns_its_value_and_raises_its_complaint() -> None:
+    assert done(Job("sum", lambda: sum(range(10**5)))) == sum(range(10**5))
+
+    def refuse() -> None:
+        raise DeriveError(Complaint("no", "not today"))
+
+    with pytest.raises(DeriveError, match="not today"):
+        done(Job("refusal", refuse))
+    with pytest.raises(Bug, match="KeyError"):
+        done(Job("bug", lambda: {}["x"]))
+
+
+def test_a_large_value_comes_back_whole() -> None:
+    assert len(done(Job("large", lambda: "x" * 3_000_000))) == 3_000_000
+
+
+def test_killing_a_worker_takes_its_programs_along(tmp_path: Path) -> None:
+    note = tmp_path / "pid"
+
+    def work() -> None:
+        program = subprocess.Popen(["sleep", "60"])
+        note.write_text(str(program.pid))
+        program.wait()
+
+    with pytest.raises(BuildFailed, match="time-limit"):
+        done(Job("sleeper", work, limit=1))
+    assert is_gone(int(note.read_text()))
+
+
+def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+    note = tmp_path / "pid"
+    code = (
+        "import os, pathlib, sys, time\n"
+        "from derive.building.workers import Job, done\n"
+        "def work():\n"
+        "    pathlib.Path(sys.argv[1]).write_text(str(os.getpid()))\n"
+        "    time.sleep(60)\n"
+        "done(Job('sleeper', work))\n"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", code, str(note)])
+    for _ in range(500):
+        if note.is_file() and note.read_text():
+            break
+        time.sleep(0.02)
+    parent.send_signal(signal.SIGKILL)
+    parent.wait()
+    assert is_gone(int(note.read_text()))
+
+
+def is_gone(pid: int) -> bool:
+    for _ in range(500):
+        try:
+            os.kill(pid, 0)
+        except ProcessLookupError:
+            return True
+        if Path(f"/proc/{pid}/stat").is_file() and Path(f"/proc/{pid}/stat").read_text().split(") ")[1][0] == "Z":
+            return True
+        time.sleep(0.02)
+    return False

@@ -1,0 +1,74 @@
+"""Phrases that are broken, missing or told twice are complaints at their line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from derive.errors import Rejected
+from derive.page.phrasebook import read_phrases
+from derive.page.wording import phrases
+from tests.courses import ROOT
+
+PHRASES = ROOT / "templates" / "phrases" / "en"
+PAGE = (PHRASES / "page.yaml").read_text(encoding="utf-8")
+
+
+def with_page(folder: Path, text: str) -> Path:
+    """A folder of templates whose `page.yaml` is this text, the other phrases as they are."""
+    own = folder / "phrases" / "en"
+    own.mkdir(parents=True)
+    for file in PHRASES.iterdir():
+        (own / file.name).symlink_to(file)
+    (own / "page.yaml").unlink()
+    (own / "page.yaml").write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (PAGE, "", "the file must be a table of phrases"),
+        (PAGE, "- 1\n", "the file must be a table of phrases"),
+        ("terms:", "terms: [", "this `[` is not closed"),
+        ("terms:", "tirms:", "there are no phrases of the sort `tirms`"),
+        ("  part: part\n", "  part: 3\n", "`labels.part` must be text"),
+        ("points: [point, points]", "points: point", "`labels.points` must be a list of phrases"),
+        ("points: [point, points]", "points: [point]", "`labels.points` must be the word for one point"),
+        ("grades:\n", "grades: none\nmarks:\n", "`grades` must be a table of phrases"),
+    ],
+)
+def test_broken_phrases_are_told_with_their_file(tmp_path: Path, old: str, new: str, message: str) -> None:
+    with_page(tmp_path, PAGE.replace(old, new, 1))
+    with pytest.raises(Rejected) as caught:
+        read_phrases(tmp_path / "phrases" / "en")
+    complaint = caught.value.complaints[0]
+    assert message in complaint.message
+    assert complaint.place
+    assert complaint.place.path == "templates/phrases/en/page.yaml"
+
+
+@pytest.mark.parametrize("phrase", ["<<r", "<<rr>>", "<<1/0>>", "<% if %>", "<<symbol.x.y>>"])
+def test_a_phrase_that_cannot_be_filled_is_told_at_its_line(tmp_path: Path, phrase: str) -> None:
+    from derive.page.wording import filled
+
+    with_page(tmp_path, PAGE.replace("along: along", f"along: {json.dumps(phrase)}", 1))
+    with pytest.raises(Rejected) as caught:
+        filled(phrases(tmp_path).labels["along"], {"symbol": 1})
+    place = caught.value.complaints[0].place
+    assert place
+    assert (place.path, place.text.strip()) == ("templates/phrases/en/page.yaml", f"along: {json.dumps(phrase)}")
+
+
+def test_a_phrase_that_two_files_have_is_told(tmp_path: Path) -> None:
+    with_page(tmp_path, PAGE + "routes:\n  rotation.torque:\n    carried_round: once more\n")
+    with pytest.raises(Rejected, match=r"another file has `routes\.rotation\.torque` too"):
+        read_phrases(tmp_path / "phrases" / "en")
+
+
+def test_a_label_that_is_missing_is_told_and_not_a_key_error(tmp_path: Path) -> None:
+    with_page(tmp_path, PAGE.replace("  second_route: second route\n", ""))
+    with pytest.raises(Rejected, match="the phrases have no `second_route` under `labels`"):
+        phrases(tmp_path).labels["second_route"]
