@@ -271,10 +271,11 @@ class Values:
         arguments = [self._of(arg) for arg in expr.args]
         if name in _GROWING and abs(arguments[0]) > _LARGEST or any(_bits(x) > _MOST for x in arguments):
             raise NoNumber(expr)
-        if name in _ONE_ARGUMENT:
-            return _ONE_ARGUMENT[name](arguments[0])
-        taken = _OTHERS.get(name)
-        return self._by_sympy(expr) if taken is None else taken(*arguments)
+        taken = _ONE_ARGUMENT.get(name) or _OTHERS.get(name)
+        value = taken(*arguments) if taken else self._by_sympy(expr)
+        if not mp.isfinite(value):  # infinite is no value: it would be as near to any other
+            raise Undefined(expr)
+        return value
 
     def _piece(self, expr: Expr) -> Any:
         for value, condition in expr.args:

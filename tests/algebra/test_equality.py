@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import islice
 from typing import Any
 
 import pytest
@@ -52,7 +51,6 @@ from sympy import (
 from derive.algebra.equality import Grade, Verdict, equal
 from derive.algebra.expressions import PLUS_MINUS, Cross, Dot, Relation, column, rate
 from derive.algebra.normal_form import vanishes
-from derive.algebra.samples import points, seed_of
 
 x, y, t = symbols("x y t", real=True)
 a, b, c = symbols("a b c", positive=True)
@@ -458,21 +456,6 @@ def test_a_quotient_that_is_nothing_by_nothing_everywhere_equals_nothing(left: E
     assert not vanishes(left - right)
     assert equal(left, right).grade is Grade.REFUTED
     assert equal(right, left).grade is Grade.REFUTED
-
-
-def test_points_are_of_several_scales_and_of_both_signs() -> None:
-    drawn = list(islice(points({x, a}, 7), 26))
-    for letter, signs in ((x, {1, -1}), (a, {1})):
-        values = [point[letter] for point in drawn]
-        assert {1 if value > 0 else -1 for value in values} == signs
-        assert min(map(abs, values)) < Rational(1, 10**12) and max(map(abs, values)) > 10**6
-        assert all(Rational(1, 10) < abs(value) < 10 for value in values[:6])
-
-
-def test_each_comparison_has_points_of_its_own_and_the_same_ones_in_every_run() -> None:
-    assert seed_of(sin(x) / 3, x**2) == 3165798072
-    assert seed_of(x**2, sin(x) / 3) != seed_of(sin(x) / 3, x**2)
-    assert next(points({x}, 1)) == next(points({x}, 1)) != next(points({x}, 2))
 
 
 @pytest.mark.parametrize(

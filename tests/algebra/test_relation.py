@@ -7,8 +7,9 @@ from itertools import product
 import pytest
 from sympy import Expr, ImmutableMatrix, Integer, Rational, Symbol, cos, nan, sin, sqrt
 
+from derive.algebra.dimensions import Inhomogeneous, dimension_of_kind
 from derive.algebra.equality import Grade, equal
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import Dot, Relation, column
 
 a, b, k = (Symbol(name, positive=True) for name in "abk")
 x, y, theta = (Symbol(name, real=True) for name in ("x", "y", "theta"))
@@ -175,3 +176,31 @@ def test_equations_of_vectors_are_compared_entry_by_entry() -> None:
     assert equal(says(u, "=", zero), says(zero, "=", v)).grade is Grade.PROVED
     for other in (says(u, "!=", zero), says(2 * u, "=", zero), says(u, "=", v), says(x, "=", 0)):
         assert not equal(says(u, "=", zero), other)
+
+
+# --- the node itself -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("mark", "word", "text"),
+    [("=", "equals", "Eq"), ("!=", "unequal", "Ne"), ("<", "less", "Lt"), (">=", "at_least", "Ge")],
+)
+def test_a_relation_has_a_word_for_its_mark_and_is_one_to_sympy(mark: str, word: str, text: str) -> None:
+    relation = says(x, mark, 2)
+    assert (relation.word, str(relation)) == (word, f"x {mark} 2")
+    assert relation.lowered(str) == f"{text}(x, 2, evaluate=False)"
+
+
+def test_its_sides_are_exact_numbers_and_are_carried_out() -> None:
+    relation = says(Dot(column(x, 0, 0), column(y, 0, 0)), "<", 3)
+    assert relation.right == Integer(3)
+    assert relation.doit() == says(x * y, "<", 3) != relation
+    assert relation.doit().residual == x * y - 3
+    assert relation.mark == relation.doit().mark == "<"
+
+
+def test_both_sides_have_one_dimension() -> None:
+    of = {a: dimension_of_kind("length"), b: dimension_of_kind("length"), k: dimension_of_kind("mass")}.get
+    assert says(a, "=", b).dimension(of) == dimension_of_kind("length")
+    with pytest.raises(Inhomogeneous, match="`k` is a mass, but `a` is a length"):
+        says(a, "=", k).dimension(of)

@@ -1,0 +1,82 @@
+"""How lines about a motion are written: another form of the same value, the highest rates first."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sympy import Add, Expr, Rational, cos, expand, sin, symbols
+
+from derive.algebra.collect import by_accelerations, by_products, by_rates, by_terms, spread, spread_or_by_terms
+from derive.algebra.equality import equal
+from derive.algebra.expressions import rate
+
+M, a, I = symbols("M a I", positive=True)
+q, w_x, w_y, w_z = symbols("q w_x w_y w_z", real=True)
+p, p_dot, p_ddot = q, rate(q), rate(q, 2)
+
+
+def test_accelerations_stand_first_each_with_one_factor() -> None:
+    value = M * a * sin(q) + M * a**2 * p_ddot + I * p_ddot + M * p_dot**2
+    written = by_accelerations(value, [q])
+    assert equal(written, value)
+    assert written.coeff(p_ddot) == I + M * a**2
+    assert len(Add.make_args(written)) == 3
+
+
+def test_half_of_a_mass_stands_before_its_squared_rate() -> None:
+    value = I * p_dot**2 / 2 + M * a**2 * p_dot**2 / 8
+    written = by_rates(value, [q], halves=True)
+    assert set(written.args) == {Rational(1, 2), I + M * a**2 / 4, p_dot**2}
+    assert equal(written, value)
+
+
+@pytest.mark.parametrize("value", [p_dot - p_dot, M * a - a * M])
+def test_nothing_stays_nothing_however_it_is_written(value: Expr) -> None:
+    assert by_rates(value, [q]) == 0
+    assert by_products(value, [q]) == 0
+
+
+@pytest.mark.parametrize("value", [1 / p_dot, sin(p_dot) + p_dot, M * p_dot ** Rational(1, 2), M / (1 + p_dot)])
+def test_what_is_no_polynomial_in_the_rates_is_only_tidied(value: Expr) -> None:
+    for written in (by_rates(value, [q]), by_products(value, [q])):
+        assert equal(written, value)
+
+
+def test_a_difference_before_a_product_is_subtracted() -> None:
+    I_x, I_y, I_z = symbols("I_x I_y I_z", positive=True)
+    value = I_x * rate(w_x) - I_y * w_y * w_z + I_z * w_y * w_z
+    written = by_products(value, [w_x, w_y, w_z])
+    assert -w_y * w_z * (I_y - I_z) in Add.make_args(written)
+    assert equal(written, value)
+
+
+@pytest.mark.parametrize(
+    ("value", "written"),
+    [
+        ((4 * I + M * a**2) / 4, I + M * a**2 / 4),
+        ((I + M * a**2) / 4, (I + M * a**2) / 4),
+        (3 * I * (4 * I + M) / 4, 3 * I * (I + M / 4)),
+        (M * a / 3, M * a / 3),
+    ],
+)
+def test_a_number_below_a_sum_is_put_in_where_that_makes_a_term_simpler(value: Expr, written: Expr) -> None:
+    assert spread(value) == written
+
+
+def test_a_sum_keeps_its_terms_and_a_power_below_is_written_as_one() -> None:
+    assert by_terms(M + a / 2) == M + a / 2
+    assert str(by_terms(M / (a**2 + 2 * a * I + I**2))) == "M/(I + a)**2"
+
+
+@pytest.mark.parametrize(
+    ("value", "others"),
+    [(M / a + I / a, ()), (expand((M + a) * (I + a)), ()), (M / sin(q) + I * cos(q) / sin(q), (M / sin(q),))],
+)
+def test_the_shortest_form_or_the_one_that_was_offered_has_the_same_value(value: Expr, others: Any) -> None:
+    written = spread_or_by_terms(value, *others)
+    if others:
+        assert written == others[0], "with angles below, what the verb offers is taken"
+    else:
+        assert equal(written, value)
+        assert written.count_ops() <= value.count_ops()
