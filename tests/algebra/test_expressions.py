@@ -143,3 +143,23 @@ def test_entries_of_an_unevaluated_vector_are_those_of_its_value() -> None:
     assert ex.Cross(u, v)[0, 0] == 2 * z - 3 * y
     assert ex.MatrixAmount(u, "g", Rational(1, 1000))[2, 0] == Rational(3, 1000)
     assert ex.Outer(u, u)[1, 2] == 6
+
+
+def test_matrices_become_explicit_unless_a_name_is_left() -> None:
+    u, v = vector("u"), vector("v")
+    assert explicit(2 * u + v) == 2 * u + v
+    assert explicit(column(1, 0, 0) + column(0, 2, 0)) == column(1, 2, 0)
+
+
+@pytest.mark.parametrize("number", [1.5, "1", None, 2j])
+def test_only_an_exact_number_is_taken(number: object) -> None:
+    assert explicit(3) == 3
+    with pytest.raises(TypeError, match="is no exact number"):
+        explicit(number)
+
+
+def test_only_the_outer_node_is_carried_out_where_that_is_asked_for() -> None:
+    x = scalar("x")
+    terms = ex.Terms(ex.Dot(column(x, 0, 0), column(2, 0, 0)), 1)
+    assert terms.doit() == 2 * x + 1
+    assert terms.doit(deep=False).has(ex.Dot)

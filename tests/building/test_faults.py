@@ -16,10 +16,9 @@ from derive.building.set_document import problem_document, set_document, sheet_d
 from derive.building.sets import Options, Report, built_set
 from derive.building.tex import chosen_engine, typeset
 from derive.cli.options import main
-from derive.cli.terminal import complain
 from derive.course import problem_set as sets_of_problems
 from derive.course.problem_set import ProblemSet, problem_set
-from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Rejected
+from derive.errors import BuildFailed, DeriveError, Misused, Rejected
 from derive.render.rendered import Rendered
 from tests.courses import ROOT, course_in, rendered_once
 
@@ -186,12 +185,6 @@ def test_a_lock_that_is_a_link_leaves_alone_what_it_leads_to(course: Course) -> 
     with pytest.raises(BuildFailed, match="a link stands where a file should be"):
         built(course)
     assert (course.root / "victim").read_text() == "mine"
-
-
-def test_of_very_many_faults_fifty_are_told_and_the_rest_counted(capsys: pytest.CaptureFixture[str]) -> None:
-    complain(Complaint("x", f"fault {n}") for n in range(20_000))
-    lines = capsys.readouterr().err.splitlines()
-    assert (len(lines), lines[-2:]) == (51, ["error[x]: fault 49", "and 19950 more"])
 
 
 def test_thousands_of_faults_in_one_line_are_found_in_no_time(tmp_path: Path) -> None:

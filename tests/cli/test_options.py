@@ -1,0 +1,82 @@
+"""The options of the command line: defaults, limits, and what the commands are handed."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+import pytest
+
+from derive.cli import commands
+from derive.cli.options import main
+
+
+@pytest.fixture
+def handed(monkeypatch: pytest.MonkeyPatch) -> list[Namespace]:
+    """What the commands are handed, which then do nothing."""
+    found: list[Namespace] = []
+
+    def take(arguments: Namespace) -> int:
+        found.append(arguments)
+        return 7
+
+    monkeypatch.setattr(commands, "exit_code", take)
+    return found
+
+
+def test_a_command_has_its_defaults_and_its_exit_code_is_passed_on(handed: list[Namespace]) -> None:
+    assert main(["build"]) == 7
+    (found,) = handed
+    assert (found.command, found.sets, found.force, found.jobs, found.detail) == ("build", [], False, 0, None)
+    assert (found.engine, found.time_limit, found.root) == (None, 120.0, None)
+
+
+def test_options_are_read_wherever_they_stand(handed: list[Namespace]) -> None:
+    main(["--root", "course", "solve", "-o", "-", "hw9/block", "--format", "json", "--detail", "full"])
+    (found,) = handed
+    assert (found.root, found.id, found.output, found.format, found.detail) == (
+        "course",
+        "hw9/block",
+        "-",
+        "json",
+        "full",
+    )
+    main(["check", "hw9", "hw1/one", "-j", "3", "--time-limit", "0.5"])
+    assert (handed[1].ids, handed[1].jobs, handed[1].time_limit) == (["hw9", "hw1/one"], 3, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "COMMAND"),
+        (["bild"], "bild"),
+        (["solve"], "ID"),
+        (["solve", "hw9/block", "--format", "word"], "word"),
+        (["build", "--detail", "none"], "none"),
+        (["build", "--time-limit", "0"], "invalid time limit value: '0'"),
+        (["build", "--time-limit", "inf"], "invalid time limit value: 'inf'"),
+        (["build", "--time-limit", "nan"], "invalid time limit value: 'nan'"),
+        (["check", "-j", "0"], "invalid count value: '0'"),
+        (["check", "-j", "1.5"], "invalid count value: '1.5'"),
+        (["list", "hw9"], "hw9"),
+    ],
+)
+def test_what_is_no_command_line_is_wrong_usage(
+    handed: list[Namespace], arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(arguments)
+    assert ended.value.code == 2
+    assert said in capsys.readouterr().err
+    assert handed == []
+
+
+def test_each_command_has_help_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--help"])
+    assert ended.value.code == 0
+    whole = capsys.readouterr().out
+    for command in ("list", "solve", "check", "build", "doctor"):
+        assert f"\n    {command} " in whole
+        with pytest.raises(SystemExit):
+            main([command, "--help"])
+        assert capsys.readouterr().out.startswith(f"usage: derive {command} ")

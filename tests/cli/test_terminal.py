@@ -1,0 +1,74 @@
+"""What the command line shows: each fault once, columns aligned, colour and progress on a terminal alone."""
+
+from __future__ import annotations
+
+import io
+import sys
+
+import pytest
+
+from derive.cli.terminal import MOST, complain, table, tell
+from derive.errors import Complaint, Place
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("COLUMNS", "20")
+    shown = Terminal()
+    monkeypatch.setattr(sys, "stderr", shown)
+    return shown
+
+
+def test_of_very_many_faults_fifty_are_told_and_the_rest_counted(capsys: pytest.CaptureFixture[str]) -> None:
+    complain(Complaint("x", f"fault {n}") for n in range(20_000))
+    lines = capsys.readouterr().err.splitlines()
+    assert (len(lines), lines[-2:]) == (MOST + 1, ["error[x]: fault 49", "and 19950 more"])
+
+
+def test_the_same_fault_is_told_once_in_the_order_of_the_first(capsys: pytest.CaptureFixture[str]) -> None:
+    one, two = Complaint("x", "one"), Complaint("x", "two", severity="warning")
+    complain([two, one, two, one])
+    assert capsys.readouterr().err == "warning[x]: two\nerror[x]: one\n"
+    complain([])
+    assert capsys.readouterr().err == ""
+
+
+def test_only_the_head_of_a_fault_has_colour(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = on_a_terminal(monkeypatch)
+    fault = Complaint("bad", "error[x]: in words", Place("a.yaml", 1, 1, "error[y]:", 1))
+    complain([fault])
+    assert terminal.getvalue().count("\x1b[1;31m") == 1
+    assert "\x1b[1;31merror[bad]:\x1b[0m error[x]" in terminal.getvalue()
+    complain([Complaint("odd", "x", severity="warning")])
+    assert "\x1b[1;33mwarning[odd]:" in terminal.getvalue()
+    monkeypatch.setenv("NO_COLOR", "1")
+    before = terminal.getvalue()
+    complain([fault])
+    assert "\x1b" not in terminal.getvalue().removeprefix(before)
+
+
+def test_progress_is_one_line_that_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = on_a_terminal(monkeypatch)
+    tell("x" * 40)
+    tell("")
+    assert terminal.getvalue() == "\r\x1b[K" + "x" * 19 + "\r\x1b[K"
+
+
+def test_progress_is_silent_in_a_pipe(capsys: pytest.CaptureFixture[str]) -> None:
+    tell("derived 1 of 2")
+    assert capsys.readouterr() == ("", "")
+
+
+def test_words_stand_to_the_left_and_numbers_to_the_right() -> None:
+    rows = [("problem", "lines", "s"), ("hw9/block", "83", "1.5"), ("hw9/top", "7", "12.25")]
+    assert table(rows).splitlines() == [
+        "problem    lines      s",
+        "hw9/block     83    1.5",
+        "hw9/top        7  12.25",
+    ]
+    assert table([("a", "b"), ("", "x")]) == "a  b\n   x"

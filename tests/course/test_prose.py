@@ -1,0 +1,75 @@
+"""Prose: its mentions in their places, and what only looks like one."""
+
+from __future__ import annotations
+
+import pytest
+
+from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention, Prose, read_prose
+from derive.course.yaml_tree import Mapping, Source, yaml_tree
+from derive.errors import Complaint, Faults, Rejected
+
+
+def read(text: str) -> tuple[Prose | None, tuple[Complaint, ...]]:
+    """The prose of the one key of a file, and what is wrong with it."""
+    tree = yaml_tree(Source("x.yaml", text))
+    assert isinstance(tree, Mapping)
+    faults = Faults()
+    prose = read_prose(tree.pairs[0][1], "title", faults)
+    try:
+        faults.stop()
+    except Rejected as rejected:
+        return prose, rejected.complaints
+    return prose, ()
+
+
+def prose(text: str) -> Prose:
+    found, faults = read(text)
+    assert found is not None
+    assert faults == ()
+    return found
+
+
+def test_text_and_mentions_come_in_their_order() -> None:
+    found = prose("title: A top of <<mass>>, by <<eq torque>> and << problem hw-1 >> of <<figure axes>>")
+    pieces = [(p.of, p.name) if isinstance(p, Mention) else p for p in found.pieces]
+    assert pieces == [
+        "A top of ",
+        ("", "mass"),
+        ", by ",
+        (EQUATION, "torque"),
+        " and ",
+        (PROBLEM, "hw-1"),
+        " of ",
+        (FIGURE, "axes"),
+    ]
+    assert [mention.name for mention in found.mentions] == ["mass", "torque", "hw-1", "axes"]
+
+
+def test_a_mention_stands_where_it_is_written() -> None:
+    found = prose("title: A top of <<mass>>, <<mass>> and <<rate>>")
+    assert (found.place_of("mass").column, found.place_of("mass").width) == (17, 8)
+    assert found.place_of("rate").column == 40
+    assert found.place_of("nothing") == found.place
+
+
+@pytest.mark.parametrize("text", ["'plain $x$ % \\textbf{a} {{b}} {% if %}'", "a < b", "a > b >> c"])
+def test_other_signs_are_text(text: str) -> None:
+    assert prose(f"title: {text}").pieces == (text.strip("'"),)
+
+
+@pytest.mark.parametrize("odd", ["<<a b>>", "<<1>>", "<<>>", "<<a.b>>", "<<a", "<< c", "<%if%>", "<# a #>", "<<é>>"])
+def test_what_is_almost_a_mention_is_told_at_its_place(odd: str) -> None:
+    _, faults = read(f'title: "say {odd}"')
+    assert [(fault.code, fault.place and fault.place.column) for fault in faults] == [("mention", 13)]
+
+
+def test_a_comment_that_cuts_a_text_short_is_told_and_one_in_quotes_is_text() -> None:
+    assert [fault.code for fault in read("title: sheet #3")[1]] == ["comment-in-text"]
+    assert prose("title: 'sheet #3'").text == "sheet #3"
+    assert prose("title: sheet#3").text == "sheet#3"
+
+
+def test_a_list_is_no_text() -> None:
+    found, faults = read("title: [a, b]")
+    assert found is None
+    assert faults[0].message == "`title` must be text, but it is a list"
