@@ -1,0 +1,86 @@
+"""How a page counts its checks: by the least sure line, by the surest route, and routes by the results they reached."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from sympy import symbols
+
+from derive.algebra.expressions import scalar
+from derive.page.checks import COUNTED, Checks, checks_of
+from derive.page.wording import Phrases, Text, phrases
+from derive.steps.establish import establish
+from derive.steps.step import Step, compared_with
+from tests.courses import ROOT
+
+a, b = symbols("a b", positive=True)
+
+
+@pytest.fixture(scope="module")
+def words() -> Phrases:
+    return phrases(ROOT / "templates")
+
+
+def step(key: str, *claims: str, definition: bool = False) -> Step:
+    """(a + b)^2 by a rule whose second routes have words."""
+    routes = dict.fromkeys(claims, compared_with(lambda: a**2 + 2 * a * b + b**2))
+    made = establish(
+        "test.square", scalar("s"), lambda: (a + b) ** 2, {}, key=key, routes=routes, definition=definition
+    )
+    return made.step
+
+
+def told(outcome: str, erratum: Any = None) -> Any:
+    return SimpleNamespace(outcome=outcome, erratum=erratum)
+
+
+class OwnWords:
+    """A route is told by its claim."""
+
+    def route(self, step: Step, claim: str) -> str:
+        return f"by {claim}"
+
+
+def counted(*steps: Step, compared: Any = ()) -> Checks:
+    return checks_of(steps, OwnWords(), compared)  # type: ignore[arg-type]
+
+
+def test_steps_lines_and_routes_are_counted_apart() -> None:
+    counts = counted(step("one", "halves", "sum"), step("two", "sum"), step("named", definition=True)).counts()
+    assert (counts["steps_proved"], counts["steps_definition"], counts["steps_sampled"]) == (2, 1, 0)
+    assert (counts["routes"], counts["routes_proved"]) == (3, 3)
+    assert counts["lines"] == sum(len(s.chain) - 1 for s in (step("one", "sum"), step("two", "sum"), step("x", "sum")))
+
+
+def test_results_of_one_rule_that_had_the_same_routes_are_told_together() -> None:
+    ways = counted(step("one", "sum"), step("two", "sum"), step("three", "sum", "halves")).ways
+    assert [(way.steps, way.routes) for way in ways] == [
+        (("one", "two"), ("by sum",)),
+        (("three",), ("by sum", "by halves")),
+    ]
+
+
+def test_statements_are_counted_by_how_they_compare() -> None:
+    erratum = object()
+    checks = counted(compared=[told("agrees"), told("agrees to 4 figures"), told("agrees"), told("erratum", erratum)])
+    assert (checks.agree, checks.agree_to_figures, checks.errata) == (2, 1, (erratum,))
+    assert checks.compared == 4
+
+
+def test_nothing_at_all_counts_nothing() -> None:
+    assert set(counted().counts().values()) == {0}
+
+
+def test_every_grade_that_a_step_may_have_is_a_column(words: Phrases) -> None:
+    counts = counted().counts()
+    assert {f"steps_{grade.value}" for grade in COUNTED} <= set(counts)
+    (_, columns), *_ = words.labels["checked_page"]["columns"].items()
+    assert len(columns) == len(COUNTED)
+
+
+def test_the_closing_note_says_how_many_lines_there_are(words: Phrases) -> None:
+    checks = counted(step("one", "sum"))
+    said = "".join(node.text for node in checks.closing(words) if isinstance(node, Text))
+    assert str(checks.counts()["lines"]) in said

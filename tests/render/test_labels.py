@@ -1,0 +1,69 @@
+"""Labels stand beside what they name and on nothing else."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Any
+
+from derive.render.drawing.labels import Bullet, Placed, Stroke, Tag, placed
+
+WIDTH, HEIGHT = 12.0, 8.0
+
+
+def labels(*pieces: Any) -> list[Placed]:
+    return placed(pieces, lambda _: (WIDTH, HEIGHT))
+
+
+def middle(label: Placed) -> tuple[float, float]:
+    left, below, right, above = label.extent
+    return (left + right) / 2, (below + above) / 2
+
+
+def covers(label: Placed, x: float, y: float) -> bool:
+    left, below, right, above = label.extent
+    return left < x < right and below < y < above
+
+
+def test_a_label_alone_stands_on_the_side_that_was_asked_for() -> None:
+    for towards in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0)):
+        (label,) = labels(Tag("a", (0.0, 0.0), towards))
+        x, y = middle(label)
+        assert x * towards[0] + y * towards[1] > 0
+        assert abs(x * towards[1] - y * towards[0]) < 1e-9
+        assert not covers(label, 0, 0)
+        assert label.corner == label.extent[:2]
+        assert (label.extent[2] - label.extent[0], label.extent[3] - label.extent[1]) == (WIDTH, HEIGHT)
+
+
+def test_a_label_evades_a_line_and_stays_near() -> None:
+    line = Stroke(((-100.0, 9.0), (100.0, 9.0)), "edge")
+    (label,) = labels(line, Tag("a", (0.0, 0.0), (0.0, 1.0)))
+    assert not any(covers(label, x, 9.0) for x in range(-100, 101))
+    assert hypot(*middle(label)) < 30
+
+
+def test_a_label_evades_a_point() -> None:
+    (free,) = labels(Tag("a", (0.0, 0.0), (1.0, 0.0)))
+    spot = middle(free)
+    (label,) = labels(Bullet(spot), Tag("a", (0.0, 0.0), (1.0, 0.0)))
+    assert not covers(label, *spot)
+
+
+def test_the_first_label_chooses_first_and_no_two_overlap() -> None:
+    tags = [Tag(name, (0.0, 0.0), (1.0, 0.0)) for name in "abc"]
+    found = labels(*tags)
+    assert found[0] == labels(tags[0])[0]
+    assert [label.label for label in found] == ["a", "b", "c"]
+    for i, one in enumerate(found):
+        for other in found[:i]:
+            apart = [one.extent[n] >= other.extent[n + 2] or other.extent[n] >= one.extent[n + 2] for n in (0, 1)]
+            assert any(apart)
+
+
+def test_a_larger_gap_is_further_away() -> None:
+    near, far = (labels(Tag("a", (0.0, 0.0), (1.0, 0.0), gap))[0] for gap in (3.0, 10.0))
+    assert middle(far)[0] - middle(near)[0] == 7.0
+
+
+def test_without_labels_nothing_is_placed() -> None:
+    assert labels(Bullet((0.0, 0.0))) == []

@@ -1,0 +1,82 @@
+"""A layout as LaTeX, and text that TeX prints as it is."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from derive.errors import Rejected
+from derive.render.notation.latex import FUNCTIONS, MARKS, escaped, latex, unit_latex, unprintable
+from derive.render.notation.layout import Applied, Fenced, Fraction, Layout, Mark, Name, Number, Raised, RootSign, Row
+
+
+@pytest.mark.parametrize(
+    ("layout", "tex"),
+    [
+        (Name("omega", "x"), r"\omega_{x}"),
+        (Name("omega", "omega"), r"\omega_{\omega}"),
+        (Name("I", "rod_xx"), r"I_{\mathrm{rod},xx}"),
+        (Name("I", "a_x"), r"I_{ax}"),
+        (Name("mass"), r"\mathit{mass}"),
+        (Name("theta", dots=2), r"\ddot{\theta}"),
+        (Raised(Name("L'"), Number("2")), r"{L'}^{2}"),
+        (RootSign(Name("a")), r"\sqrt{a}"),
+        (Fraction(Number("1"), Number("2")), r"\frac{1}{2}"),
+        (Row((Name("a"), Mark("at_most"), Name("b"))), r"a\le b"),
+    ],
+)
+def test_a_layout_has_its_tex(layout: Layout, tex: str) -> None:
+    assert latex(layout) == tex
+
+
+def test_a_fraction_in_a_line_of_text_is_small() -> None:
+    half = Fraction(Number("1"), Number("2"))
+    assert latex(half, inline=True) == r"\tfrac{1}{2}"
+    assert latex(half, inline=True) != latex(half)
+
+
+@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+def test_a_function_is_a_command(name: str) -> None:
+    assert latex(Applied(name, Fenced(Name("x")))).startswith(f"\\{name}")
+
+
+@pytest.mark.parametrize("kind", MARKS)
+def test_a_mark_does_not_run_into_the_letter_behind_it(kind: str) -> None:
+    commands = re.findall(r"\\[A-Za-z]+", latex(Row((Name("a"), Mark(kind), Name("b")))))
+    assert not [command for command in commands if command.endswith("b")]
+
+
+@pytest.mark.parametrize(
+    ("unit", "tex"),
+    [
+        ("kg m^2/s", r"\mathrm{kg\,m^{2}/s}"),
+        ("m^(3/2)/s^2", r"\mathrm{m^{3/2}/s^{2}}"),
+        ("1/s", r"\mathrm{1/s}"),
+        ("%", r"\mathrm{\%}"),
+        ("degree", r"\mathrm{{}^\circ}"),
+    ],
+)
+def test_a_unit_stands_upright(unit: str, tex: str) -> None:
+    assert unit_latex(unit) == tex
+
+
+@pytest.mark.parametrize("character", list('\\{}$&#^_%~<>"'))
+def test_no_character_of_a_text_is_a_command(character: str) -> None:
+    tex = escaped(f"a{character}b")
+    assert tex != f"a{character}b"
+    assert tex.startswith("a")
+    assert tex.endswith("b")
+
+
+def test_text_of_letters_is_left_as_it_is_and_greek_is_set_as_mathematics() -> None:
+    assert escaped("A block, 2 x 3 (see 1/2)") == "A block, 2 x 3 (see 1/2)"
+    assert r"\omega" in escaped("ω")
+
+
+def test_what_the_fonts_do_not_have_is_told_by_its_place() -> None:
+    assert unprintable("a block ω") is None
+    assert unprintable("ab\u4e2dc") == 2
+    assert unprintable("Ж") == 0
+    with pytest.raises(Rejected, match="has a character that cannot be printed"):
+        escaped("\u4e2d")

@@ -1,0 +1,128 @@
+"""How factors stand side by side: their order, what is drawn together, and where a dot keeps them apart."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Integer, Matrix, Rational, pi, sqrt, symbols
+
+from derive.algebra.dimensions import NUMBER, dimension_of_kind
+from derive.algebra.expressions import explicit
+from derive.render.notation.layout import Applied, Fenced, Fraction, Layout, Mark, Name, Number, Raised, Row
+from derive.render.notation.products import (
+    accelerations_first,
+    between,
+    decimal,
+    number_and_letters,
+    positive_first,
+    present,
+    rank_of_dimension,
+    root_cancelled,
+    roots_together,
+    side_by_side,
+    with_content_apart,
+)
+from derive.render.notation.text import plain
+
+a, b, M, g = symbols("a b M g", positive=True)
+A, B, TWO = Name("a"), Name("b"), Number("2")
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Rational(3, 2), "1.5"),
+        (Rational(-1, 8), "-0.125"),
+        (Integer(12), "12"),
+        (Rational(1, 3), "1/3"),
+        (Rational(-7, 6), "-7/6"),
+        (Integer(0), "0"),
+    ],
+)
+def test_a_number_is_decimal_where_it_can_be(number: Rational, text: str) -> None:
+    assert plain(decimal(number)) == text
+
+
+def test_a_common_factor_stands_before_a_vector_and_changes_nothing() -> None:
+    vector = Matrix([2 * a * M, 4 * a * M, 0])
+    shown = present(vector)
+    assert shown != vector
+    assert explicit(shown) == explicit(vector)
+    for plain_one in (Matrix([a, b, 0]), Matrix([0, 0, 0]), a * M):
+        assert present(plain_one) == plain_one
+
+
+@pytest.mark.parametrize(
+    ("above", "below", "shown"),
+    [
+        ([sqrt(14)], [Integer(14)], ([], [sqrt(14)])),
+        ([sqrt(14)], [Integer(7)], ([2], [sqrt(14)])),
+        ([sqrt(14), a], [Integer(168)], ([a], [12, sqrt(14)])),
+        ([sqrt(42)], [Integer(28)], ([sqrt(42)], [28])),
+        ([a], [Integer(14)], ([a], [14])),
+        ([sqrt(14)], [a], ([sqrt(14)], [a])),
+    ],
+)
+def test_a_root_is_cancelled_where_that_is_shorter(above: list, below: list, shown: tuple) -> None:
+    assert root_cancelled(above, below) == shown
+
+
+def test_numbers_are_one_fraction_and_roots_behind_it() -> None:
+    assert number_and_letters(13 * sqrt(14) * pi * a / 12) == ([Rational(13, 12), pi, sqrt(14)], [a])
+    assert number_and_letters(a) == ([], [a])
+    assert with_content_apart(12 * a + 12 * b) == (12, a + b)
+    assert with_content_apart(a / 2 + b) == (a / 2 + b,)
+
+
+def test_roots_of_letters_are_one_root_and_keep_their_value() -> None:
+    expr = sqrt(M) * sqrt(g) / sqrt(a + b)
+    together = roots_together(expr)
+    assert together != expr
+    assert (explicit(together) / expr).simplify() == 1
+
+
+def test_positive_terms_and_accelerations_lead() -> None:
+    q_dot, q_ddot = symbols("q_dot q_ddot", real=True)
+    assert positive_first([-(a**2), b**2]) == [b**2, -(a**2)]
+    assert positive_first([-a, -b]) == [-a, -b]
+    assert accelerations_first([g, M * q_dot**2, a * q_dot, M * q_ddot]) == [M * q_ddot, a * q_dot, g, M * q_dot**2]
+    assert positive_first([]) == accelerations_first([]) == []
+
+
+def test_masses_stand_before_accelerations_lengths_numbers_and_rates() -> None:
+    kinds = ["mass", "moment of inertia", "acceleration", "length", "density", "angular speed"]
+    ranks = [rank_of_dimension(dimension_of_kind(kind)) for kind in kinds]
+    assert ranks == sorted(ranks)
+    assert ranks[0] == ranks[1] < ranks[2]
+    assert rank_of_dimension(None) == rank_of_dimension(NUMBER) == rank_of_dimension(dimension_of_kind("density"))
+
+
+@pytest.mark.parametrize(
+    ("items", "text"),
+    [
+        ([TWO, A], "2a"),
+        ([A, TWO], "a·2"),
+        ([Applied("cos", A), B], "cos a·b"),
+        ([Applied("cos", Fenced(A)), B], "cos(a) b"),
+        ([Fenced(A), Fenced(B)], "(a) (b)"),
+    ],
+)
+def test_a_dot_stands_where_factors_would_run_together(items: list[Layout], text: str) -> None:
+    assert plain(side_by_side(items)) == text
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "mark"),
+    [
+        (A, B, None),
+        (A, A, Mark("dot")),
+        (A, TWO, Mark("dot")),
+        (TWO, A, Mark("space")),
+        (A, Fenced(B), Mark("space")),
+        (A, Applied("sin", B), Mark("space")),
+        (Raised(A, TWO), B, None),
+        (Fraction(A, TWO), B, Mark("dot")),
+        (Row((A, Name("d"))), Name("L", style="vector"), Mark("space")),
+    ],
+)
+def test_what_stands_between_two_factors_as_they_are_written(before: Layout, after: Layout, mark: Mark | None) -> None:
+    assert between(before, after) == mark

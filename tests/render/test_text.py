@@ -1,0 +1,82 @@
+"""A layout as text: on a line where it fits, brackets where paper needs none, boxes beside each other."""
+
+from __future__ import annotations
+
+import pytest
+
+from derive.render.notation.layout import (
+    Applied,
+    Array,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Mark,
+    Name,
+    Number,
+    Raised,
+    RootSign,
+    Row,
+    Word,
+)
+from derive.render.notation.text import Box, columns, plain, to_the_right
+
+A, B, TWO = Name("a"), Name("b"), Number("2")
+
+
+def row(*items: Layout) -> Row:
+    return Row(items)
+
+
+@pytest.mark.parametrize(
+    ("layout", "text"),
+    [
+        (row(TWO, A), "2a"),
+        (row(A, B), "a b"),
+        (row(A, Mark("plus"), B), "a + b"),
+        (row(Mark("minus"), A), "-a"),
+        (row(A, Mark("equals"), Mark("minus"), B), "a = -b"),
+        (Raised(A, TWO), "a²"),
+        (Fraction(TWO, A), "2/a"),
+        (Fraction(A, row(TWO, B)), "a/(2b)"),
+        (Fraction(row(A, Mark("plus"), B), TWO), "(a + b)/2"),
+        (Fraction(Applied("sin", A), TWO), "(sin a)/2"),
+        (Fenced(A, "|"), "|a|"),
+        (row(Number("30"), Word("degree")), "30°"),
+        (row(Number("30"), Word("cm")), "30 cm"),
+        (Name("omega", "x"), "ω_x"),
+        (Name("I", "rod_xx"), "I_rod,xx"),
+        (Name("theta", dots=2), "θ\u0308"),
+        (Name("L", style="vector"), "L\u20d7"),
+        (Name("L'"), "L'"),
+    ],
+)
+def test_a_line_reads_as_it_would_be_typed(layout: Layout, text: str) -> None:
+    assert plain(layout) == text
+
+
+def test_a_root_and_an_integral_keep_what_is_theirs() -> None:
+    assert plain(RootSign(row(A, Mark("plus"), B))) != plain(row(RootSign(A), Mark("plus"), B))
+    assert plain(row(IntegralSign(), A, Word("d"), B)).endswith("db")
+
+
+def test_a_matrix_has_a_line_for_each_row_and_continues_in_the_middle() -> None:
+    lines = plain(row(A, Mark("equals"), Array(((A, TWO), (Number("0"), B), (B, A))))).splitlines()
+    assert len(lines) == 3
+    assert lines[1].startswith("a = ")
+    assert lines[0].startswith("    ")
+    assert len({columns(line) for line in lines}) == 1
+
+
+def test_a_letter_with_a_dot_is_one_column_wide() -> None:
+    assert columns("θ\u0308 = 1") == 5
+    assert to_the_right("θ\u0308", 3) == "  θ\u0308"
+    assert to_the_right("long", 2) == "long"
+
+
+def test_boxes_stand_beside_each_other_by_their_middles() -> None:
+    tall, low = Box(("1", "2", "3"), 1), Box(("a", "b"), 0)
+    beside = tall.beside(low)
+    assert beside == Box(("1 ", "2a", "3b"), 1)
+    assert low.beside(tall) == Box((" 1", "a2", "b3"), 1)
+    assert beside.width == 2
