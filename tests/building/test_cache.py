@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import pickle
+import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -204,6 +206,21 @@ def test_what_is_recalled_warns_again_and_has_its_own_drawings(course: Course) -
     report = built_set(course.root, "hw1", Options(), lambda _: None)
     assert [warning.code for warning in report.warnings] == ["unshown"]
     assert (course.outputs / "one-axes.pdf").read_text() == "draws"
+
+
+def test_pages_are_typeset_again_if_only_a_drawing_looks_different(
+    course: Course, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solution = sys.modules["derive.building.solution"]
+    plain = solution.rendered
+    for look in (b"one look", b"another"):
+        files = (("one-axes.pdf", look),)
+        monkeypatch.setattr(solution, "rendered", lambda *a, f=files, **k: replace(plain(*a, **k), files=f))
+        course.heading("one")
+        course.problem("one", "first" + " " * len(look))  # which reads as before
+        built(course)
+        assert "one.tex" in course.typeset()
+        assert (course.outputs / "one-axes.pdf").read_bytes() == look
 
 
 def test_a_forced_build_takes_nothing_of_what_is_kept(course: Course) -> None:

@@ -96,7 +96,7 @@ def test_a_record_is_read_as_it_was_saved_and_only_in_its_own_folder(tmp_path: P
 
 
 def test_a_page_is_of_its_recipe_and_of_each_of_its_files() -> None:
-    record = Manifest(Path(), inputs={"one": ["a", "b"], "two": ["a"]})
+    record = Manifest(Path(), inputs={"one": ["a", "b"], "two": ["a", "b"]})
     read = {"a": "1", "b": "2"}.__getitem__
     keys = {
         record.page_key("one", "recipe", read),

@@ -121,6 +121,18 @@ def test_an_altered_line_is_not_believed(course: Path, kept: Cache, known: tuple
     assert file.read_bytes() == known[1].read_bytes(), "and the right line is kept again"
 
 
+def test_what_differs_from_its_reference_is_not_kept_and_told_again(course: Path) -> None:
+    (course / "problems" / "hw9" / "reference.yaml").write_text(
+        "- problem: block\n"
+        "  symbols: {a: length, M: mass, omega: angular speed}\n"
+        "  given: {sides: [a, 2*a, 3*a], mass: M, axis: diagonal, rate: omega}\n"
+        "  entries: [{part: 2, answer: kinetic_energy_about_axis, states: 7/23*M*a**2*omega**2}]\n"
+    )
+    page = rendered(course, "hw9/block", None, Cache(course / "kept"))
+    assert (page.agreed, bool(page.warnings)) == (False, True)
+    assert not (course / "kept").exists()
+
+
 @pytest.mark.parametrize("data", [None, [], {}, {"derivation": 3}, {"values": {"steps": []}}])
 def test_data_of_another_shape_are_no_derivation(data: object) -> None:
     assert Solved.from_data(data) is None
