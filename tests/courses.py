@@ -37,6 +37,11 @@ def course_in(
     return folder
 
 
+def kept() -> Cache:
+    """What the tests have derived, for all of them to use."""
+    return Cache(Path(os.environ["XDG_STATE_HOME"]) / "derivations")
+
+
 def rendered_once(root: Path, problem_id: str, detail: str | None = None, draws: bool = False) -> Rendered:
     """The problem in every format, like `rendered`; a derivation that some test has made already is not made again."""
-    return rendered(root, problem_id, detail, Cache(Path(os.environ["XDG_STATE_HOME"]) / "derivations"), draws)
+    return rendered(root, problem_id, detail, kept(), draws)

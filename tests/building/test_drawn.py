@@ -17,7 +17,8 @@ from derive.building.drawn import drawing_files, numbers_of
 from derive.course.placement import Placement
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint, Place, Rejected
-from derive.figures.marks import Arrow, Drawing
+from derive.figures.annotations import Arrow
+from derive.figures.marks import Drawing
 from derive.page.wording import Text, phrases
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT, course_in

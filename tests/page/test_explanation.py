@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
 
 import derive
-from derive.building.stored import key_of, recalled
+from derive.building.solved import Solved, steps_key
 from derive.course.problem import Problem, load_problem
 from derive.page.explanation import Explanation, explanation_of, told_of
 from derive.page.wording import Text, phrases
-from tests.courses import ROOT, course_in, rendered_once
+from tests.courses import ROOT, course_in, kept, rendered_once
 
 WORDS = phrases(ROOT / "templates")
 OWN = "wording: {torque: {generic: Hold it., zero: Let it.}}\nshow: {spin: result}\n"
@@ -26,8 +25,7 @@ def problem(tmp_path_factory: pytest.TempPathFactory) -> Problem:
 
 
 def explained(problem: Problem, key: str) -> Explanation:
-    kept = key_of(problem)
-    solved = recalled(Path(os.environ["XDG_STATE_HOME"]) / "derivations" / kept, kept)
+    solved = Solved.from_data(kept().recalled_data(steps_key(problem)))
     assert solved is not None
     steps = {step.key: step for step in [*solved.derivation.steps, *solved.values.values()]}
     return explanation_of(steps[key], problem, solved.derivation, solved.values, WORDS)

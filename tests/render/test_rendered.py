@@ -26,6 +26,8 @@ PAGE = Rendered(
     inputs=("one.yaml", "one.py"),
     grades={"proved": 3},
     counts={"lines": 2},
+    steps=4,
+    compared=3,
     agreed=False,
     files=(("one-axes.pdf", b"\0\xff"),),
 )
@@ -56,6 +58,7 @@ def test_data_of_another_shape_are_no_page(data: object) -> None:
         {"files": [["a.pdf", "a"]]},
         {"counts": {"lines": "many"}},
         {"grades": [1]},
+        {"steps": "some"},
         {"inputs": [3]},
         {"warnings": [{}]},
         {"warnings": None},
