@@ -7,7 +7,7 @@ from sympy import Integer, Symbol, sqrt
 
 from derive.algebra.dimensions import NUMBER, dimension_of_kind
 from derive.course.arithmetic import Term
-from derive.course.latex.grids import Grid, Grids, Value, between, each
+from derive.course.latex.grids import Grid, Grids, TermOrGrid, each, spanning
 from derive.course.yaml_tree import Scalar, Source
 from derive.errors import Rejected
 
@@ -28,7 +28,7 @@ def column(*values: object) -> Grid:
     return Grid(tuple((term(value),) for value in values), 5, 9)
 
 
-def entries(value: Value) -> list[object]:
+def entries(value: TermOrGrid) -> list[object]:
     assert isinstance(value, Grid)
     return [each.expr for row in value.rows for each in row]
 
@@ -45,7 +45,7 @@ def test_a_column_is_added_entry_by_entry() -> None:
         (column(a, b), column(a, b, 0), "a column of 2 and a column of 3 cannot be added"),
     ],
 )
-def test_what_is_of_another_shape_is_not_added(left: Value, right: Value, message: str) -> None:
+def test_what_is_of_another_shape_is_not_added(left: TermOrGrid, right: TermOrGrid, message: str) -> None:
     with pytest.raises(Rejected, match=message):
         grids().sum_of(left, right, "+")
 
@@ -103,7 +103,7 @@ def test_zero_fits_every_dimension_and_takes_that_of_the_other() -> None:
 def test_the_same_is_done_to_a_scalar_and_to_every_entry_and_places_stay() -> None:
     doubled = each(column(a, b), lambda t: grids().multiplied(term(2, NUMBER), t))
     assert entries(doubled) == [2 * a, 2 * b]
-    moved = between(doubled, 1, 12)
+    moved = spanning(doubled, 1, 12)
     assert (moved.start, moved.end) == (1, 12)
     with pytest.raises(Rejected, match="a limit must be a scalar, but this is a column of 2"):
         grids().scalar_in(moved, "a limit")

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from derive.building.cache import Cache
 from derive.building.solution import rendered
 from tests.courses import ROOT, course_in
 
@@ -19,10 +20,11 @@ REFERENCE = r"""
 LOADED = """
 import sys
 from pathlib import Path
+from derive.building.cache import NO_CACHE, Cache
 from derive.building.solution import rendered
 
 root = Path(sys.argv[1])
-for kept, reference in ((root / "kept", True), (None, False), (None, True)):
+for kept, reference in ((Cache(root / "kept"), True), (NO_CACHE, False), (NO_CACHE, True)):
     text = (root / "reference.yaml").read_text()
     (root / "problems/hw9/reference.yaml").write_text(text if reference else "[]")
     assert rendered(root, "hw9/body", None, kept).agreed
@@ -35,6 +37,6 @@ def test_what_is_kept_and_what_has_no_reference_loads_no_grammar_of_latex(tmp_pa
     course_in(tmp_path, edits, {"J, moment, gyration\n    moved": "moment\n    moved"}, problem="body")
     for folder in (tmp_path, tmp_path / "problems" / "hw9"):
         (folder / "reference.yaml").write_text(REFERENCE)
-    assert rendered(tmp_path, "hw9/body", None, tmp_path / "kept").compared == 1
+    assert rendered(tmp_path, "hw9/body", None, Cache(tmp_path / "kept")).compared == 1
     done = subprocess.run([sys.executable, "-c", LOADED, str(tmp_path)], capture_output=True, text=True, cwd=ROOT)
     assert done.stdout.split() == ["False", "False", "True"], done.stderr

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from derive.course.latex.titles import is_derivative, without_title
-from tests.course.latex.test_runs import run
+from tests.course.latex.test_cursor import run
 from tests.course.latex.test_tokens import tokens
 
 TITLES = [

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from derive.course.arithmetic import Arithmetic
-from derive.course.latex.tokens import MAX_DEPTH, MAX_LENGTH, MAX_TOKENS, Token, tokens_of
+from derive.course.latex.tokens import DEEPEST_FORMULA, LONGEST_FORMULA, MAX_TOKENS, Token, tokens_of
 from derive.course.yaml_tree import Scalar, Source
 from derive.errors import Rejected
 
@@ -62,9 +62,9 @@ def test_words_are_one_token_as_they_stand() -> None:
     ("text", "message"),
     [
         ("  ", "a formula is missing"),
-        ("a" * (MAX_LENGTH + 1), f"{MAX_LENGTH} are allowed"),
+        ("a" * (LONGEST_FORMULA + 1), f"{LONGEST_FORMULA} are allowed"),
         ("+a" * (MAX_TOKENS // 2 + 1), f"more than {MAX_TOKENS} letters and signs"),
-        ("{" * (MAX_DEPTH + 1) + "}" * (MAX_DEPTH + 1), f"more than {MAX_DEPTH} deep"),
+        ("{" * (DEEPEST_FORMULA + 1) + "}" * (DEEPEST_FORMULA + 1), f"more than {DEEPEST_FORMULA} deep"),
         (r"a \left", "a bracket is missing after `\\left`"),
         (r"\left a", "`a` does not stand after `\\left`"),
         (r"\frac{a}", "needs two values in braces"),

@@ -9,7 +9,8 @@ import pytest
 from derive.course.latex import vocabulary
 from derive.course.latex.vocabulary import ARGUMENTS, CLOSING, KNOWN, OPENING, REFUSED, RELATIONS, SIZES, SPACES
 
-KINDS = ("GREEK", "FUNCTIONS", "FRACTIONS", "DOTS", "ARROWS", "BOLD", "FONTS", "WORDS", "SPACES", "SIZES")
+FONTS = ("ARROW_COMMANDS", "BOLD_COMMANDS", "FONTS", "WORDS")
+KINDS = ("GREEK_COMMANDS", "LATEX_FUNCTIONS", "FRACTIONS", "DOTS", *FONTS, "SPACES", "SIZES")
 
 
 @pytest.mark.parametrize(("one", "other"), list(combinations(KINDS, 2)))

@@ -1,14 +1,14 @@
-"""A run of tokens, and the group that belongs to a script."""
+"""The place that has been reached among tokens, and the group that belongs to a script."""
 
 from __future__ import annotations
 
-from derive.course.latex.runs import Run
+from derive.course.latex.cursor import Cursor
 from derive.course.latex.tokens import Token
 from tests.course.latex.test_tokens import tokens
 
 
-def run(text: str) -> Run:
-    return Run(tokens(text), len(text))
+def run(text: str) -> Cursor:
+    return Cursor(tokens(text), len(text))
 
 
 def test_a_run_knows_what_stands_next_and_what_stood_before() -> None:
