@@ -9,20 +9,20 @@ import pytest
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
     Applied,
+    Digits,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     Row,
-    Word,
+    Upright,
 )
 
-A, B, TWO, D = Name("a"), Name("b"), Number("2"), Word("d")
-MINUS, PLUS = Mark("minus"), Mark("plus")
+A, B, TWO, D = Name("a"), Name("b"), Digits("2"), Upright("d")
+MINUS, PLUS = Operator("minus"), Operator("plus")
 
 
 def row(*items: Layout) -> Row:
@@ -38,16 +38,16 @@ LAYOUTS = [
     (Applied("sin", A), Binding.FACTOR),
     (row(A, B), Binding.PRODUCT),
     (row(IntegralSign(), A, D, A), Binding.PRODUCT),
-    (row(A, Mark("dot"), TWO), Binding.DOTTED),
-    (row(TWO, Word("cm")), Binding.MEASURED),
+    (row(A, Operator("dot"), TWO), Binding.DOTTED),
+    (row(TWO, Upright("cm")), Binding.MEASURED),
     (row(IntegralSign(), A), Binding.OPEN),
     (row(RATE, A), Binding.OPEN),
     (row(A, RATE), Binding.PRODUCT),
-    (row(A, Mark("cross"), B), Binding.OPEN),
+    (row(A, Operator("cross"), B), Binding.OPEN),
     (row(MINUS, A), Binding.SIGNED),
     (row(MINUS, A, PLUS, B), Binding.SUM),
-    (row(A, Mark("plus_minus"), B), Binding.SUM),
-    (row(A, Mark("equals"), B), Binding.RELATION),
+    (row(A, Operator("plus_minus"), B), Binding.SUM),
+    (row(A, Operator("equals"), B), Binding.RELATION),
 ]
 
 
@@ -66,7 +66,7 @@ def test_brackets_stand_only_where_a_place_takes_no_more(layout: Layout, held: B
 
 def test_a_sign_is_taken_from_a_product_and_left_in_a_sum() -> None:
     assert sign_apart(row(MINUS, A, B)) == (MINUS, row(A, B))
-    for layout in (row(MINUS, A, PLUS, B), row(A, B), A, row(PLUS, A, Mark("equals"), B)):
+    for layout in (row(MINUS, A, PLUS, B), row(A, B), A, row(PLUS, A, Operator("equals"), B)):
         assert sign_apart(layout) == (None, layout)
 
 

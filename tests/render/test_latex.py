@@ -7,8 +7,19 @@ import re
 import pytest
 
 from derive.errors import Rejected
-from derive.render.notation.latex import FUNCTIONS, MARKS, escaped, latex, unit_latex, unprintable
-from derive.render.notation.layout import Applied, Fenced, Fraction, Layout, Mark, Name, Number, Raised, RootSign, Row
+from derive.render.notation.latex import TEX_FUNCTIONS, TEX_OPERATORS, escaped, latex, unit_latex, unprintable
+from derive.render.notation.layout import (
+    Applied,
+    Digits,
+    Fenced,
+    Fraction,
+    Layout,
+    Name,
+    Operator,
+    Raised,
+    RootSign,
+    Row,
+)
 
 
 @pytest.mark.parametrize(
@@ -20,10 +31,10 @@ from derive.render.notation.layout import Applied, Fenced, Fraction, Layout, Mar
         (Name("I", "a_x"), r"I_{ax}"),
         (Name("mass"), r"\mathit{mass}"),
         (Name("theta", dots=2), r"\ddot{\theta}"),
-        (Raised(Name("L'"), Number("2")), r"{L'}^{2}"),
+        (Raised(Name("L'"), Digits("2")), r"{L'}^{2}"),
         (RootSign(Name("a")), r"\sqrt{a}"),
-        (Fraction(Number("1"), Number("2")), r"\frac{1}{2}"),
-        (Row((Name("a"), Mark("at_most"), Name("b"))), r"a\le b"),
+        (Fraction(Digits("1"), Digits("2")), r"\frac{1}{2}"),
+        (Row((Name("a"), Operator("at_most"), Name("b"))), r"a\le b"),
     ],
 )
 def test_a_layout_has_its_tex(layout: Layout, tex: str) -> None:
@@ -31,19 +42,19 @@ def test_a_layout_has_its_tex(layout: Layout, tex: str) -> None:
 
 
 def test_a_fraction_in_a_line_of_text_is_small() -> None:
-    half = Fraction(Number("1"), Number("2"))
+    half = Fraction(Digits("1"), Digits("2"))
     assert latex(half, inline=True) == r"\tfrac{1}{2}"
     assert latex(half, inline=True) != latex(half)
 
 
-@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+@pytest.mark.parametrize("name", sorted(TEX_FUNCTIONS))
 def test_a_function_is_a_command(name: str) -> None:
     assert latex(Applied(name, Fenced(Name("x")))).startswith(f"\\{name}")
 
 
-@pytest.mark.parametrize("kind", MARKS)
+@pytest.mark.parametrize("kind", TEX_OPERATORS)
 def test_a_mark_does_not_run_into_the_letter_behind_it(kind: str) -> None:
-    commands = re.findall(r"\\[A-Za-z]+", latex(Row((Name("a"), Mark(kind), Name("b")))))
+    commands = re.findall(r"\\[A-Za-z]+", latex(Row((Name("a"), Operator(kind), Name("b")))))
     assert not [command for command in commands if command.endswith("b")]
 
 

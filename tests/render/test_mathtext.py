@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import pytest
 
-from derive.render.drawing.mathtext import Run, runs
-from derive.render.notation.layout import Fenced, Fraction, Layout, Mark, Name, Number, Raised, RootSign, Row
+from derive.render.drawing.mathtext import Span, runs
+from derive.render.notation.layout import Digits, Fenced, Fraction, Layout, Name, Operator, Raised, RootSign, Row
 
 OMEGA = Name("omega", style="vector")
 
 
 def test_a_vectors_letter_is_drawn_bold_and_its_subscript_is_not() -> None:
-    assert runs(OMEGA) == (Run(r"$\omega$", bold=True),)
+    assert runs(OMEGA) == (Span(r"$\omega$", bold=True),)
     bold, below = runs(Name("L", "x", style="vector"))
-    assert bold == Run("$L$", bold=True)
+    assert bold == Span("$L$", bold=True)
     assert (below.bold, below.text) == (False, "${}_{x}$")
 
 
 def test_what_stands_round_a_vector_keeps_its_order() -> None:
-    found = runs(Row((Number("2"), OMEGA, Mark("plus"), Name("a"), OMEGA)))
+    found = runs(Row((Digits("2"), OMEGA, Operator("plus"), Name("a"), OMEGA)))
     assert [run.bold for run in found] == [False, True, False, True]
     assert [run.text for run in found] == ["$2$", r"$\omega$", "$+a$", r"$\omega$"]
 
@@ -26,12 +26,12 @@ def test_what_stands_round_a_vector_keeps_its_order() -> None:
 @pytest.mark.parametrize(
     "layout",
     [
-        Fraction(Number("1"), Name("a")),
+        Fraction(Digits("1"), Name("a")),
         Fenced(Name("a"), "|"),
-        Row((Name("a"), Mark("space"), Name("b"))),
-        Raised(Fenced(Row((Name("a"), Mark("minus"), Name("b")))), Number("2")),
+        Row((Name("a"), Operator("space"), Name("b"))),
+        Raised(Fenced(Row((Name("a"), Operator("minus"), Name("b")))), Digits("2")),
         RootSign(Fraction(Name("g"), Name("l"))),
-        Row((Name("theta", dots=2), Mark("equals"), Mark("minus"), Name("omega", "0"))),
+        Row((Name("theta", dots=2), Operator("equals"), Operator("minus"), Name("omega", "0"))),
         Fenced(OMEGA),
     ],
     ids=str,

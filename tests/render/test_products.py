@@ -7,10 +7,10 @@ from sympy import Integer, Matrix, Rational, pi, sqrt, symbols
 
 from derive.algebra.dimensions import NUMBER, dimension_of_kind
 from derive.algebra.expressions import explicit
-from derive.render.notation.layout import Applied, Fenced, Fraction, Layout, Mark, Name, Number, Raised, Row
+from derive.render.notation.layout import Applied, Digits, Fenced, Fraction, Layout, Name, Operator, Raised, Row
 from derive.render.notation.products import (
     accelerations_first,
-    between,
+    between_factors,
     decimal,
     number_and_letters,
     positive_first,
@@ -24,7 +24,7 @@ from derive.render.notation.products import (
 from derive.render.notation.text import plain
 
 a, b, M, g = symbols("a b M g", positive=True)
-A, B, TWO = Name("a"), Name("b"), Number("2")
+A, B, TWO = Name("a"), Name("b"), Digits("2")
 
 
 @pytest.mark.parametrize(
@@ -114,15 +114,17 @@ def test_a_dot_stands_where_factors_would_run_together(items: list[Layout], text
     ("before", "after", "mark"),
     [
         (A, B, None),
-        (A, A, Mark("dot")),
-        (A, TWO, Mark("dot")),
-        (TWO, A, Mark("space")),
-        (A, Fenced(B), Mark("space")),
-        (A, Applied("sin", B), Mark("space")),
+        (A, A, Operator("dot")),
+        (A, TWO, Operator("dot")),
+        (TWO, A, Operator("space")),
+        (A, Fenced(B), Operator("space")),
+        (A, Applied("sin", B), Operator("space")),
         (Raised(A, TWO), B, None),
-        (Fraction(A, TWO), B, Mark("dot")),
-        (Row((A, Name("d"))), Name("L", style="vector"), Mark("space")),
+        (Fraction(A, TWO), B, Operator("dot")),
+        (Row((A, Name("d"))), Name("L", style="vector"), Operator("space")),
     ],
 )
-def test_what_stands_between_two_factors_as_they_are_written(before: Layout, after: Layout, mark: Mark | None) -> None:
-    assert between(before, after) == mark
+def test_what_stands_between_two_factors_as_they_are_written(
+    before: Layout, after: Layout, mark: Operator | None
+) -> None:
+    assert between_factors(before, after) == mark

@@ -7,21 +7,21 @@ import pytest
 from derive.render.notation.layout import (
     Applied,
     Array,
+    Digits,
     Fenced,
     Fraction,
     IntegralSign,
     Layout,
-    Mark,
     Name,
-    Number,
+    Operator,
     Raised,
     RootSign,
     Row,
-    Word,
+    Upright,
 )
-from derive.render.notation.text import Box, columns, plain, to_the_right
+from derive.render.notation.text import TextBox, columns, plain, to_the_right
 
-A, B, TWO = Name("a"), Name("b"), Number("2")
+A, B, TWO = Name("a"), Name("b"), Digits("2")
 
 
 def row(*items: Layout) -> Row:
@@ -33,17 +33,17 @@ def row(*items: Layout) -> Row:
     [
         (row(TWO, A), "2a"),
         (row(A, B), "a b"),
-        (row(A, Mark("plus"), B), "a + b"),
-        (row(Mark("minus"), A), "-a"),
-        (row(A, Mark("equals"), Mark("minus"), B), "a = -b"),
+        (row(A, Operator("plus"), B), "a + b"),
+        (row(Operator("minus"), A), "-a"),
+        (row(A, Operator("equals"), Operator("minus"), B), "a = -b"),
         (Raised(A, TWO), "a²"),
         (Fraction(TWO, A), "2/a"),
         (Fraction(A, row(TWO, B)), "a/(2b)"),
-        (Fraction(row(A, Mark("plus"), B), TWO), "(a + b)/2"),
+        (Fraction(row(A, Operator("plus"), B), TWO), "(a + b)/2"),
         (Fraction(Applied("sin", A), TWO), "(sin a)/2"),
         (Fenced(A, "|"), "|a|"),
-        (row(Number("30"), Word("degree")), "30°"),
-        (row(Number("30"), Word("cm")), "30 cm"),
+        (row(Digits("30"), Upright("degree")), "30°"),
+        (row(Digits("30"), Upright("cm")), "30 cm"),
         (Name("omega", "x"), "ω_x"),
         (Name("I", "rod_xx"), "I_rod,xx"),
         (Name("theta", dots=2), "θ\u0308"),
@@ -56,12 +56,12 @@ def test_a_line_reads_as_it_would_be_typed(layout: Layout, text: str) -> None:
 
 
 def test_a_root_and_an_integral_keep_what_is_theirs() -> None:
-    assert plain(RootSign(row(A, Mark("plus"), B))) != plain(row(RootSign(A), Mark("plus"), B))
-    assert plain(row(IntegralSign(), A, Word("d"), B)).endswith("db")
+    assert plain(RootSign(row(A, Operator("plus"), B))) != plain(row(RootSign(A), Operator("plus"), B))
+    assert plain(row(IntegralSign(), A, Upright("d"), B)).endswith("db")
 
 
 def test_a_matrix_has_a_line_for_each_row_and_continues_in_the_middle() -> None:
-    lines = plain(row(A, Mark("equals"), Array(((A, TWO), (Number("0"), B), (B, A))))).splitlines()
+    lines = plain(row(A, Operator("equals"), Array(((A, TWO), (Digits("0"), B), (B, A))))).splitlines()
     assert len(lines) == 3
     assert lines[1].startswith("a = ")
     assert lines[0].startswith("    ")
@@ -75,8 +75,8 @@ def test_a_letter_with_a_dot_is_one_column_wide() -> None:
 
 
 def test_boxes_stand_beside_each_other_by_their_middles() -> None:
-    tall, low = Box(("1", "2", "3"), 1), Box(("a", "b"), 0)
+    tall, low = TextBox(("1", "2", "3"), 1), TextBox(("a", "b"), 0)
     beside = tall.beside(low)
-    assert beside == Box(("1 ", "2a", "3b"), 1)
-    assert low.beside(tall) == Box((" 1", "a2", "b3"), 1)
+    assert beside == TextBox(("1 ", "2a", "3b"), 1)
+    assert low.beside(tall) == TextBox((" 1", "a2", "b3"), 1)
     assert beside.width == 2
