@@ -33,7 +33,8 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.amounts import Amount as Amount
 from derive.algebra.amounts import MatrixAmount as MatrixAmount
-from derive.algebra.dimensions import Dimension, common, dimension_of_kind, power, product, quotient
+from derive.algebra.dimensions import Dimension, power, product, quotient
+from derive.algebra.kinds import common, dimension_of_kind
 from derive.algebra.mass_integral import MassIntegral as MassIntegral
 from derive.algebra.node import (
     DimensionOf,

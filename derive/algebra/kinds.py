@@ -1,35 +1,85 @@
-"""The kinds of what a problem gives: the annotations of `solve()`, of which a type checker sees SymPy's `Expr`."""
+"""The kinds of quantity: of each its dimension and its unit, and how a script asks for it.
+
+A kind is what an instructor writes under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with one
+(`mass: Mass`), of which a type checker sees SymPy's `Expr`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias, get_args
+from fractions import Fraction
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, get_args
 
-from sympy import Expr, Integer, pi
-
-from derive.algebra.dimensions import kind_with_article
+from derive.algebra.dimensions import NUMBER, Dimension, dimension, exponents, raised
 from derive.algebra.direction import Direction
 
-# Letters of these kinds stand for positive numbers; every other letter is only real.
-POSITIVE = {
-    "mass",
-    "length",
-    "time",
-    "area",
-    "volume",
-    "density",
-    "surface density",
-    "line density",
-    "speed",
-    "acceleration",
-    "angular speed",
-    "frequency",
-    "spring constant",
-    "moment of inertia",
+if TYPE_CHECKING:
+    from sympy import Expr
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What there is to know of a kind.
+
+    unit      the coherent SI unit as text
+    positive  letters of it stand for positive numbers; every other letter is only real
+    signed    a minus sign is a direction (a block turning the other way); on another positive one it is a mistake
+    angles    the powers of an angle that its unit may have: a radian may be left out of rad/s, but not of an angle
+    """
+
+    dimension: Dimension
+    unit: str
+    positive: bool = False
+    signed: bool = False
+    angles: tuple[int, ...] = (0,)
+
+
+KINDS: Mapping[str, Kind] = {
+    "number": Kind(NUMBER, ""),
+    "angle": Kind(NUMBER, "rad", angles=(1,)),
+    "mass": Kind(dimension(1, 0, 0), "kg", positive=True),
+    "length": Kind(dimension(0, 1, 0), "m", positive=True),
+    "time": Kind(dimension(0, 0, 1), "s", positive=True),
+    "area": Kind(dimension(0, 2, 0), "m^2", positive=True),
+    "volume": Kind(dimension(0, 3, 0), "m^3", positive=True),
+    "density": Kind(dimension(1, -3, 0), "kg/m^3", positive=True),
+    "surface density": Kind(dimension(1, -2, 0), "kg/m^2", positive=True),
+    "line density": Kind(dimension(1, -1, 0), "kg/m", positive=True),
+    "speed": Kind(dimension(0, 1, -1), "m/s", positive=True, signed=True),
+    "acceleration": Kind(dimension(0, 1, -2), "m/s^2", positive=True, signed=True),
+    "angular speed": Kind(dimension(0, 0, -1), "rad/s", positive=True, signed=True, angles=(1, 0)),
+    "angular acceleration": Kind(dimension(0, 0, -2), "rad/s^2", angles=(1, 0)),
+    "squared angular speed": Kind(dimension(0, 0, -2), "1/s^2", angles=(2, 0)),
+    "frequency": Kind(dimension(0, 0, -1), "Hz", positive=True),
+    "force": Kind(dimension(1, 1, -2), "N"),
+    "energy": Kind(dimension(1, 2, -2), "J"),
+    "power": Kind(dimension(1, 2, -3), "W"),
+    "torque": Kind(dimension(1, 2, -2), "N m"),
+    "momentum": Kind(dimension(1, 1, -1), "kg m/s"),
+    "angular momentum": Kind(dimension(1, 2, -1), "kg m^2/s"),
+    "moment of inertia": Kind(dimension(1, 2, 0), "kg m^2", positive=True),
+    "spring constant": Kind(dimension(1, 0, -2), "N/m", positive=True),
 }
-# A minus sign on these is a direction (a block turning the other way); on the other positive ones it is a mistake.
-SIGNED = {"speed", "acceleration", "angular speed"}
+_OF_NONE = Kind(NUMBER, "")
+
+
+def dimension_of_kind(kind: str) -> Dimension:
+    return KINDS[kind].dimension
+
+
+def unit_of_kind(kind: str) -> str:
+    """The coherent SI unit, in plain text: `kg m^2/s`."""
+    return KINDS[kind].unit
+
+
+def about_kind(kind: str | None) -> Kind:
+    """What there is to know of a kind; of what has none, that it is like a number."""
+    return KINDS.get(kind or "", _OF_NONE)
+
+
+def kind_with_article(kind: str) -> str:
+    return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
 
 
 def plural(kind: str) -> str:
@@ -38,72 +88,108 @@ def plural(kind: str) -> str:
     return f"{noun}s{of}{rest}"
 
 
-@dataclass(frozen=True)
-class Kind:
-    """What a parameter of `solve()` may be: `name` in the script, `each` in `symbols:`, letters for numbers.
+def kind_of_dimension(dimension: Dimension) -> str | None:
+    """The first kind of that dimension: energy before torque, angular speed before frequency."""
+    return next((name for name, kind in KINDS.items() if kind.dimension == dimension), None)
 
-    bounds   the least and the greatest angle that it may be
+
+def named(dimension: Dimension) -> str:
+    """`a length`, or the exponents where no kind has that dimension."""
+    kind = kind_of_dimension(dimension)
+    return kind_with_article(kind) if kind else f"a quantity of dimension {exponents(dimension)}"
+
+
+class Inhomogeneous(Exception):
+    """Two terms of one sum differ in dimension, or a function has an argument that is not a number."""
+
+    def __init__(self, term: Any, dimension: Dimension, other: Any, expected: Dimension):
+        self.term, self.dimension, self.other, self.expected = term, dimension, other, expected
+        super().__init__(f"`{term}` is {named(dimension)}, but `{other}` is {named(expected)}")
+
+
+def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimension | None:
+    """The one dimension of all terms of a sum; raises `Inhomogeneous` with the first that has another."""
+    first: tuple[Any, Dimension] | None = None
+    for term in terms:
+        dimension = of(term)
+        if dimension is None:
+            continue
+        if first is None:
+            first = (term, dimension)
+        elif dimension != first[1]:
+            raise Inhomogeneous(term, dimension, *first)
+    return first[1] if first else None
+
+
+def unit_of_dimension(dimension: Dimension) -> str:
+    """The coherent SI unit of what has a dimension and no kind: that of the one kind that has it, else a product.
+
+    What has the dimension of an energy and of a torque is in N m, which is right of both; 1/s says nothing of an angle.
+    """
+    kinds = [kind for kind in KINDS.values() if kind.dimension == dimension]
+    return kinds[0].unit if len(kinds) == 1 else _product_of_units(dimension)
+
+
+def _product_of_units(dimension: Dimension) -> str:
+    """`N m`, `kg m^2/s`, `1/s`: what has the mass and the time of a force is told with newtons."""
+    powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
+    if dimension.mass == 1 and dimension.time == -2:
+        powers = {"N": Fraction(1), "m": dimension.length - 1}
+    above = " ".join(raised(unit, n) for unit, n in powers.items() if n > 0)
+    below = "".join(f"/{raised(unit, -n)}" for unit, n in powers.items() if n < 0)
+    return (above or "1" * bool(below)) + below
+
+
+# --- how a script asks for one ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a parameter of `solve()` may be: a quantity of a kind, or `count` of them.
+
+    letters   for those that are given as numbers
+    bounds    the least and the greatest angle that it may be, in degrees
     """
 
-    name: str
     each: str
     letters: tuple[str, ...] = ()
     count: int = 1
-    bounds: tuple[Expr, Expr] | None = None
-
-    @property
-    def wanted(self) -> str:
-        return kind_with_article(self.each) if self.count == 1 else f"{self.count} {plural(self.each)}"
+    bounds: tuple[int, int] | None = None
 
 
-Mass: TypeAlias = Annotated[Expr, Kind("Mass", "mass", ("M", "m"))]
-Length: TypeAlias = Annotated[Expr, Kind("Length", "length", ("l", "a", "b", "c", "d"))]
-Lengths: TypeAlias = Annotated[tuple[Expr, Expr, Expr], Kind("Lengths", "length", ("a", "b", "c"), 3)]
-Time: TypeAlias = Annotated[Expr, Kind("Time", "time", ("t_0", "t_1"))]
-Angle: TypeAlias = Annotated[Expr, Kind("Angle", "angle", ("theta", "alpha", "beta", "phi"))]
-PolarAngle: TypeAlias = Annotated[
-    Expr, Kind("PolarAngle", "angle", ("theta_0", "alpha", "beta"), bounds=(Integer(0), pi))
-]
-AngularSpeed: TypeAlias = Annotated[Expr, Kind("AngularSpeed", "angular speed", ("omega", "Omega"))]
-Frequency: TypeAlias = Annotated[Expr, Kind("Frequency", "frequency", ("f", "nu"))]
-Speed: TypeAlias = Annotated[Expr, Kind("Speed", "speed", ("v", "u"))]
-Acceleration: TypeAlias = Annotated[Expr, Kind("Acceleration", "acceleration", ("g", "a"))]
-Density: TypeAlias = Annotated[Expr, Kind("Density", "density", ("rho", "sigma"))]
-SurfaceDensity: TypeAlias = Annotated[Expr, Kind("SurfaceDensity", "surface density", ("sigma", "mu"))]
-LineDensity: TypeAlias = Annotated[Expr, Kind("LineDensity", "line density", ("lambda_l", "mu"))]
-Force: TypeAlias = Annotated[Expr, Kind("Force", "force", ("F", "P"))]
-MomentOfInertia: TypeAlias = Annotated[Expr, Kind("MomentOfInertia", "moment of inertia", ("I_0", "J_0"))]
-MomentsOfInertia: TypeAlias = Annotated[
-    tuple[Expr, Expr, Expr], Kind("MomentsOfInertia", "moment of inertia", ("A", "B", "C"), 3)
-]
-SpringConstant: TypeAlias = Annotated[Expr, Kind("SpringConstant", "spring constant", ("k", "K"))]
-Number: TypeAlias = Annotated[Expr, Kind("Number", "number", ("n",))]
-
-DIRECTION = Kind("Direction", "direction", (), 3)
-_MEASURES = (
-    Mass,
-    Length,
-    Lengths,
-    Time,
-    Angle,
-    PolarAngle,
-    AngularSpeed,
-    Speed,
-    Acceleration,
-    Density,
-    SurfaceDensity,
-    LineDensity,
-    Force,
-)
-_OTHERS = (Frequency, MomentOfInertia, MomentsOfInertia, SpringConstant, Number)
-_KINDS = (*(get_args(alias)[1] for alias in (*_MEASURES, *_OTHERS)), DIRECTION)
-KINDS: Mapping[str, Kind] = {kind.name: kind for kind in _KINDS}
+Mass: TypeAlias = Annotated["Expr", Asked("mass", ("M", "m"))]
+Length: TypeAlias = Annotated["Expr", Asked("length", ("l", "a", "b", "c", "d"))]
+Lengths: TypeAlias = Annotated[tuple["Expr", "Expr", "Expr"], Asked("length", ("a", "b", "c"), 3)]
+Time: TypeAlias = Annotated["Expr", Asked("time", ("t_0", "t_1"))]
+Angle: TypeAlias = Annotated["Expr", Asked("angle", ("theta", "alpha", "beta", "phi"))]
+PolarAngle: TypeAlias = Annotated["Expr", Asked("angle", ("theta_0", "alpha", "beta"), bounds=(0, 180))]
+AngularSpeed: TypeAlias = Annotated["Expr", Asked("angular speed", ("omega", "Omega"))]
+Speed: TypeAlias = Annotated["Expr", Asked("speed", ("v", "u"))]
+Acceleration: TypeAlias = Annotated["Expr", Asked("acceleration", ("g", "a"))]
+Density: TypeAlias = Annotated["Expr", Asked("density", ("rho", "sigma"))]
+SurfaceDensity: TypeAlias = Annotated["Expr", Asked("surface density", ("sigma", "mu"))]
+LineDensity: TypeAlias = Annotated["Expr", Asked("line density", ("lambda_l", "mu"))]
+Force: TypeAlias = Annotated["Expr", Asked("force", ("F", "P"))]
+Frequency: TypeAlias = Annotated["Expr", Asked("frequency", ("f", "nu"))]
+MomentOfInertia: TypeAlias = Annotated["Expr", Asked("moment of inertia", ("I_0", "J_0"))]
+MomentsOfInertia: TypeAlias = Annotated[tuple["Expr", "Expr", "Expr"], Asked("moment of inertia", ("A", "B", "C"), 3)]
+SpringConstant: TypeAlias = Annotated["Expr", Asked("spring constant", ("k", "K"))]
+Number: TypeAlias = Annotated["Expr", Asked("number", ("n",))]
+DIRECTION = Asked("direction", count=3)
 
 
-def kind_of_annotation(annotation: Any) -> Kind | None:
-    """The kind that a parameter's annotation names, also when it is a string."""
-    if annotation is Direction:
-        return DIRECTION
+def _asked(annotation: Any) -> Asked | None:
+    return next((part for part in get_args(annotation) if isinstance(part, Asked)), None)
+
+
+ANNOTATIONS: Mapping[str, Asked] = {
+    **{name: asked for name, alias in list(globals().items()) if (asked := _asked(alias))},
+    "Direction": DIRECTION,
+}
+
+
+def asked_by_annotation(annotation: Any) -> Asked | None:
+    """What a parameter's annotation asks for, also when it is a string."""
     if isinstance(annotation, str):
-        return KINDS.get(annotation.strip().rpartition(".")[2])
-    return next((arg for arg in get_args(annotation) if isinstance(arg, Kind)), None)
+        return ANNOTATIONS.get(annotation.strip().rpartition(".")[2])
+    return DIRECTION if annotation is Direction else _asked(annotation)

@@ -6,7 +6,8 @@ from typing import Any
 
 from sympy import Integral
 
-from derive.algebra.dimensions import Dimension, common, product
+from derive.algebra.dimensions import Dimension, product
+from derive.algebra.kinds import common
 from derive.algebra.node import DimensionOf, MatrixNode, TextOf, Value, explicit
 
 

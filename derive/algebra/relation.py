@@ -7,7 +7,8 @@ from typing import Any
 from sympy import Expr, Integer
 from sympy.core.symbol import Str
 
-from derive.algebra.dimensions import Dimension, common
+from derive.algebra.dimensions import Dimension
+from derive.algebra.kinds import common
 from derive.algebra.node import DimensionOf, Node, TextOf, explicit
 
 MARKS = {"=": "equals", "!=": "unequal", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least"}

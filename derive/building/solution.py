@@ -13,8 +13,9 @@ from typing import Any
 from sympy import Expr, Integer, Symbol
 
 from derive import FOLDER
-from derive.algebra.dimensions import NUMBER, Dimension, dimension_of_kind, unit_of_dimension, unit_of_kind
+from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import Relation
+from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.drawn import drawing_files
 from derive.building.solved import Solved, steps_key

@@ -14,7 +14,8 @@ from typing import NoReturn
 
 from sympy import Expr, Integer, Rational, Symbol, expand, nan, oo, zoo
 
-from derive.algebra.dimensions import NUMBER, Dimension, dimension_of_kind, kind_with_article, named
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, Rejected
 

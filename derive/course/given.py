@@ -13,10 +13,19 @@ from typing import Any, NoReturn
 
 from sympy import Expr, Integer, Rational, Symbol, pi
 
-from derive.algebra.dimensions import NUMBER, dimension_of_kind, kind_with_article, named, unit_of_kind
+from derive.algebra.dimensions import NUMBER
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import TIME, Amount
-from derive.algebra.kinds import DIRECTION, POSITIVE, SIGNED, Kind, plural
+from derive.algebra.kinds import (
+    DIRECTION,
+    Asked,
+    about_kind,
+    dimension_of_kind,
+    kind_with_article,
+    named,
+    plural,
+    unit_of_kind,
+)
 from derive.course.expression import RESERVED, Declared, rational, read_expression
 from derive.course.units import begins_with_unit, misfit, read_unit
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
@@ -54,7 +63,7 @@ class Given:
     """
 
     name: str
-    kind: Kind
+    kind: Asked
     value: Any
     measured: tuple[Measured, ...] = ()
     word: str | None = None
@@ -78,7 +87,7 @@ class _Wanted:
     kind: str
     notes: tuple[str, ...] = ()
     one_of_many: bool = False
-    bounds: tuple[Expr, Expr] | None = None
+    bounds: tuple[int, int] | None = None
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
 
     @property
@@ -97,12 +106,12 @@ def symbol_of_kind(name: str, kind: str) -> Symbol:
     """What a declared letter is in expressions: `t` is the time itself, any other letter of its kind a duration."""
     if name == TIME.name and kind == "time":
         return TIME
-    return Symbol(name, real=True, positive=True) if kind in POSITIVE else Symbol(name, real=True)
+    return Symbol(name, real=True, positive=True) if about_kind(kind).positive else Symbol(name, real=True)
 
 
 def read_givens(
     nodes: Mapping[str, Tree],
-    kinds: Mapping[str, Kind],
+    kinds: Mapping[str, Asked],
     symbols: Mapping[str, Declared],
     faults: Faults,
     *,
@@ -161,12 +170,12 @@ def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared]
     return value.si if isinstance(value, _Number) else value
 
 
-def _wanted(name: str, kind: Kind, notes: tuple[str, ...], numbers: Mapping[Symbol, Expr]) -> _Wanted:
+def _wanted(name: str, kind: Asked, notes: tuple[str, ...], numbers: Mapping[Symbol, Expr]) -> _Wanted:
     return _Wanted(name, kind.each, notes, one_of_many=kind.count > 1, bounds=kind.bounds, numbers=numbers)
 
 
 def _read_one(
-    node: Tree, kind: Kind, wanted: _Wanted, symbols: Mapping[str, Declared]
+    node: Tree, kind: Asked, wanted: _Wanted, symbols: Mapping[str, Declared]
 ) -> tuple[Expr | _Number, ...] | Direction:
     if kind is DIRECTION:
         return _direction(node, wanted, symbols)
@@ -213,7 +222,7 @@ def _value(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> 
     expr, dimension = read_expression(scalar, symbols)
     text = " ".join(scalar.text.split())
     is_bare = expr.is_Rational and dimension == NUMBER and not (expr.is_zero and wanted.kind == "angle")
-    if expr.is_zero and wanted.kind in POSITIVE:
+    if expr.is_zero and about_kind(wanted.kind).positive:
         _check_sign(expr, scalar, wanted)
     if is_bare and wanted.kind != "number":
         units = ("deg", "rad") if wanted.kind == "angle" else (unit_of_kind(wanted.kind),)
@@ -264,11 +273,11 @@ def _check_sign(value: Expr, scalar: Scalar, wanted: _Wanted) -> None:
     """Refused when it is known to be wrong, by itself or with the numbers known; `a - b` may well be positive."""
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
-    if wanted.kind in POSITIVE - SIGNED and value.is_nonpositive:
+    if about_kind(wanted.kind).positive and not about_kind(wanted.kind).signed and value.is_nonpositive:
         wanted.refuse("not-positive", f"{wanted.must} positive, but `{text}` is not", scalar.place)
-    if wanted.kind in SIGNED and value.is_zero:
+    if about_kind(wanted.kind).signed and value.is_zero:
         wanted.refuse("not-positive", f"`{wanted.name}` must not be zero", scalar.place)
-    least, greatest = wanted.bounds or (value, value)
+    least, greatest = (degrees * pi / 180 for degrees in wanted.bounds) if wanted.bounds else (value, value)
     if (value - least).is_negative or (value - greatest).is_positive:
         ends = " to ".join(str(180 * end / pi) for end in (least, greatest))
         wanted.refuse("out-of-range", f"{wanted.must} from {ends} deg, but `{text}` is not", scalar.place)
@@ -326,7 +335,7 @@ class _LettersForNumbers:
         self.symbols = dict(symbols)
         self.used = used
 
-    def letter(self, kind: Kind) -> Symbol:
+    def letter(self, kind: Asked) -> Symbol:
         taken = {*self.used, TIME.name}
         declared = (d for d in self.symbols.values() if d.kind == kind.each and d.name not in taken)
         chosen = next(declared, None)
@@ -338,13 +347,13 @@ class _LettersForNumbers:
         self.used.add(chosen.name)
         return chosen.symbol
 
-    def usual(self, kind: Kind) -> Iterable[str]:
+    def usual(self, kind: Asked) -> Iterable[str]:
         yield from kind.letters
         for n in range(1, len(self.symbols) + 2):
             yield f"{kind.letters[0].partition('_')[0]}_{n}"
 
 
-def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction, letters: _LettersForNumbers) -> Given:
+def _given(name: str, kind: Asked, value: tuple[Expr | _Number, ...] | Direction, letters: _LettersForNumbers) -> Given:
     if isinstance(value, Direction):
         return Given(name, kind, value, (), value.name)
     if isinstance(value[0], _Number) and kind.each == "angle" and _is_exact_angle(value[0].si):
@@ -362,7 +371,7 @@ def _given(name: str, kind: Kind, value: tuple[Expr | _Number, ...] | Direction,
             exprs.append(Integer(0))
             continue
         # A letter that is assumed positive takes the size; the sign stays outside.
-        sign = -1 if kind.each in SIGNED and entry.number < 0 else 1
+        sign = -1 if about_kind(kind.each).signed and entry.number < 0 else 1
         size = entry.si * sign
         # Equal numbers share a letter, so that a cube stays a cube; 2 cm, 4 cm, 6 cm are a, 2a, 3a.
         times = size / smallest.si if smallest else 1

@@ -15,8 +15,9 @@ from pathlib import Path
 
 from sympy import Integer, Symbol
 
-from derive.algebra.dimensions import Dimension, kind_with_article, unit_of_kind
+from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import TIME, Amount, explicit
+from derive.algebra.kinds import kind_with_article, unit_of_kind
 from derive.course.expression import RESERVED, Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers, symbol_of_kind
 from derive.course.parts import Part

@@ -21,7 +21,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from derive.algebra.kinds import KINDS, Kind, kind_of_annotation
+from derive.algebra.kinds import ANNOTATIONS, Asked, asked_by_annotation
 from derive.course.yaml_tree import Source, abridged, read_source
 from derive.errors import Complaint, DeriveError, Faults, Place, Rejected, did_you_mean, nearest
 
@@ -31,7 +31,7 @@ class Parameter:
     """One parameter of `solve()`: what kind it asks for, and where."""
 
     name: str
-    kind: Kind
+    kind: Asked
     place: Place
     required: bool
 
@@ -144,13 +144,13 @@ def _parameters(definition: ast.FunctionDef, solve: Callable[..., object], sourc
     for name, parameter in inspect.signature(solve).parameters.items():
         arg = written.get(name)
         place = source.at(*_start(arg or definition), len(name))
-        kind = kind_of_annotation(parameter.annotation)
+        kind = asked_by_annotation(parameter.annotation)
         if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
             faults.error("script", f"`solve()` must name what it asks for, and `{name}` does not", place)
         elif kind is None:
             annotation = ast.unparse(arg.annotation) if arg and arg.annotation else None
             message = f"`{annotation}` is not a kind" if annotation else f"`{name}` has no kind"
-            close = did_you_mean(annotation or "", KINDS) or f"the kinds are {', '.join(KINDS)}"
+            close = did_you_mean(annotation or "", ANNOTATIONS) or f"the kinds are {', '.join(ANNOTATIONS)}"
             faults.error("script", f"{message}, so nothing can be given for it", place, help=close)
         else:
             found.append(Parameter(name, kind, place, parameter.default is parameter.empty))
@@ -205,7 +205,7 @@ def _meant(error: BaseException) -> str | None:
         while trace.tb_next:
             trace = trace.tb_next
         frame = trace.tb_frame
-        known = KINDS.keys() - frame.f_globals.keys()
+        known = ANNOTATIONS.keys() - frame.f_globals.keys()
         return (
             f"write `from derive.given import {name}` above"
             if name in known

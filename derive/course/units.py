@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from derive.algebra.dimensions import NUMBER, Dimension, angles_of_kind, dimension_of_kind, kind_with_article, named
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named
 from derive.errors import Place, did_you_mean, rejected
 
 if TYPE_CHECKING:
@@ -119,7 +120,7 @@ def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
     if any(name in unit.names for name in _OF_ANOTHER_KIND.get(kind or "", ())):
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`", "write `N m`")
-    if "Hz" in unit.names and 1 in angles_of_kind(kind):
+    if "Hz" in unit.names and 1 in about_kind(kind).angles:
         turns, radians = (unit.text.replace("Hz", other) for other in ("rev/s", "rad/s"))
         return Misfit(
             "ambiguous-unit",
@@ -129,7 +130,7 @@ def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
     if kind is None and (unit.angles or "Hz" in unit.names):
         why = f"has no kind, so nothing says that it is measured in `{unit.text}`"
         return Misfit("wrong-unit", why, "give it a `kind=` in the script")
-    if unit.angles not in angles_of_kind(kind):
+    if unit.angles not in about_kind(kind).angles:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
     return None
 

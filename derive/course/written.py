@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from derive.algebra.dimensions import KINDS
+from derive.algebra.kinds import KINDS
 from derive.course.parts import PARTS, POINTS, Part, points_in_all
 from derive.course.problem_set import mapping_in, path_of
 from derive.course.prose import PROSE, PROSE_OR_NOTHING, Prose, read_prose

@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from derive.algebra.dimensions import unit_of_kind
 from derive.algebra.expressions import Amount
+from derive.algebra.kinds import unit_of_kind
 from derive.course.placement import HIDDEN, STATEMENT, Placement
 from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected, did_you_mean

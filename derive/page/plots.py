@@ -54,7 +54,7 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
 
 
 def _unit(kind: str) -> str:
-    from derive.algebra.dimensions import unit_of_kind
+    from derive.algebra.kinds import unit_of_kind
 
     return unit_of_kind(kind)
 

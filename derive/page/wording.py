@@ -17,8 +17,10 @@ from jinja2 import UndefinedError
 from jinja2.meta import find_undeclared_variables
 from sympy.core.symbol import Str
 
-from derive.algebra.dimensions import Dimension, unit_of_dimension, unit_of_kind
+from derive.algebra.dimensions import Dimension
+from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, Amount, scalar
+from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
 from derive.course.parts import points_text
@@ -266,7 +268,7 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
         return words.term(given.word)
     if given.written is not None:
         return (Math(given.written),)
-    if given.kind.name == "Direction":
+    if isinstance(given.value, Direction) and given.value.components:
         return *words.term("components"), Text(f" {words.labels['along']} "), Math(tuple(given.value.components))
     amounts = {m.symbol: Amount(m.number, m.unit, m.factor) for m in measured}
     values = given.value if isinstance(given.value, tuple) else (given.value,)

@@ -27,18 +27,9 @@ from sympy import (
 )
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import (
-    NUMBER,
-    Dimension,
-    Inhomogeneous,
-    common,
-    dimension_of_kind,
-    exponents,
-    kind_with_article,
-    power,
-    product,
-)
+from derive.algebra.dimensions import NUMBER, Dimension, exponents, power, product
 from derive.algebra.equality import Grade
+from derive.algebra.kinds import Inhomogeneous, common, dimension_of_kind, kind_with_article
 from derive.algebra.mass_integral import dimensions_of_variables
 from derive.algebra.node import DimensionOf, Node
 from derive.errors import Complaint

@@ -12,9 +12,9 @@ from typing import Any, ClassVar, NoReturn, TypeVar
 
 from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol, nan
 
-from derive.algebra.dimensions import kind_with_article
 from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade, Verdict
 from derive.algebra.expressions import AXES, Relation, component_names, explicit
+from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.subject import NOTHING, Subject

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 from sympy import Identity, ImmutableMatrix, Integer, MatrixSymbol, Tuple, symbols
 
-from derive.algebra.dimensions import NUMBER, Inhomogeneous, dimension_of_kind
+from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import column, explicit
+from derive.algebra.kinds import Inhomogeneous, dimension_of_kind
 from derive.algebra.mass_integral import MassIntegral, dimensions_of_variables
 
 a, b, rho, x, y = symbols("a b rho x y", positive=True)

@@ -9,9 +9,10 @@ import pytest
 from sympy import Expr, Integer, Symbol, Tuple, symbols
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import Dimension, dimension_of_kind, power
+from derive.algebra.dimensions import Dimension, power
 from derive.algebra.encoding import decoded, encoded
 from derive.algebra.equality import equal
+from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.node import NODES, DimensionOf, ScalarNode, TextOf
 from derive.render.printing.plain_sympy import sympy_text
 from derive.steps.homogeneity import dimension_of

@@ -7,9 +7,9 @@ from itertools import product
 import pytest
 from sympy import Expr, ImmutableMatrix, Integer, Rational, Symbol, cos, nan, sin, sqrt
 
-from derive.algebra.dimensions import Inhomogeneous, dimension_of_kind
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import Dot, Relation, column
+from derive.algebra.kinds import Inhomogeneous, dimension_of_kind
 
 a, b, k = (Symbol(name, positive=True) for name in "abk")
 x, y, theta = (Symbol(name, real=True) for name in ("x", "y", "theta"))

@@ -7,7 +7,8 @@ from fractions import Fraction
 import pytest
 from sympy import Integer, Rational, Symbol, cos, exp, sqrt
 
-from derive.algebra.dimensions import NUMBER, Dimension, dimension_of_kind
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.arithmetic import (
     MAX_DIGITS,
     MAX_EXPONENT,

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Expr, Integer, Rational, Symbol, cos, exp, pi, sin, sqrt, sstr, tan
 
-from derive.algebra.dimensions import NUMBER, dimension_of_kind
+from derive.algebra.dimensions import NUMBER
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.expression import Declared, read_expression
 from derive.course.given import symbol_of_kind
 from derive.course.yaml_tree import Scalar, Source

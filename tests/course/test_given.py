@@ -9,7 +9,7 @@ from sympy import Expr, Integer, Rational, Symbol, pi
 
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import TIME, explicit
-from derive.algebra.kinds import KINDS, Angle, Lengths, kind_of_annotation
+from derive.algebra.kinds import ANNOTATIONS, Angle, Lengths, asked_by_annotation
 from derive.course.expression import Declared
 from derive.course.given import (
     Given,
@@ -34,7 +34,7 @@ def read(text: str, asked: dict[str, str], symbols: dict[str, str]) -> tuple[dic
     assert isinstance(node, Mapping)
     faults = Faults()
     nodes = {key.text: value for key, value in node.pairs}
-    kinds = {name: KINDS[asked[name]] for name in nodes}
+    kinds = {name: ANNOTATIONS[asked[name]] for name in nodes}
     givens, found = read_givens(nodes, kinds, declared(symbols), faults, notes=dict.fromkeys(nodes, "asked here"))
     faults.stop()
     return {given.name: given for given in givens}, found
@@ -259,11 +259,11 @@ def test_a_number_that_does_not_fit_its_letter_is_refused(text: str, code: str) 
 
 
 def test_a_kind_is_known_by_its_annotation_or_by_its_name() -> None:
-    assert kind_of_annotation(Lengths) == KINDS["Lengths"]
-    assert kind_of_annotation("given.Angle") == kind_of_annotation(Angle)
-    assert kind_of_annotation(Direction) == KINDS["Direction"]
-    assert kind_of_annotation(str) is None
-    assert kind_of_annotation("Masss") is None
+    assert asked_by_annotation(Lengths) == ANNOTATIONS["Lengths"]
+    assert asked_by_annotation("given.Angle") == asked_by_annotation(Angle)
+    assert asked_by_annotation(Direction) == ANNOTATIONS["Direction"]
+    assert asked_by_annotation(str) is None
+    assert asked_by_annotation("Masss") is None
 
 
 def test_the_letter_t_is_the_time_itself_and_any_other_letter_of_its_kind_a_duration() -> None:

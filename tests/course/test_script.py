@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.algebra.kinds import KINDS
+from derive.algebra.kinds import ANNOTATIONS
 from derive.course.script import imported_script, run
 from derive.errors import Complaint, Rejected, Unverified
 
@@ -115,8 +115,8 @@ def test_a_script_says_what_it_asks_for_and_where(tmp_path: Path) -> None:
     )
     script = imported_script(file, "problems/hw9/block.py", "derive_problem_test")
     assert [(p.name, p.kind, p.required) for p in script.parameters] == [
-        ("mass", KINDS["Mass"], True),
-        ("rate", KINDS["AngularSpeed"], False),
+        ("mass", ANNOTATIONS["Mass"], True),
+        ("rate", ANNOTATIONS["AngularSpeed"], False),
     ]
     assert script.parameters[1].note == "`solve()` asks for it at problems/hw9/block.py:7"
     assert script.returns.line == 8

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from derive.algebra.dimensions import KINDS
+from derive.algebra.kinds import KINDS
 from derive.steps.outcomes import known_outcomes
 from tests.courses import ROOT
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from sympy import Integer, Symbol
 
-from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.equality import Compared
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.prose import Mention
 from derive.errors import Place, Rejected
 from derive.page.wording import (

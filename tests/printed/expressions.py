@@ -26,8 +26,8 @@ from sympy import (
 )
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.expressions import PLUS_MINUS
+from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.render.notation.notation import Notation
 from tests.printed.meaning import meaning

@@ -33,9 +33,9 @@ from sympy import (
 )
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit
+from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.errors import Rejected
 from derive.render.notation import layout as on_paper

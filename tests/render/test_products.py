@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 from sympy import Integer, Matrix, Rational, pi, sqrt, symbols
 
-from derive.algebra.dimensions import NUMBER, dimension_of_kind
+from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import explicit
+from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.layout import Applied, Digits, Fenced, Fraction, Layout, Name, Operator, Raised, Row
 from derive.render.notation.products import (
     accelerations_first,

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from sympy import Expr, Integer, Integral, Matrix, Rational, Symbol, acos, cos, pi, sin, sqrt, symbols
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import NUMBER, Dimension, Inhomogeneous, dimension_of_kind
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.kinds import Inhomogeneous, dimension_of_kind
 from derive.steps.establish import Lines, establish
 from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Form, Quantity, Step

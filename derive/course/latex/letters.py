@@ -10,8 +10,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.expressions import rate
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.arithmetic import Declared, Term
 from derive.course.latex.tokens import Argument, Token
 from derive.course.latex.vocabulary import ARROW_COMMANDS, BOLD_COMMANDS, DECORATIONS, DOTS, GREEK_COMMANDS, WORDS

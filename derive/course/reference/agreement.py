@@ -12,9 +12,10 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixSymbol, Pow, Rational, Symbol, factor_terms
 
-from derive.algebra.dimensions import Dimension, dimension_of_kind, kind_with_article, named
+from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import Grade, Verdict, equal
 from derive.algebra.expressions import AXES, PLUS_MINUS, Relation, component_names, explicit
+from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
 from derive.algebra.normal_form import vanishes
 from derive.algebra.rounding import Rounded, off_by_more_than_half_a_unit
 from derive.algebra.samples import is_zero_everywhere

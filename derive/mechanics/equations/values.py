@@ -8,7 +8,6 @@ from typing import Any
 from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 
 from derive.algebra.collect import by_terms
-from derive.algebra.dimensions import KINDS
 from derive.algebra.expressions import (
     Dot,
     Factors,
@@ -22,6 +21,7 @@ from derive.algebra.expressions import (
     explicit,
     scalar,
 )
+from derive.algebra.kinds import KINDS
 from derive.algebra.tidy import size_and_rest
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation.vectors import RateByParticles, Through, length_by_turning

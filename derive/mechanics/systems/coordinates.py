@@ -13,8 +13,8 @@ from typing import Any
 from sympy import Derivative, Expr, Function, MatrixBase, Symbol, diff
 
 from derive.algebra.collect import by_rates
-from derive.algebra.dimensions import dimension_of_kind, kind_of_dimension
 from derive.algebra.expressions import TIME, TimeRate, explicit, rate, scalar
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.errors import Complaint, Rejected
 from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named

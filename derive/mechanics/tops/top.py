@@ -16,7 +16,6 @@ from typing import Any
 from sympy import Expr, Integer, MatAdd, Matrix, MatrixSymbol, Pow, Rational, Symbol, cos, sin
 
 from derive.algebra.collect import by_accelerations
-from derive.algebra.dimensions import kind_with_article
 from derive.algebra.expressions import (
     Cross,
     Factors,
@@ -29,6 +28,7 @@ from derive.algebra.expressions import (
     scaled,
     vector,
 )
+from derive.algebra.kinds import kind_with_article
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, coordinate, letters_of

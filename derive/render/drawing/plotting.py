@@ -10,8 +10,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from derive.algebra.dimensions import unit_of_kind
 from derive.algebra.expressions import Amount
+from derive.algebra.kinds import unit_of_kind
 from derive.figures.extrema import MINIMUM, values_along
 from derive.figures.marks import Plot
 from derive.page.plots import DEGREES, Curve, Curves

@@ -20,7 +20,9 @@ from typing import Any
 from sympy import MatrixBase, Symbol
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import NUMBER, Dimension, unit_of_dimension, unit_of_kind
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.direction import Direction
+from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
 from derive.course.parts import points_text
 from derive.page.document import Illustration
@@ -80,7 +82,7 @@ def _given(given: Any) -> Any:
     """The value as SymPy text, with the number behind each letter."""
     if given.word is not None:
         return given.word
-    value = given.value.components if given.kind.name == "Direction" else given.value
+    value = given.value.components if isinstance(given.value, Direction) else given.value
     text = [sympy_text(v) for v in value] if isinstance(value, tuple) else sympy_text(value)
     if not given.measured:
         return text

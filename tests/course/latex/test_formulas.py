@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from sympy import E, Integral, Matrix, Rational, Symbol, acos, cos, exp, log, pi, sin, sqrt, symbols
 
-from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Bracket
+from derive.algebra.kinds import dimension_of_kind
 from tests.course.latex.formula import dimension, letter, read, value
 
 a, b, h, R, r, z, l, M, m, g, t, n = (

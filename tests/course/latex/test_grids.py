@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from sympy import Integer, Symbol, sqrt
 
-from derive.algebra.dimensions import NUMBER, dimension_of_kind
+from derive.algebra.dimensions import NUMBER
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.arithmetic import Term
 from derive.course.latex.grids import Grid, Grids, TermOrGrid, each, spanning
 from derive.course.yaml_tree import Scalar, Source

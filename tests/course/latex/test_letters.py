@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from sympy import Symbol
 
-from derive.algebra.dimensions import dimension_of_kind
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.arithmetic import Declared
 from derive.course.latex.letters import Letter, Letters, letter_at, subscript_of, term_of
 from tests.course.latex.test_tokens import tokens

@@ -10,7 +10,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Expr, MatrixBase, MatrixExpr, MatrixSymbol, Pow, Rational, Symbol, cos, pi, sin, sqrt
 
-from derive.algebra.dimensions import dimension_of_kind
 from derive.algebra.equality import equal
 from derive.algebra.expressions import (
     Amount,
@@ -23,6 +22,7 @@ from derive.algebra.expressions import (
     explicit,
     is_matrix,
 )
+from derive.algebra.kinds import dimension_of_kind
 from derive.course.arithmetic import Declared
 from derive.course.latex import read_latex
 from derive.course.yaml_tree import Scalar, Source
