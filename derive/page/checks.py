@@ -11,13 +11,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from derive.algebra.equality import Compared, Evidence, Grade
+from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade
 from derive.course.reference.comparison import Remark
 from derive.course.reference.errata import Erratum
 from derive.page.wording import Inline, Phrases, filled
 from derive.steps.step import Step
-
-COUNTED = (Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEFINITION, Grade.PROVED)
 
 
 @dataclass(frozen=True)
@@ -48,7 +46,7 @@ class Checks:
     def counts(self) -> dict[str, int]:
         """The numbers of the last page's table, by the names of its columns."""
         return {
-            **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in COUNTED},
+            **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE_FIRST[1:]},
             "lines": sum(self.lines.values()),
             "routes": sum(self.routes.values()),
             "routes_proved": self.routes.get(Grade.PROVED, 0),
