@@ -102,6 +102,20 @@ class Cache:
 NO_CACHE = Cache()
 
 
+@dataclass(frozen=True)
+class Kept:
+    """One value of a cache that is replaced by the next of its kind, such as the page numbers of a document."""
+
+    cache: Cache
+    key: str
+
+    def recalled(self) -> bytes | None:
+        return self.cache.recalled(self.key)
+
+    def keep(self, content: bytes) -> None:
+        self.cache.keep(self.key, content)
+
+
 def _facts(file: Path) -> tuple[int, int, Path]:
     """When a file was used last, and its size; nothing of one that another build has just let go."""
     try:

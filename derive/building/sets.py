@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive import FOLDER
-from derive.building.cache import PACKAGES, Cache, digest, engine_digest, file_digest, folder_digest
+from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, file_digest, folder_digest
 from derive.building.files import folder, shown_path, write, writing
 from derive.building.manifest import Manifest, outputs_of
 from derive.building.sealed import regular_content
@@ -273,12 +273,12 @@ class _Build:
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
-        aux = self.outputs / ".derived" / f"{SOLUTIONS}.aux"  # the page numbers, so that one run is enough next time
-        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, aux)
+        numbers = Kept(self.cache, digest("numbers", SOLUTIONS, self.engine.identity))  # one run is enough next time
+        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, numbers)
         self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files)
 
     def _typeset(
-        self, name: str, document: Callable[[], str], texts: dict[str, str], files: Files, aux: Path | None = None
+        self, name: str, document: Callable[[], str], texts: dict[str, str], files: Files, numbers: Kept | None = None
     ) -> None:
         pdf = f"{name}.pdf"
         try:
@@ -294,7 +294,7 @@ class _Build:
             return
         limit = self.options.limit
         beside = [file for file in files if file[0].endswith(".pdf")]
-        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit, aux=aux, beside=beside)
+        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit, numbers=numbers, beside=beside)
         job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 

@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from derive.building.cache import Kept
 from derive.building.files import cannot_write, folder, shown_path, write, writing
 from derive.errors import BuildFailed, Complaint, Misused, Place
 
@@ -107,13 +108,13 @@ def typeset(
     *,
     timeout: float = 120,
     log: Path | None = None,
-    aux: Path | None = None,
+    numbers: Kept | None = None,
     beside: Sequence[tuple[str, bytes]] = (),
 ) -> bool:
     """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
 
-    `aux` is a file that keeps the page numbers for the next time: if they still hold, one run is enough; `beside` are
-    files that the source includes, such as its drawings.
+    `numbers` are the page numbers of the last time, kept for the next: if they still hold, one run is enough; `beside`
+    are files that the source includes, such as its drawings.
     """
     kept = (log or target.parent / "log") / target.stem
     with writing(Path(tempfile.gettempdir())):
@@ -124,9 +125,11 @@ def typeset(
         for file, content in beside:
             write(Path(name) / file, content)
         noted = source.with_suffix(".aux")
-        begun = _copied(aux, noted)
+        begun = numbers.recalled() if numbers else None
+        if begun is not None:
+            noted.write_bytes(begun)
         output = _passes(engine, source, timeout)
-        if output is not None and begun:  # perhaps because what was kept is damaged
+        if output is not None and begun is not None:  # perhaps they were those of another document
             noted.unlink(missing_ok=True)
             output = _passes(engine, source, timeout)
         pdf = source.with_suffix(".pdf")
@@ -138,7 +141,8 @@ def typeset(
                 tex, source, f"`{engine.name}` says that all is well, but what it wrote is no PDF", engine, kept
             )
         changed = write(target, content)
-        _copied(noted, aux)
+        if numbers and noted.is_file():
+            numbers.keep(noted.read_bytes())
     for suffix in (".tex", ".log"):
         kept.with_suffix(suffix).unlink(missing_ok=True)
     if kept.parent.is_dir() and not any(kept.parent.iterdir()):
@@ -152,14 +156,6 @@ def _is_whole(content: bytes, log: Path) -> bool:
     said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
     written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
     return written and content.startswith(b"%PDF-") and b"startxref" in content[-1024:] and b"%%EOF" in content[-1024:]
-
-
-def _copied(source: Path | None, target: Path | None) -> bool:
-    """Whether there was a file to copy."""
-    if source is None or target is None or not source.is_file():
-        return False
-    write(target, source.read_bytes())
-    return True
 
 
 def _passes(engine: Engine, source: Path, timeout: float) -> str | None:

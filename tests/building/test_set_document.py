@@ -12,7 +12,7 @@ import pytest
 from pypdf import PdfReader
 
 from derive.building import tex as engine_runs
-from derive.building.cache import Cache
+from derive.building.cache import Cache, Kept
 from derive.building.set_document import COUNTED, problem_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
@@ -71,10 +71,17 @@ def solved(course: Path) -> list[Rendered]:
 @pytest.fixture(scope="module")
 def solutions(course: Path, solved: list[Rendered]) -> PdfReader:
     target = course / "solutions.pdf"
-    typeset(
-        set_document(course, problem_set(course, "hw9"), solved), target, chosen_engine(None), aux=course / "kept.aux"
-    )
+    tex = set_document(course, problem_set(course, "hw9"), solved)
+    typeset(tex, target, chosen_engine(None), numbers=numbers_in(course))
     return PdfReader(target)
+
+
+PLAIN = r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{lmodern}\def\told{honest}"
+PLAIN += r"\begin{document}\told\end{document}"
+
+
+def numbers_in(course: Path) -> Kept:
+    return Kept(Cache(course / "kept"), "numbers")
 
 
 def page_of(reader: PdfReader, name: str) -> int:
@@ -138,10 +145,27 @@ def test_kept_page_numbers_save_a_run_and_change_nothing(
     run = engine_runs.subprocess.run
     monkeypatch.setattr(engine_runs.subprocess, "run", lambda *a, **k: runs.append("run") or run(*a, **k))
     tex, engine = set_document(course, problem_set(course, "hw9"), solved), chosen_engine(None)
-    assert not typeset(tex, course / "solutions.pdf", engine, aux=course / "kept.aux"), "the same pages"
+    numbers = numbers_in(course)
+    assert not typeset(tex, course / "solutions.pdf", engine, numbers=numbers), "the same pages"
     assert len(runs) == 1
-    (course / "kept.aux").write_text("\\undefined\n")
-    assert not typeset(tex, course / "solutions.pdf", engine, aux=course / "kept.aux"), "damage is no obstacle"
+    numbers.keep(b"\\undefined\n")
+    assert not typeset(tex, course / "solutions.pdf", engine, numbers=numbers), "another document's are no obstacle"
+
+
+def test_page_numbers_that_somebody_wrote_are_not_run(tmp_path: Path) -> None:
+    """They are TeX: what is appended to the kept file must not come onto a page."""
+    numbers, target, engine = numbers_in(tmp_path), tmp_path / "page.pdf", chosen_engine(None)
+
+    def told() -> str:
+        typeset(PLAIN, target, engine, numbers=numbers)
+        return PdfReader(target).pages[0].extract_text().split()[0]
+
+    assert told() == "honest"
+    file = tmp_path / "kept" / numbers.key
+    file.write_bytes(file.read_bytes() + b"\\gdef\\told{forged}\n")
+    assert told() == "honest"
+    numbers.keep(b"\\relax\n\\gdef\\told{ours}\n")
+    assert told() == "ours"  # what was kept by us is what TeX reads
 
 
 def test_one_problem_alone_needs_one_run_and_has_its_bookmarks(
