@@ -8,7 +8,7 @@ PYTHON := .venv/bin/python
 
 # Names are words of rules and of commands: of sets and files, those with other characters are not named here, and no
 # set may have the name of another target. What lies in build/ is read as words, never as rules.
-RESERVED := all always bench build check clean derive help problems templates test tests
+RESERVED := all always bench build check clean derive help mutants problems schemas templates test tests tools
 SETS := $(shell cd problems 2>/dev/null && LC_ALL=C && for name in *; do \
     test -e "$$name/set.yaml" || continue; \
     case "$$name" in ([!A-Za-z0-9]*|*[!A-Za-z0-9_-]*) why='a name has letters, digits, - and _ only' ;; \
@@ -21,7 +21,7 @@ ENGINE := $(filter %.py,$(call files_in,derive))
 TEMPLATES := $(call files_in,templates)
 ENVIRONMENT := pyproject.toml constraints.txt tools/bootstrap.py
 
-.PHONY: all help check bench test mutants clean always $(SETS)
+.PHONY: all help check bench test schemas mutants clean always $(SETS)
 
 all: .venv/.runtime $(SETS)
 
@@ -30,6 +30,7 @@ help:
 	@$(foreach set,$(SETS),echo 'make $(set)      the PDFs of $(set)';)
 	@echo 'make check    derive every problem, verify each line, compare with the reference'
 	@echo 'make test     lint, types and the whole test suite'
+	@echo 'make schemas  the JSON schemas of problem and reference files, for editors'
 	@echo 'make mutants  change the code and the results in every place that can be changed: what is not refused (hours)'
 	@echo 'make bench    how long a build takes, as ratios to the least it could take'
 	@echo 'make clean    empty build/; .venv stays'
@@ -59,6 +60,9 @@ test: .venv/.tests
 	@$(PYTHON) -m ruff format --quiet --check .
 	@$(PYTHON) -m mypy --no-error-summary
 	@$(PYTHON) -m pytest -n 2
+
+schemas: .venv/.runtime
+	@$(PYTHON) -m tools.schemas
 
 mutants: .venv/.tests
 	@$(PYTHON) -m tests.perturbation

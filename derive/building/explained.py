@@ -44,10 +44,11 @@ def explained(root: Path, problem_id: str, key: str | None, as_json: bool) -> st
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Every step, or the one of that key, or which stands for it."""
+    """Every step, or the one of that key, or which stands for it, or the first that a verb of that name has made."""
     if key is None:
         return steps
-    known = {**standing_in(steps.values()), **{each: each for each in steps}}
+    of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}
+    known = {**of_verbs, **standing_in(steps.values()), **{each: each for each in steps}}
     if key not in known:
         listed = "`derive explain` without a step lists them"
         raise Misused(Complaint("no-such-step", f"no step is called `{key}`", help=did_you_mean(key, known) or listed))

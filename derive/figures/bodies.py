@@ -15,6 +15,8 @@ from derive.mechanics.bodies.body import Body, EdgedBody, RoundBody
 from derive.mechanics.bodies.regions import Point
 from derive.steps.step import is_zero
 
+__all__ = ["outline"]
+
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 20)  # half the thickness with which a disc is drawn, in terms of its radius

@@ -19,6 +19,8 @@ from derive.figures.surfaces import Circle, Polyhedron, ThinRod
 from derive.mechanics.rotation.composite import Composed, Part
 from derive.steps.step import Quantity
 
+__all__ = ["leaning_top", "slab_on_cylinder"]
+
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
 
 

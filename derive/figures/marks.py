@@ -40,6 +40,9 @@ class Mark:
     together: ClassVar[str | None] = None  # the phrase by which all such marks are told at once, by their labels
 
     def __init_subclass__(cls) -> None:
+        known = MARK_CLASSES.setdefault(cls.__name__, cls)
+        if (known.__module__, known.__qualname__) != (cls.__module__, cls.__qualname__):
+            raise TypeError(f"there already is a mark {cls.__name__}")
         MARK_CLASSES[cls.__name__] = cls
 
     def pieces(self, paper: Paper) -> list[Piece]:

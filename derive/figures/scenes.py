@@ -21,6 +21,8 @@ from derive.figures.marks import PLANE, SPACE, Drawing, Mark, Marks, Plot, flat,
 from derive.mechanics.bodies.regions import Point
 from derive.steps.step import Quantity
 
+__all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "length", "plot", "point", "turn", "vectors_in"]
+
 LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
 
 

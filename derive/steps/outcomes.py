@@ -13,6 +13,7 @@ from typing import Any
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the word where nothing is to be chosen
+ZERO = "zero"  # the word for a result that vanishes
 
 
 @dataclass(frozen=True)
@@ -74,11 +75,11 @@ def _names_its_axis(facts: Judged) -> bool:
 def holds(rule: str, outcome: str, facts: Judged) -> bool:
     """Whether the outcome is one that the rule has, and is true.
 
-    A rule of which nothing was said has only the outcome that chooses nothing.
+    A rule of which nothing was said has the outcome that chooses nothing, and that of a result which vanishes.
     """
     predicates = _PREDICATES.get(rule)
     if predicates is None:
-        return outcome == GENERIC
+        return outcome in {GENERIC, ZERO}  # `establish` itself sees to it that zero is zero
     predicate = predicates.get(outcome)
     return predicate is not None and bool(predicate(facts))
 

@@ -134,5 +134,6 @@ def test_an_output_is_taken_away_only_as_it_was_written(tmp_path: Path) -> None:
 
 def test_a_document_of_the_set_has_no_text_and_no_json() -> None:
     assert outputs_of("solutions") == ["solutions.pdf", "solutions.tex"]
-    assert outputs_of("block") == ["block.pdf", "block.tex", "block.json", "block.txt"]
-    assert Manifest(Path(), drawings={"block": ["block-axes.svg"]}).outputs_of("block")[4:] == ["block-axes.svg"]
+    own = outputs_of("block")
+    assert {"block.pdf", "block.tex", "block.json", "block.txt"} <= set(own)
+    assert Manifest(Path(), drawings={"block": ["block-axes.svg"]}).outputs_of("block") == [*own, "block-axes.svg"]

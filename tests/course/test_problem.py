@@ -354,12 +354,12 @@ def test_a_set_that_does_not_exist_is_met_with_the_nearest(tmp_path: Path) -> No
 
 def test_the_schema_for_editors_is_current() -> None:
     file = Path(__file__).parents[2] / "templates" / "problem.schema.json"
-    assert file.read_text(encoding="utf-8") == problem_schema(), "write what `problem_schema()` gives to it"
+    assert file.read_text(encoding="utf-8") == problem_schema(), "run `make schemas`"
 
 
 def test_the_schema_of_references_is_current() -> None:
     file = Path(__file__).parents[2] / "templates" / "reference.schema.json"
-    assert file.read_text(encoding="utf-8") == reference_schema(), "write what `reference_schema()` gives to it"
+    assert file.read_text(encoding="utf-8") == reference_schema(), "run `make schemas`"
 
 
 def test_the_schema_knows_every_key_and_what_is_required() -> None:

@@ -32,7 +32,7 @@ from derive.mechanics import (
     transverse_moment,
 )
 from derive.mechanics.bodies.body import Body
-from derive.steps.step import Quantity
+from derive.steps.step import Quantity, is_zero
 from tests.mechanics.round_bodies import M, R, a, cone_derivation, h, m, top_derivation
 from tests.mechanics.verbs import verbs_as_imported
 
@@ -243,3 +243,26 @@ def test_two_halves_of_a_cylinder_are_the_cylinder() -> None:
 
 def test_centre_of_mass_of_a_hoop_is_its_middle() -> None:
     assert centre_of_mass(Hoop(R, M)).value == zeros(3, 1)
+
+
+def test_the_centre_of_a_ball_is_where_it_is_counted_from() -> None:
+    assert is_zero(centre_of_mass(Ball(R, M)).value)
+    assert centre_of_mass(Ball(R, M)).step.outcome == "round"
+
+
+def test_in_cylindrical_coordinates_a_ball_has_no_chords() -> None:
+    """The radius of its cross-section is a limit there, but no integral along a chord is taken."""
+    reasons = {
+        coordinates: {
+            form.because for q in inertia_tensor(Ball(R, M), coordinates=coordinates).parents for form in q.step.chain
+        }
+        for coordinates in ("cartesian", "cylindrical")
+    }
+    assert "chords" in reasons["cartesian"]
+    assert not {"chords", "discs"} & reasons["cylindrical"]
+
+
+def test_only_the_cross_section_of_a_ball_is_found_by_pythagoras() -> None:
+    ball, cone = (inertia_tensor(body, coordinates="cartesian") for body in (Ball(R, M), CONE))
+    found = {q.step.outcome for q in [*ball.ancestors(), *cone.ancestors()] if q.step.rule == "bodies.section_radius"}
+    assert found == {"ball", "straight"}

@@ -31,9 +31,10 @@ def test_a_word_that_the_rule_does_not_have_never_holds() -> None:
     assert known_outcomes()["test.sign"] == ("positive", "zero")
 
 
-def test_a_rule_of_which_nothing_is_said_has_one_word() -> None:
+def test_a_rule_of_which_nothing_is_said_has_no_word_of_its_own() -> None:
     assert holds("test.unheard_of", "generic", Judged(1))
-    assert not holds("test.unheard_of", "zero", Judged(0))
+    assert holds("test.unheard_of", "zero", Judged(0))
+    assert not holds("test.unheard_of", "conserved", Judged(0))
 
 
 def test_what_a_sentence_tells_besides_is_judged_by_its_own_predicate() -> None:

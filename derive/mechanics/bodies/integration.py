@@ -195,9 +195,9 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord, so that they depend on where it is."""
+    """Whether the innermost limits are the ends of a chord, so that they depend on where in its disc it is."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
-    return any(root.has(*region.names) for root in roots)
+    return any(root.has(*region.names[1:]) for root in roots)
 
 
 def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, pi, sin, solve, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, solve, sqrt
 
-from derive.algebra.expressions import Factors, column
+from derive.algebra.expressions import Factors, column, explicit
 from derive.mechanics.bodies.body import Particles, RoundBody
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import COORDINATES, Point, Region, solid_of_revolution
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Quantity
+from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["Ball", "Cone", "Cylinder", "volume"]
@@ -237,6 +237,11 @@ def _by_pappus(body: Cone) -> Expr:
     return 2 * pi * (r1 + r2 + r3) / 3 * (-area)
 
 
+def _is_of_a_ball(radius: Expr, along: Symbol) -> bool:
+    """r^2 + (z - c)^2 is the same everywhere: the cross-sections are those of a ball."""
+    return is_zero(diff(explicit(radius) ** 2, along, 2) + 2)
+
+
 def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
     """The radius of the cross-section at z from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
     symbol, value = region.section or (None, None)
@@ -247,7 +252,7 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         lambda _: value,
         {"along": z},
         routes={"edge": lambda r: body.edge_condition(point.along_body(z), r)},
-        outcome="straight" if body.is_straight else "curved",
+        outcome=lambda radius: "straight" if body.is_straight else "ball" if _is_of_a_ball(radius, z) else "curved",
         kind="length",
         lines=Lines(put_in=None),
         scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),

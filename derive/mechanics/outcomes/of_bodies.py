@@ -8,6 +8,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, diff
 from sympy import diag as diagonal
 
+from derive.algebra.expressions import explicit
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -38,7 +39,15 @@ def _is_symmetric_about_its_centre(facts: Judged) -> bool:
 
 
 def _on_the_axis(facts: Judged) -> bool:
-    return is_zero(facts.result[0]) and is_zero(facts.result[1]) and not is_zero(facts.result[2])
+    return is_zero(facts.result[0]) and is_zero(facts.result[1]) and _is_round(facts)
+
+
+def _is_of_a_ball(facts: Judged) -> bool:
+    """The square of the radius is R^2 less the square of the distance from some place on the axis."""
+    square = explicit(facts.result) ** 2
+    along = facts.inputs["along"]
+    in_powers = square.as_poly(along)
+    return in_powers is not None and in_powers.degree() == 2 and bool(in_powers.LC() == -1)
 
 
 def _along_the_edge(facts: Judged) -> bool:
@@ -164,6 +173,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "bodies.volume": {"cylindrical": lambda facts: facts.inputs["element"] == facts.inputs["radius"]},
     "bodies.section_radius": {
         "straight": lambda facts: is_zero(diff(facts.result, facts.inputs["along"], 2)),
+        "ball": _is_of_a_ball,
         "curved": lambda facts: not is_zero(diff(facts.result, facts.inputs["along"], 2)),
     },
     "bodies.centre_of_mass": {
