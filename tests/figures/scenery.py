@@ -8,13 +8,14 @@ from typing import Any
 
 from sympy import Symbol, symbols
 
-from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline
+from derive.algebra.expressions import column
+from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline, point, slab_on_cylinder
 from derive.figures.marks import Drawing, Mark
 from derive.figures.pieces import Piece, Stroke
-from derive.mechanics import Composed, Cone, Cuboid, Disc, Part, Rod
+from derive.mechanics import Composed, Cone, Coordinate, Cuboid, Disc, Part, Rod, rolled_centre
 from derive.render.drawing.camera import Numbers
 from derive.render.drawing.picture import picture
-from tests.mechanics.block import M, a, known_block
+from tests.mechanics.block import M, a, known_block, omega
 
 R, h = symbols("R h", positive=True)
 theta = Symbol("theta", real=True)
@@ -39,6 +40,20 @@ CONE = Cone(R, h, M)
 def leaning(tilt: Any = theta, **names: Any) -> list[Mark]:
     """A disc of radius a/2 in the middle of a rod of length 2a, leaning on its lower end."""
     return leaning_top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
+
+
+SLAB = drawing(
+    "slab", slab_on_cylinder(R, a, theta, rolled_centre(R, a / 2, Coordinate(theta, "angle")), M), view="plane"
+)
+SCENES = [
+    vectors_of_block(),
+    vectors_of_block(axis=(1, 1, 0)),
+    drawing("axes", outline(Cuboid((a, 2 * a, 3 * a), M)), axis_of_rotation(column(1, 2, 3), rate=omega)),
+    drawing("cone", outline(CONE)),
+    drawing("cone_above", outline(CONE, "base"), point(column(0, 0, h / 4), Symbol("C"))),
+    drawing("top", leaning(precession=Symbol("phi_dot"), spin=Symbol("S"), weight=M)),
+    SLAB,
+]
 
 
 def plane(*marks: Mark) -> Drawing:

@@ -19,7 +19,7 @@ from derive.figures.annotations import LengthMark, Line
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
 from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
-from derive.mechanics import Ball, Composed, Cone, Cylinder, Disc, Hoop, Part, Plate, Rod, inertia_tensor
+from derive.mechanics import Ball, Composed, Cone, Cuboid, Cylinder, Disc, Hoop, Part, Plate, Rod, inertia_tensor
 from derive.mechanics.bodies.body import EdgedBody, Particles
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.bodies.solids import RoundSolid
@@ -29,7 +29,7 @@ from derive.render.drawing.camera import USUAL
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from tests.courses import ROOT
-from tests.figures.scenery import M, R, a, h, pieces_of, strokes, theta
+from tests.figures.scenery import CONE, M, R, a, h, pieces_of, strokes, theta
 
 
 @dataclass(frozen=True)
@@ -204,3 +204,29 @@ def test_the_radius_of_a_ball_is_drawn_from_its_centre() -> None:
 def test_what_is_no_body_has_no_outline() -> None:
     with pytest.raises(Rejected, match="no outline of a Composed"):
         outline(Composed(Part("rod", Rod(2 * h, M), at=h)))
+
+
+def test_an_outline_has_the_sides_of_the_body() -> None:
+    sides = (a, 2 * a, h)
+    box = next(mark for mark in outline(Cuboid(sides, M)) if isinstance(mark, Polyhedron))
+    assert tuple(box.corners[-1] - box.corners[0]) == sides
+    assert [length for length, _ in box.lengths] == list(sides)
+
+
+@pytest.mark.parametrize(("about", "tip", "base"), [("apex", 0, h), ("base", h, 0), ("centre", -3 * h / 4, h / 4)])
+def test_a_cone_is_seen_from_its_points(about: str, tip: object, base: object) -> None:
+    (mark,) = [mark for mark in outline(CONE, about) if isinstance(mark, Revolved)]
+    assert [(list(mark.through + z * mark.along), radius) for z, radius in mark.profile] == [
+        ([0, 0, tip], 0),
+        ([0, 0, base], R),
+    ]
+    assert [each.label for each in outline(CONE, about) if isinstance(each, LengthMark)] == [h]
+
+
+@pytest.mark.parametrize(
+    ("body", "kind"),
+    [(Cylinder(R, h, M), Revolved), (Ball(R, M), Revolved), (Hoop(R, M), Circle), (Plate((R, h), M), Polyhedron)],
+)
+def test_every_body_has_an_outline(body: object, kind: type) -> None:
+    assert sum(isinstance(mark, kind) for mark in outline(body)) == 1
+    assert len(outline(body, named=False)) == 1

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import cos, sin, sqrt
 
 import pytest
 
+from derive.algebra.expressions import column
+from derive.figures import drawing, outline
 from derive.figures.pieces import Patch, Piece, Stroke, Tag
 from derive.figures.space import Vector
+from derive.figures.surfaces import Revolved
+from derive.mechanics import Cuboid
 from derive.render.drawing.camera import FLAT, Numbers, stance_from
-from derive.render.drawing.hidden_lines import OnPaper
+from derive.render.drawing.hidden_lines import OnPaper, hull
+from tests.figures.scenery import CONE, M, R, a, h, pieces_of, strokes
 
 PAPER = OnPaper(Numbers({}), stance_from(25, 18), middle=(0.0, 0.0, 0.5))
 FROM_ABOVE = OnPaper(Numbers({}), FLAT)
@@ -72,3 +77,42 @@ def test_along_its_axis_a_cone_is_a_circle_and_has_no_sides() -> None:
     pieces = FROM_ABOVE.revolved([(0.0, 0.0, 0.0), (0.0, 0.0, 1.0)], [1.0, 0.0])
     (stroke,) = [piece for piece in pieces if isinstance(piece, Stroke)]
     assert all(x * x + y * y == pytest.approx(1) for x, y in stroke.spots)
+
+
+@pytest.mark.parametrize("sides", [(a, 2 * a, 3 * a), (3 * a, a, a), (a, a, a)])
+def test_three_edges_of_a_block_are_hidden_and_meet_in_the_corner_farthest_from_the_eye(sides: tuple) -> None:
+    found = drawing("one", outline(Cuboid(sides, M), named=False))
+    hidden = strokes(pieces_of(found), "hidden")
+    assert len(hidden) == 3
+    ends = [{(round(x, 6), round(y, 6)) for x, y in stroke.spots} for stroke in hidden]
+    assert len(set.intersection(*ends)) == 1
+
+
+def test_the_sides_of_a_cone_touch_its_rim_and_leave_it_on_one_side() -> None:
+    pieces = pieces_of(drawing("cone", outline(CONE, named=False)))
+    straight = [stroke for stroke in strokes(pieces, "edge") if len(stroke.spots) == 2]
+    rim = [spot for stroke in strokes(pieces, "edge") if len(stroke.spots) > 2 for spot in stroke.spots]
+    assert len(straight) == 2
+    for side in straight:
+        (x, y), (u, v) = side.spots
+        sides = [(u - x) * (q - y) - (v - y) * (p - x) for p, q in rim]
+        reach = max(map(abs, sides))
+        assert min(sides) > -0.01 * reach or max(sides) < 0.01 * reach
+
+
+@pytest.mark.parametrize(("about", "hidden"), [("apex", 0), ("base", 1)])
+def test_the_far_half_of_a_rim_is_hidden_only_behind_the_cone(about: str, hidden: int) -> None:
+    pieces = pieces_of(drawing("cone", outline(CONE, about, named=False)))
+    assert sum(len(stroke.spots) > 2 for stroke in strokes(pieces, "hidden")) in (hidden, 2 * hidden)
+
+
+def test_a_cone_seen_from_its_apex_has_no_sides() -> None:
+    flat = drawing("one", Revolved(((0, R), (h, 0)), column(0, 0, 0), column(0, 0, 1)), view="plane")
+    assert [stroke for stroke in strokes(pieces_of(flat), "edge") if len(stroke.spots) == 2] == []
+
+
+def test_a_hull_holds_every_spot() -> None:
+    spots = [(cos(7 * i), sin(5 * i) + 0.1 * i) for i in range(40)]
+    outline_of_all = hull(spots)
+    for (x, y), (u, v) in zip(outline_of_all, (*outline_of_all[1:], outline_of_all[0]), strict=True):
+        assert all((u - x) * (q - y) - (v - y) * (p - x) > -1e-9 for p, q in spots)

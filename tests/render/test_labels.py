@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from math import hypot
 from typing import Any
 
-from derive.render.drawing.labels import Bullet, Placed, Stroke, Tag, placed
+import pytest
+
+from derive.figures.marks import Drawing
+from derive.figures.pieces import Bullet, Stroke, Tag
+from derive.render.drawing.labels import Placed, placed
+from tests.figures.scenery import SCENES, pieces_of
 
 WIDTH, HEIGHT = 12.0, 8.0
 
@@ -67,3 +73,16 @@ def test_a_larger_gap_is_further_away() -> None:
 
 def test_without_labels_nothing_is_placed() -> None:
     assert labels(Bullet((0.0, 0.0))) == []
+
+
+@pytest.mark.parametrize("found", SCENES, ids=lambda found: found.key)
+def test_no_label_stands_on_another_and_every_label_is_near_what_it_names(found: Drawing) -> None:
+    pieces = pieces_of(found)
+    labels = placed(pieces, lambda label: (6.0 * len(str(label)), 8.0))
+    for one, other in combinations((label.extent for label in labels), 2):
+        assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
+    for tag, label in zip((p for p in pieces if isinstance(p, Tag)), labels, strict=True):
+        left, below, right, above = label.extent
+        x, y = tag.spot
+        away = hypot(max(left - x, 0, x - right), max(below - y, 0, y - above))
+        assert away < 25

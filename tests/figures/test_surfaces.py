@@ -1,0 +1,57 @@
+"""Surfaces of bodies: how far they reach, what they hide, and how they are told."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import pytest
+from sympy import Rational, sqrt, symbols
+
+from derive.algebra.expressions import column
+from derive.figures.pieces import Patch, Stroke
+from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
+from derive.render.drawing.camera import Numbers
+from tests.figures.scenery import pieces_of, plane
+
+R, h = symbols("R h", positive=True)
+NUMBERS = Numbers({R: 2.0, h: 3.0})
+ORIGIN, Z = column(0, 0, 0), column(0, 0, 1)
+SQUARE = (ORIGIN, column(R, 0, 0), column(R, R, 0), column(0, R, 0))
+
+
+def test_a_round_surface_reaches_as_far_as_its_circles() -> None:
+    places = Revolved(((0, R), (h, R / 2)), column(0, 0, 1), Z).places(NUMBERS)
+    assert sorted({(round(z, 9), round(hypot(x, y), 9)) for x, y, z in places}) == [(1, 2), (4, 1)]
+
+
+def test_a_curved_surface_reaches_about_as_far_by_a_few_of_its_circles() -> None:
+    heights = [Rational(k, 24) for k in range(-24, 25)]
+    places = Revolved(tuple((k * R, R * sqrt(1 - k**2)) for k in heights), ORIGIN, Z).places(NUMBERS)
+    assert len(places) < 100
+    assert max(hypot(x, y) for x, y, _ in places) == pytest.approx(2)
+    assert {min(z for *_, z in places), max(z for *_, z in places)} == {-2, 2}
+
+
+@pytest.mark.parametrize(("filled", "kinds"), [(True, [Patch, Stroke]), (False, [Stroke])], ids=["a disc", "a ring"])
+def test_only_what_is_filled_hides_what_is_behind_it(filled: bool, kinds: list[type]) -> None:
+    circle = Circle(ORIGIN, Z, R, filled)
+    assert [type(piece) for piece in pieces_of(plane(circle))] == kinds
+    places = [tuple(round(x, 9) for x in place) for place in circle.places(NUMBERS)]
+    assert len(places) == len(set(places)) > 8
+
+
+def test_a_plane_figure_is_closed_and_is_told_by_its_corners_unless_it_has_a_name() -> None:
+    patch, edge = pieces_of(plane(Polyhedron(SQUARE)))
+    assert isinstance(patch, Patch) and isinstance(edge, Stroke)
+    assert edge.spots == patch.spots and edge.spots[0] == edge.spots[-1]
+    assert len(set(edge.spots)) == 4
+    assert Polyhedron(SQUARE).in_words() == ("polygon", {"corners": 4})
+    named = Polyhedron(SQUARE, name="a plate", measures=(("side", R),)).in_words()
+    assert named == ("body", {"name": "a plate", "measures": (("side", R),)})
+    assert Polyhedron(SQUARE, faces=((0, 1, 2, 3),)).in_words() is None
+
+
+def test_a_rod_is_one_line_and_a_piece_of_it_is_not_told_again() -> None:
+    rod = ThinRod(ORIGIN, h * Z)
+    assert rod.places(NUMBERS) == [(0.0, 0.0, 0.0), (0.0, 0.0, 3.0)]
+    assert rod.in_words() is None
