@@ -8,6 +8,8 @@ from pathlib import Path
 
 from derive.building.cache import Cache
 from derive.building.solution import rendered
+from derive.building.solved import Solved, steps_key
+from derive.course.problem import Problem, load_problem
 from derive.render.rendered import Rendered
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -45,3 +47,12 @@ def kept() -> Cache:
 def rendered_once(root: Path, problem_id: str, detail: str | None = None, draws: bool = False) -> Rendered:
     """The problem in every format, like `rendered`; a derivation that some test has made already is not made again."""
     return rendered(root, problem_id, detail, kept(), draws)
+
+
+def solved_once(root: Path, problem_id: str) -> tuple[Problem, Solved]:
+    """The problem and its steps, as they were before they became a page."""
+    rendered_once(root, problem_id)
+    problem = load_problem(root, problem_id)
+    solved = Solved.from_data(kept().recalled_data(steps_key(problem)))
+    assert solved is not None
+    return problem, solved

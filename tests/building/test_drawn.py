@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,16 +16,30 @@ from derive.algebra.expressions import column
 from derive.building import drawn
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.drawn import drawing_files, numbers_of
+from derive.building.set_document import problem_document
+from derive.building.sets import Options, built_set
+from derive.building.solution import rendered
+from derive.building.tex import chosen_engine, typeset
 from derive.course.placement import Placement
 from derive.course.problem import Problem, load_problem
+from derive.course.problem_set import problem_set
 from derive.errors import Complaint, Place, Rejected
 from derive.figures.annotations import Arrow
 from derive.figures.marks import Drawing
 from derive.page.wording import Text, phrases
 from derive.render.notation.notation import Notation
-from tests.courses import ROOT, course_in
+from derive.render.rendered import Rendered
+from tests.building.test_solved import forbid_deriving
+from tests.courses import ROOT, course_in, rendered_once
 
+CAPTION = "  vectors:\n"
 HERE = Place("problems/hw9/block.yaml", 3, 1, "vectors:", 8)
+FILES = ["block-axes.pdf", "block-axes.svg", "block-vectors.pdf", "block-vectors.svg"]
+
+
+@pytest.fixture(scope="module")
+def block(tmp_path_factory: pytest.TempPathFactory) -> Rendered:
+    return rendered_once(course_in(tmp_path_factory.mktemp("block")), "hw9/block", draws=True)
 
 
 @pytest.fixture(scope="module")
@@ -117,3 +133,85 @@ def test_what_cannot_be_drawn_is_told_where_the_problem_asks_for_it(
     place = caught.value.complaints[0].place
     assert place
     assert place.text.strip() == "vectors:"
+
+
+def test_each_drawing_is_a_pdf_and_an_svg(block: Rendered) -> None:
+    files = dict(block.files)
+    assert list(files) == FILES
+    assert files["block-axes.pdf"].startswith(b"%PDF")
+    assert b"<title>A drawing in space of a block" in files["block-axes.svg"]
+
+
+def test_a_derivation_draws_nothing(tmp_path: Path) -> None:
+    course_in(tmp_path)
+    program = (
+        "import sys; from pathlib import Path; from derive.building.solution import rendered; "
+        "found = rendered(Path(sys.argv[1]), 'hw9/block'); "
+        "sys.exit(bool(found.files) or 'matplotlib' in sys.modules or 'numpy' in sys.modules)"
+    )
+    run = subprocess.run([sys.executable, "-c", program, str(tmp_path)], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
+    tmp_path: Path, block: Rendered, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    course, kept = course_in(tmp_path), Cache(tmp_path / "kept")
+    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+    file = course / "problems" / "hw9" / "block.yaml"
+    file.write_text(file.read_text().replace("points: 10", "points: 10\nnote: words"))
+    with monkeypatch.context() as patch:
+        forbid_deriving(patch)
+        patch.setattr(drawn, "_drawn", lambda *_: pytest.fail("drawn again"))
+        assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+    file.write_text(file.read_text().replace("[a, 2*a, 3*a]", "[a, 2*a, 2*a]"))
+    changed = dict(rendered(course, "hw9/block", None, kept, draws=True).files)
+    assert all(changed[name] != content for name, content in block.files)
+
+
+def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: Rendered) -> None:
+    course, kept = course_in(tmp_path), Cache(tmp_path / "kept")
+    rendered(course, "hw9/block", None, kept, draws=True)
+    sheets = [file for file in (tmp_path / "kept").iterdir() if b"%PDF-" in file.read_bytes()]
+    assert len(sheets) == 2
+    sheets[0].write_bytes(sheets[0].read_bytes().replace(b"%%EOF", b"%%EOG"))
+    sheets[1].write_bytes(b"[]")
+    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
+
+
+def test_a_width_and_numbers_of_its_own_change_only_that_drawing(tmp_path: Path, block: Rendered) -> None:
+    edits = {CAPTION: CAPTION + "    width: 3 cm\n"}
+    changed = dict(rendered_once(course_in(tmp_path, edits), "hw9/block", draws=True).files)
+    same = {name for name, content in block.files if changed[name] == content}
+    assert same == {"block-axes.pdf", "block-axes.svg"}
+
+
+def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Path) -> None:
+    course = course_in(tmp_path)
+
+    def build() -> list[str]:
+        report = built_set(course, "hw9", Options(), lambda _: None)
+        assert not report.failed, report.complaints
+        return sorted(path.name for path in report.changed)
+
+    outputs = course / "build" / "hw9"
+    assert set(FILES) < set(build())
+    assert (outputs / "block.pdf").read_bytes().count(b"/Subtype /Form") >= 2
+    assert build() == []
+    (outputs / FILES[0]).unlink()
+    assert build() == [FILES[0]]
+    script = course / "problems" / "hw9" / "block.py"
+    script.write_text(script.read_text().replace('drawing("axes"', 'drawing("edges"'))
+    assert "block-edges.pdf" in build()
+    assert not (outputs / FILES[0]).exists(), "a drawing that is gone leaves no file"
+
+
+def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: Path, block: Rendered) -> None:
+    root = course_in(tmp_path)
+    tex = problem_document(root, block, problem_set(root, "hw9"))
+    pages = {}
+    for name, files in (("with", block.files), ("without", ())):
+        target = tmp_path / f"{name}.pdf"
+        typeset(tex, target, chosen_engine(None), beside=files)
+        pages[name] = target.read_bytes()
+    assert pages["with"] != pages["without"]

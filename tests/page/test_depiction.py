@@ -1,28 +1,18 @@
-"""Drawings on a page: where they stand, their words, their files, and what an edit changes."""
+"""Drawings on a page: where they stand, their words, and what an edit changes."""
 
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from derive.building import drawn
-from derive.building.cache import Cache
-from derive.building.set_document import problem_document
-from derive.building.sets import Options, built_set
-from derive.building.solution import rendered
-from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered
-from tests.building.test_solved import forbid_deriving
-from tests.courses import ROOT, course_in, rendered_once
+from tests.courses import course_in, rendered_once
 
 CAPTION = "  vectors:\n"
 CUBE = {"[a, 2*a, 3*a]": "[a, a, a]"}
-FILES = ["block-axes.pdf", "block-axes.svg", "block-vectors.pdf", "block-vectors.svg"]
 
 
 def drawings(solved: Rendered) -> dict[str, dict]:
@@ -180,97 +170,10 @@ def test_what_cannot_be_drawn_is_told_at_the_line_of_the_script(tmp_path: Path) 
     assert "a drawing needs a vector or a place here, but `kinetic_energy` is none" in fault
 
 
-# --- files -----------------------------------------------------------------------------------------------------------
-
-
-def test_each_drawing_is_a_pdf_and_an_svg(block: Rendered) -> None:
-    files = dict(block.files)
-    assert list(files) == FILES
-    assert files["block-axes.pdf"].startswith(b"%PDF")
-    assert b"<title>A drawing in space of a block" in files["block-axes.svg"]
-
-
-def test_a_derivation_draws_nothing(tmp_path: Path) -> None:
-    course_in(tmp_path)
-    program = (
-        "import sys; from pathlib import Path; from derive.building.solution import rendered; "
-        "found = rendered(Path(sys.argv[1]), 'hw9/block'); "
-        "sys.exit(bool(found.files) or 'matplotlib' in sys.modules or 'numpy' in sys.modules)"
-    )
-    run = subprocess.run([sys.executable, "-c", program, str(tmp_path)], cwd=ROOT, capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
-
-
-def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
-    tmp_path: Path, block: Rendered, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    course, kept = course_in(tmp_path), Cache(tmp_path / "kept")
-    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
-    file = course / "problems" / "hw9" / "block.yaml"
-    file.write_text(file.read_text().replace("points: 10", "points: 10\nnote: words"))
-    with monkeypatch.context() as patch:
-        forbid_deriving(patch)
-        patch.setattr(drawn, "_drawn", lambda *_: pytest.fail("drawn again"))
-        assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
-    file.write_text(file.read_text().replace("[a, 2*a, 3*a]", "[a, 2*a, 2*a]"))
-    changed = dict(rendered(course, "hw9/block", None, kept, draws=True).files)
-    assert all(changed[name] != content for name, content in block.files)
-
-
-def test_a_kept_drawing_that_was_altered_is_drawn_again(tmp_path: Path, block: Rendered) -> None:
-    course, kept = course_in(tmp_path), Cache(tmp_path / "kept")
-    rendered(course, "hw9/block", None, kept, draws=True)
-    sheets = [file for file in (tmp_path / "kept").iterdir() if b"%PDF-" in file.read_bytes()]
-    assert len(sheets) == 2
-    sheets[0].write_bytes(sheets[0].read_bytes().replace(b"%%EOF", b"%%EOG"))
-    sheets[1].write_bytes(b"[]")
-    assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
-
-
-def test_a_width_and_numbers_of_its_own_change_only_that_drawing(tmp_path: Path, block: Rendered) -> None:
-    edits = {CAPTION: CAPTION + "    width: 3 cm\n"}
-    changed = dict(rendered_once(course_in(tmp_path, edits), "hw9/block", draws=True).files)
-    same = {name for name, content in block.files if changed[name] == content}
-    assert same == {"block-axes.pdf", "block-axes.svg"}
-
-
 def test_the_page_of_tex_names_the_files_and_says_what_they_show(block: Rendered) -> None:
     assert r"{block-vectors.pdf}{A drawing in space of a block" in block.latex
     assert block.latex.count(r"\drawing{") == 1
     assert block.latex.count(r"\beside{") == 1
-
-
-def test_a_build_writes_the_drawings_beside_the_page_and_mends_them(tmp_path: Path) -> None:
-    course = course_in(tmp_path)
-
-    def build() -> list[str]:
-        report = built_set(course, "hw9", Options(), lambda _: None)
-        assert not report.failed, report.complaints
-        return sorted(path.name for path in report.changed)
-
-    outputs = course / "build" / "hw9"
-    assert set(FILES) < set(build())
-    assert (outputs / "block.pdf").read_bytes().count(b"/Subtype /Form") >= 2
-    assert build() == []
-    (outputs / FILES[0]).unlink()
-    assert build() == [FILES[0]]
-    script = course / "problems" / "hw9" / "block.py"
-    script.write_text(script.read_text().replace('drawing("axes"', 'drawing("edges"'))
-    assert "block-edges.pdf" in build()
-    assert not (outputs / FILES[0]).exists(), "a drawing that is gone leaves no file"
-
-
-def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: Path, block: Rendered) -> None:
-    from derive.building.tex import chosen_engine, typeset
-
-    root = course_in(tmp_path)
-    tex = problem_document(root, block, problem_set(root, "hw9"))
-    pages = {}
-    for name, files in (("with", block.files), ("without", ())):
-        target = tmp_path / f"{name}.pdf"
-        typeset(tex, target, chosen_engine(None), beside=files)
-        pages[name] = target.read_bytes()
-    assert pages["with"] != pages["without"]
 
 
 def test_a_value_for_a_letter_that_the_drawing_no_longer_has_is_told_as_a_warning(tmp_path: Path) -> None:
