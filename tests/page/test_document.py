@@ -1,0 +1,141 @@
+"""The page as a tree: what is numbered, how much of a step is shown, whose words it has, and where a drawing stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from derive.algebra.equality import Grade
+from derive.building.solved import Solved
+from derive.course.problem import Problem, load_problem
+from derive.errors import Complaint
+from derive.page.document import Answers, Display, Document, Equations, Illustration, Paragraph, document_of
+from derive.page.wording import Text, phrases
+from derive.steps.step import Level
+from tests.courses import ROOT, course_in, solved_once
+
+WORDS = phrases(ROOT / "templates")
+Block = tuple[Problem, Solved]
+
+
+@pytest.fixture(scope="module")
+def block(tmp_path_factory: pytest.TempPathFactory) -> Block:
+    return solved_once(course_in(tmp_path_factory.mktemp("block")), "hw9/block")
+
+
+def page(block: Block, level: Level = Level.STANDARD, **changed: object) -> Document:
+    document, faults = written(block, level, **changed)
+    assert faults == []
+    return document
+
+
+def written(block: Block, level: Level = Level.STANDARD, **changed: object) -> tuple[Document, list[Complaint]]:
+    problem, solved = block
+    problem = replace(problem, **changed)  # type: ignore[arg-type]
+    return document_of(problem, solved.derivation, solved.values, WORDS, level, drawings=solved.drawings)
+
+
+def in_other_words(block: Block, folder: Path, added: str) -> Block:
+    """The same steps, with more keys in the problem's file."""
+    return load_problem(course_in(folder, {"parts:\n": f"{added}\nparts:\n"}), "hw9/block"), block[1]
+
+
+def groups(document: Document) -> list[Equations]:
+    displays = [each for part in document.parts for each in part.blocks if isinstance(each, Display)]
+    return [group for display in displays for group in display.groups]
+
+
+def lines(document: Document) -> dict[str, int]:
+    return {group.key: len(group.lines) for group in groups(document)}
+
+
+def test_equations_are_numbered_in_the_order_of_the_page(block: Block) -> None:
+    document = page(block)
+    assert [group.number for group in groups(document)] == list(range(1, len(document.numbers) + 1))
+    assert {group.key: group.number for group in groups(document)} == document.numbers
+
+
+def test_a_hidden_step_takes_no_number(block: Block) -> None:
+    shown = page(block).numbers
+    hidden = page(block, show={"density": "hidden"}).numbers
+    assert shown["density"] == 1
+    assert hidden == {key: number - 1 for key, number in shown.items() if key != "density"}
+
+
+def test_every_part_ends_with_the_answers_that_it_asks_for(block: Block) -> None:
+    for part, asked in zip(page(block).parts, block[0].parts, strict=True):
+        (boxed,) = [each for each in part.blocks if isinstance(each, Answers)]
+        assert [answer.key for answer in boxed.answers] == list(asked.answers)
+
+
+def test_more_detail_has_more_lines_and_the_same_results(block: Block) -> None:
+    pages = [page(block, level) for level in (Level.BRIEF, Level.STANDARD, Level.FULL)]
+    for one, other in pairwise(pages):
+        assert all(lines(other)[key] >= count for key, count in lines(one).items())
+        assert sum(lines(other).values()) > sum(lines(one).values())
+        assert [group.lines[-1].right for group in groups(one)] == [group.lines[-1].right for group in groups(other)]
+
+
+def test_a_step_may_be_shown_by_its_result_alone_or_in_full(block: Block) -> None:
+    usual, full = lines(page(block)), lines(page(block, Level.FULL))
+    changed = page(block, show={"torque": "result", "corner_tensor_xx": "full"})
+    found = lines(changed)
+    (torque,) = [group for group in groups(changed) if group.key == "torque"]
+    assert [line.right for line in torque.lines] == [block[1].derivation.step("torque").chain[-1].expr]
+    assert found["torque"] == 1 < usual["torque"]
+    assert found["corner_tensor_xx"] == full["corner_tensor_xx"] > usual["corner_tensor_xx"]
+    assert found["corner_tensor_yy"] == usual["corner_tensor_yy"]
+
+
+def test_words_of_the_problem_stand_before_the_lines_unless_they_say_where(block: Block, tmp_path: Path) -> None:
+    before = page(in_other_words(block, tmp_path / "one", "wording: {torque: Hold it.}"))
+    around = page(in_other_words(block, tmp_path / "two", "wording: {torque: Hold <<chain>> with care.}"))
+    for document, words, end in ((before, ["Hold it."], "."), (around, ["Hold ", " with care."], ",")):
+        told = [
+            node.text.rstrip() for part in document.parts for each in part.blocks if isinstance(each, Paragraph)
+            for node in each.nodes if isinstance(node, Text)
+        ]  # fmt: skip
+        assert [text for text in told if text.strip() in [word.strip() for word in words]] != []
+        (display,) = [
+            each for part in document.parts for each in part.blocks
+            if isinstance(each, Display) and each.groups[-1].key == "torque"
+        ]  # fmt: skip
+        assert display.end == end
+
+
+def test_a_name_that_nothing_has_is_told_with_the_nearest_and_the_rest_is_written(block: Block, tmp_path: Path) -> None:
+    document, faults = written(in_other_words(block, tmp_path, "note: By <<torqe>> and <<eq spim>>."))
+    assert [(fault.code, fault.help) for fault in faults] == [
+        ("undefined-name", "did you mean `torque`?"),
+        ("undefined-name", "did you mean `spin`?"),
+    ]
+    assert document.numbers == page(block).numbers
+
+
+def test_a_drawing_stands_behind_the_step_that_completes_it(block: Block, tmp_path: Path) -> None:
+    problem, solved = block
+    first, second, third, fourth = solved.derivation.parts
+    one_part_less = replace(solved.derivation, parts=(first, second, (*third, *fourth), ()))
+    blocks = page((problem, replace(solved, derivation=one_part_less))).parts[2].blocks
+    (at,) = [i for i, each in enumerate(blocks) if isinstance(each, Illustration)]
+    shown = [
+        {group.key for each in some if isinstance(each, Display) for group in each.groups}
+        for some in (blocks[:at], blocks[at:])
+    ]
+    assert "angle_between" in shown[0] and "torque" in shown[1]
+    assert isinstance(page(block).parts[2].blocks[-1], Illustration), "at the end if it rests on the last step"
+    root = course_in(tmp_path, {"  vectors:\n": "  vectors:\n    at: d\n"})
+    last = page((load_problem(root, "hw9/block"), solved)).parts[3].blocks[-1]
+    assert isinstance(last, Illustration), "at the end if it rests on none of this part"
+
+
+def test_a_display_is_as_sure_as_its_least_sure_step_and_ends_with_its_sentence() -> None:
+    proved = Display((Equations("a", (), 1),), frozenset({Grade.PROVED}))
+    sampled = Display((Equations("b", (), 2),), frozenset({Grade.SAMPLED}), ("by halves",), end=",")
+    both = proved.with_more(sampled)
+    assert (both.grade, sampled.with_more(proved).grade, proved.grade) == (Grade.SAMPLED, Grade.SAMPLED, Grade.PROVED)
+    assert both.routes == ("by halves",)
+    assert (both.stops, sampled.stops) == ((",", "."), (",",))
