@@ -74,36 +74,6 @@ def test_no_text_field_of_a_set_or_a_problem_is_tex(hostile: tuple[Path, Rendere
     assert not list(tmp_path.glob("taken*"))
 
 
-def test_what_a_template_prints_is_escaped_unless_it_is_tex_of_ours(tmp_path: Path) -> None:
-    (tmp_path / "templates" / "latex").mkdir(parents=True)
-    (tmp_path / "templates" / "phrases").symlink_to(ROOT / "templates" / "phrases")
-    (tmp_path / "templates" / "latex" / "set.tex.j2").write_text('<< heading.date >> << "%" >> << set_id >>')
-    heading = ProblemSet("hw_9", "", "", r"\input{x}", None, (), ())
-    assert "\\input" not in set_document(tmp_path, heading, [])
-    assert set_document(tmp_path, heading, []).endswith(r"{\%} hw_9")
-
-
-@pytest.mark.parametrize(
-    ("text", "message", "line"),
-    [
-        ("a\n<< heading.nothing >>\n", "has no attribute 'nothing'", 2),
-        ("a\n\n<< 1/0 >>\n", "division by zero", 3),
-        ("a\n<% endfor %>\n", "unknown tag 'endfor'", 2),
-        ("<% include 'other.j2' %>", "there is no template `other.j2`", 0),
-    ],
-)
-def test_a_broken_template_is_told_at_its_line(tmp_path: Path, text: str, message: str, line: int) -> None:
-    (tmp_path / "templates" / "latex").mkdir(parents=True)
-    (tmp_path / "templates" / "phrases").symlink_to(ROOT / "templates" / "phrases")
-    (tmp_path / "templates" / "latex" / "set.tex.j2").write_text(text)
-    with pytest.raises(Rejected) as caught:
-        set_document(tmp_path, ProblemSet("hw9", "", "", None, None, (), ()), [])
-    (complaint,) = caught.value.complaints
-    assert (complaint.code, message in complaint.message.lower()) == ("template", True)
-    place = complaint.place
-    assert (place.path, place.line) == ("templates/latex/set.tex.j2", line) if place else line == 0
-
-
 # --- nothing is lost -------------------------------------------------------------------------------------------------
 
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from jinja2 import UndefinedError
 from jinja2.exceptions import SecurityError
 
-from derive.errors import Rejected
 from derive.page.template import environment
-from derive.render.printing.templates import filled_template
 
 
 def test_names_are_filled_and_braces_are_text() -> None:
@@ -26,14 +22,3 @@ def test_a_name_without_a_value_is_an_error() -> None:
 def test_a_template_reads_what_it_is_given_and_changes_nothing(reaching: str) -> None:
     with pytest.raises(SecurityError):
         environment().from_string(f"<< {reaching} >>").render(a=1, names=[])
-
-
-def test_a_template_of_tex_is_as_bound_as_a_phrase(tmp_path: Path) -> None:
-    (tmp_path / "latex").mkdir()
-    (tmp_path / "latex" / "set.tex.j2").write_text("fine\n<< page.__class__.__mro__ >>\n", encoding="utf-8")
-    with pytest.raises(Rejected) as refusal:
-        filled_template(tmp_path, "set.tex.j2", {"page": 1})
-    (complaint,) = refusal.value.complaints
-    assert complaint.code == "template"
-    assert complaint.place is not None
-    assert complaint.place.line == 2

@@ -7,14 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Symbol, cos, sin, sqrt, symbols
 
-from derive.algebra.expressions import Relation
-from derive.page.document import Answer, ChainLine, Equations
 from derive.render.notation.breaking import broken
 from derive.render.notation.latex import latex
 from derive.render.notation.layout import Operator, Row, first_of, row, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
-from derive.render.printing.lines import answer_lines, printed_lines
 
 LETTERS = symbols("a b c d e f g h k l m n p q r s", positive=True)
 theta = Symbol("theta", real=True)
@@ -62,28 +59,3 @@ def test_a_fraction_with_a_long_numerator_has_its_denominator_put_in_front() -> 
 def test_roots_and_arguments_are_not_broken(expr: object) -> None:
     layout = NOTATION.layout(expr)
     assert broken(layout, 5, 5) == [layout]
-
-
-def test_the_reason_and_the_number_stand_at_the_last_line() -> None:
-    from derive.page.wording import Text
-
-    equations = Equations("T", (ChainLine(Symbol("T"), "equals", LONG, (Text("why"),)),), 7)
-    lines = printed_lines(equations, NOTATION, 40)
-    assert len(lines) > 2
-    assert [line.number for line in lines] == [None] * (len(lines) - 1) + [7]
-    assert [bool(line.reason) for line in lines] == [False] * (len(lines) - 1) + [True]
-    assert [line.sides[0][0] for line in lines] == ["equals"] + ["on"] * (len(lines) - 1)
-
-
-def test_a_long_left_side_ends_with_its_relation() -> None:
-    relation = Relation(LONG, "=", 0)
-    equations = Equations("motion", (ChainLine(relation.left, relation.word, relation.right),), 1)
-    lines = printed_lines(equations, NOTATION, 40)
-    assert [len(line.sides) for line in lines] == [1] * (len(lines) - 1) + [2]
-    assert lines[-1].sides[-1] == ("equals", NOTATION.layout(relation.right))
-
-
-def test_a_boxed_answer_takes_as_many_lines_as_it_needs() -> None:
-    answer = Answer("T", Symbol("T"), LONG)
-    assert len(answer_lines(answer, NOTATION, 40)) > 2
-    assert len(answer_lines(answer, NOTATION, 1000)) == 1

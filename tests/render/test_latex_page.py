@@ -1,0 +1,112 @@
+"""A page as LaTeX: text is escaped, numbers are anchors that references lead to, and the sheet gives nothing away."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from sympy import symbols
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import column
+from derive.course.reference.errata import Erratum
+from derive.page.checks import Checks, Ways
+from derive.page.document import Answer, Answers, Document
+from derive.page.wording import DimensionMark, Text, UnitMark
+from derive.render.printing.latex_page import Fragments, dotted, problem_latex, whole_latex
+from tests.courses import ROOT
+from tests.render.pages import NOTATION, WHOLE, WORDS, M, T, a, display, page
+
+TEMPLATES = ROOT / "templates"
+
+
+def fragments(document: Document) -> Fragments:
+    return problem_latex(document, WORDS, NOTATION, TEMPLATES)
+
+
+def solution(document: Document) -> str:
+    return str(fragments(document).solution)
+
+
+def test_text_is_escaped_wherever_it_stands() -> None:
+    evil = (Text(r"50% & \input{x}"),)
+    document = page(title=evil, statement=evil, note=evil, closing=evil)
+    assert r"\input" not in "".join((fragments(document).title, solution(document), fragments(document).sheet))
+    assert solution(document).count(r"50{\%} {\&}") == 3
+    assert r"Both {\&} true." in solution(WHOLE)
+
+
+def test_every_number_is_an_anchor_and_every_reference_leads_to_one() -> None:
+    tex = solution(WHOLE)
+    anchors = re.findall(r"\\anchor\{([^}]*)\}", tex)
+    assert anchors == ["hw9.one.1", "hw9.one.2"]
+    assert set(re.findall(r"\\hyperlink\{([^}]*)\}", tex)) <= set(anchors)
+    assert r"\hyperlink{hw9.one.1}{(1)}" in tex
+    assert r"\problemlink{hw9.two}{Problem 2}" in tex
+    assert dotted("hw9/one") == "hw9.one"
+
+
+def test_the_sheet_has_the_questions_and_nothing_that_is_derived() -> None:
+    sheet = str(fragments(WHOLE).sheet)
+    assert "Find $T$ as in part (a)" in sheet, "an equation is referred to by the part that asks for it"
+    assert not re.search(r"hyperlink|align|answer|halves|gap", sheet)
+
+
+def test_a_page_does_not_end_within_a_step() -> None:
+    rows = solution(page(display("mass", "energy"))).partition(r"\begin{align}")[2].partition(r"\end{align}")[0]
+    first, second, third = rows.strip().splitlines()
+    assert first.endswith("\\\\") and second.endswith("\\\\*") and r"\eqnumber{2}" in third
+    assert r"\notag" not in first + third
+
+
+def test_the_margin_names_a_route_only_if_there_is_room_for_it() -> None:
+    short, long = (solution(page(display("mass", routes=(route,)))) for route in ("by halves", "round and round " * 9))
+    assert "second route: by halves" in short
+    assert r"\checked{proved}" in long and "round and round" not in long
+
+
+@pytest.mark.parametrize(
+    ("node", "tex"),
+    [
+        (UnitMark("N m"), r"$\mathrm{N\,m}$"),
+        (DimensionMark(Dimension(1, 2, -2)), r"$\mathsf{M L^{2} T^{-2}}$"),
+        (DimensionMark(Dimension(0, 0, 0)), "$1$"),
+    ],
+)
+def test_units_and_dimensions_stand_upright(node: DimensionMark | UnitMark, tex: str) -> None:
+    assert tex in solution(page(note=(node,)))
+
+
+def test_a_long_answer_is_one_box_of_several_lines() -> None:
+    terms = sum(symbols("b_:40", positive=True))
+    short, long = (solution(page(Answers((Answer("energy", T, value),)))) for value in (M * a, terms))
+    assert r"\begin{aligned}" not in short
+    boxed = long.partition(r"\begin{aligned}")[2].partition(r"\end{aligned}")[0]
+    assert boxed.count(r"\\") >= 1 and "b_{39}" in boxed
+
+
+def test_what_was_checked_names_steps_by_their_symbols_and_errata_by_what_is_printed() -> None:
+    ways = (Ways(("energy", "mass", "law"), ("by halves",)),)
+    errata = (
+        Erratum("energy", "2", "a slip", M * a, M * a**2),
+        Erratum("law", None, "a sign", M - a, M + a),
+        Erratum("mass", None, "swapped", column(a, 0, 0), column(0, a, 0)),
+    )
+    tex = str(fragments(replace(WHOLE, checks=Checks({}, {}, {}, ways, 0, 0, errata))).checked)
+    assert r"\mbox{$T$}" in tex and "by halves" in tex
+    assert "printed $T = Ma$, right $T = Ma^{2}$; a slip." in tex
+    assert "$M-a = 0$" in tex, "an equation is stated by what vanishes in it"
+    assert "$M = (a" in tex.replace(r"\left", "").replace(r"\bigl", ""), "a vector stands in a line"
+
+
+def test_a_whole_document_has_the_facts_that_its_template_asks_for(tmp_path: Path) -> None:
+    (tmp_path / "latex").mkdir()
+    (tmp_path / "latex" / "own.tex.j2").write_text("<< name >> of << page.title() >>", encoding="utf-8")
+
+    class Titled:
+        def title(self) -> str:
+            return "50%"
+
+    assert whole_latex(tmp_path, "own.tex.j2", {"name": "A_B", "page": Titled()}) == r"A{\_}B of 50{\%}"

@@ -1,0 +1,72 @@
+"""Templates of TeX: what they print is escaped, what is wrong with them is told at its line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from derive.course.parts import points_text
+from derive.errors import Complaint, Rejected
+from derive.render.printing.templates import bookmark_text, filled_template
+from derive.render.rendered import Tex
+
+
+def filled(folder: Path, text: str, **facts: Any) -> Tex:
+    (folder / "templates" / "latex").mkdir(parents=True)
+    (folder / "templates" / "latex" / "set.tex.j2").write_text(text, encoding="utf-8")
+    return filled_template(folder / "templates", "set.tex.j2", facts)
+
+
+def refusal(folder: Path, text: str, **facts: Any) -> Complaint:
+    with pytest.raises(Rejected) as caught:
+        filled(folder, text, **facts)
+    (complaint,) = caught.value.complaints
+    return complaint
+
+
+def test_a_template_of_tex_is_as_bound_as_a_phrase(tmp_path: Path) -> None:
+    complaint = refusal(tmp_path, "fine\n<< page.__class__.__mro__ >>\n", page=1)
+    assert complaint.code == "template"
+    assert complaint.place is not None
+    assert complaint.place.line == 2
+
+
+def test_what_a_template_prints_is_escaped_unless_it_is_tex_of_ours(tmp_path: Path) -> None:
+    text = '<< date >> << "%" >> << tex >>'
+    tex = filled(tmp_path, text, date=r"\input{x}", tex=Tex(r"\today"))
+    assert r"\input" not in tex
+    assert tex.endswith(r"{\%} \today")
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "line"),
+    [
+        ("a\n<< heading.nothing >>\n", "has no attribute 'nothing'", 2),
+        ("a\n\n<< 1/0 >>\n", "division by zero", 3),
+        ("a\n<% endfor %>\n", "unknown tag 'endfor'", 2),
+        ("<% include 'other.j2' %>", "there is no template `other.j2`", 0),
+    ],
+)
+def test_a_broken_template_is_told_at_its_line(tmp_path: Path, text: str, message: str, line: int) -> None:
+    complaint = refusal(tmp_path, text, heading=SimpleNamespace())
+    assert (complaint.code, message in complaint.message.lower()) == ("template", True)
+    place = complaint.place
+    assert (place.path, place.line) == ("templates/latex/set.tex.j2", line) if place else line == 0
+
+
+def test_a_template_that_is_not_there_is_told_with_its_folder(tmp_path: Path) -> None:
+    with pytest.raises(Rejected) as caught:
+        filled_template(tmp_path / "templates", "cover.tex.j2", {})
+    assert caught.value.complaints[0].help == "it belongs in `templates/latex`"
+
+
+def test_a_fault_of_what_a_template_asks_for_is_ours_and_not_the_templates(tmp_path: Path) -> None:
+    with pytest.raises(AttributeError, match="denominator"):
+        filled(tmp_path, "<< points('many') >>", points=points_text)
+
+
+def test_a_bookmark_has_no_mathematics_and_no_letters_that_its_viewer_lacks() -> None:
+    assert bookmark_text("50% ω") == r"50{\%} \unichar{969}"
