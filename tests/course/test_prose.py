@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention, Prose, read_prose
-from derive.course.yaml_tree import Mapping, Source, yaml_tree
+from derive.course.yaml_tree import Mapping, Scalar, Source, yaml_tree
 from derive.errors import Complaint, Faults, Rejected
 
 
@@ -73,3 +73,11 @@ def test_a_list_is_no_text() -> None:
     found, faults = read("title: [a, b]")
     assert found is None
     assert faults[0].message == "`title` must be text, but it is a list"
+
+
+def test_pieces_of_prose_are_all_of_it_in_order() -> None:
+    text = "a << mass >>b<<rate>> >> c"
+    prose = read_prose(Scalar(text, "", 0, len(text), Source("p.yaml", text)), "ask", Faults())
+    assert prose is not None
+    said = [piece.name if isinstance(piece, Mention) else piece for piece in prose.pieces]
+    assert said == ["a ", "mass", "b", "rate", " >> c"]

@@ -1,0 +1,70 @@
+"""Which problems and sets there are: by their files, and what was meant by a name that there is none of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.course.problem import load_problem
+from derive.course.problem_set import problem_ids, problem_set, set_ids
+from derive.errors import DeriveError, Misused, Rejected
+from tests.course.problem_file import PROBLEM, at
+
+
+def test_ids_are_the_problem_files_and_nothing_beside_them(tmp_path: Path) -> None:
+    folder = at(tmp_path) / "problems" / "hw9"
+    (folder / "reference.yaml").write_text("")
+    (folder / "odd name.yaml").write_text("")
+    (tmp_path / "problems" / "stray.yaml").write_text("")
+    assert (problem_ids(tmp_path), set_ids(tmp_path)) == (["hw9/block"], ["hw9"])
+
+
+@pytest.mark.parametrize(
+    ("wanted", "help_line"),
+    [
+        ("hw9/blok", "did you mean `hw9/block`?"),
+        ("block", "did you mean `hw9/block`?"),
+        ("hw9/BLOCK", "did you mean `hw9/block`?"),
+        ("hw9/set", "`derive list` shows the problems"),
+        ("hw9/../hw9/block", "did you mean `hw9/block`?"),
+        ("../../etc/passwd", "`derive list` shows the problems"),
+        ("", "`derive list` shows the problems"),
+    ],
+)
+def test_a_problem_that_does_not_exist_is_met_with_the_nearest(wanted: str, help_line: str, tmp_path: Path) -> None:
+    with pytest.raises(Misused) as caught:
+        load_problem(at(tmp_path), wanted)
+    (complaint,) = caught.value.complaints
+    assert (complaint.code, complaint.help, caught.value.exit_code) == ("no-such-problem", help_line, 2)
+
+
+def test_a_set_lists_its_problems_in_order(tmp_path: Path) -> None:
+    at(tmp_path, heading="course: P\ntitle: T\ndate: 2026-11-21\ninstructor: N. N.\nproblems: [top, block]\n")
+    (tmp_path / "problems" / "hw9" / "top.yaml").write_text(PROBLEM)
+    found = problem_set(tmp_path, "hw9")
+    assert (found.problems, found.date, found.inputs) == (
+        ("hw9/top", "hw9/block"),
+        "2026-11-21",
+        ("problems/hw9/set.yaml",),
+    )
+
+
+def test_every_fault_of_a_set_is_told_at_once(tmp_path: Path) -> None:
+    at(tmp_path, heading="corse: P\ntitle:\nproblems: [blok, block, block, [x]]\nday: x\n")
+    with pytest.raises(Rejected) as caught:
+        problem_set(tmp_path, "hw9")
+    assert [c.code for c in caught.value.complaints] == [
+        "unknown-key",
+        "missing-value",
+        "no-such-problem",
+        "duplicate-problem",
+        "wrong-type",
+        "unknown-key",
+    ]
+
+
+def test_a_set_that_does_not_exist_is_met_with_the_nearest(tmp_path: Path) -> None:
+    with pytest.raises(DeriveError, match="did you mean `hw9`") as caught:
+        problem_set(at(tmp_path), "hw8")
+    assert caught.value.exit_code == 2
