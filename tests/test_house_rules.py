@@ -6,6 +6,7 @@ import ast
 import inspect
 import re
 import tempfile
+from collections import Counter
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -95,6 +96,16 @@ def test_the_tests_stand_in_the_rooms() -> None:
     """Beside the house itself, its pages and what is tried on everything: mutants, perturbations, printed lines."""
     folders = {path.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").glob("*/**/test_*.py")}
     assert folders - set(FLOOR) == {"printed", "tools"}
+
+
+def test_every_module_has_tests_of_its_name() -> None:
+    """In its room, one file for each module of a name. Those of mechanics are a book, with chapters of its own."""
+    rooms = {room(name) for name in MODULES} - {"__main__", "mechanics"}
+    files = [(name, path) for name in rooms for path in (ROOT / "tests" / name).rglob("test_*.py")]
+    files += [(name, path) for name in rooms for path in (ROOT / "tests").glob(f"test_{name}.py")]
+    tests = Counter((name, path.stem.removeprefix("test_")) for name, path in files)
+    modules = Counter((room(name), name.rpartition(".")[2]) for name in MODULES if room(name) in rooms)
+    assert modules - tests == Counter()
 
 
 @pytest.mark.parametrize("name", FLOOR)
