@@ -19,7 +19,7 @@ from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_k
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.drawn import drawing_files
 from derive.building.solved import Solved, steps_key
-from derive.course.parts import Part, points_text
+from derive.course.parts import Question, points_text
 from derive.course.problem import Problem, load_problem, run_solve
 from derive.course.problem_set import problem_set
 from derive.course.prose import PROBLEM
@@ -162,7 +162,7 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _value(
-    problem: Problem, part: Part, answer: Quantity, asked: str, dimensions: Mapping[Any, Dimension | None]
+    problem: Problem, part: Question, answer: Quantity, asked: str, dimensions: Mapping[Any, Dimension | None]
 ) -> Quantity | None:
     """The number of an answer: in the unit and to the figures that the part asks for, by the key that it asks for."""
     form = part.form_of(asked)

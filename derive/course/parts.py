@@ -98,7 +98,7 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 
 
 @dataclass(frozen=True)
-class Part(Record):
+class Question(Record):
     """One question; `forms` is keyed by answer, or has one entry for `None`."""
 
     ask: Prose = key("the question, in prose", PROSE, required=True)
@@ -119,10 +119,10 @@ class Part(Record):
         return self.forms.get(answer) or self.forms.get(None) or AnswerForm({}, {})
 
 
-_PART = record_of(Part, "a part", "a mapping with `ask` and `answer`")
+_PART = record_of(Question, "a part", "a mapping with `ask` and `answer`")
 
 
-def _part(node: Tree, name: str, faults: Faults) -> Part | None:
+def _part(node: Tree, name: str, faults: Faults) -> Question | None:
     part = _PART.read(node, name, faults)
     for answer in part.forms if part else ():
         if part and isinstance(answer, Word) and answer not in part.answers:
@@ -134,7 +134,9 @@ def _part(node: Tree, name: str, faults: Faults) -> Part | None:
 PARTS = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
-def points_in_all(stated: Fraction | None, place: Place | None, parts: List[Part], faults: Faults) -> Fraction | None:
+def points_in_all(
+    stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
+) -> Fraction | None:
     """The points of a problem: as it says them, where those of its parts add up to that, or else their sum."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))

@@ -20,7 +20,7 @@ from derive.algebra.expressions import TIME, Amount, explicit
 from derive.algebra.kinds import kind_with_article, unit_of_kind
 from derive.course.expression import RESERVED, Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers, symbol_of_kind
-from derive.course.parts import Part
+from derive.course.parts import Question
 from derive.course.placement import Placement, placements
 from derive.course.prose import Prose
 from derive.course.script import Parameter, Script, imported_script, run
@@ -46,7 +46,7 @@ class Problem:
     symbols: Table[str, Declared]
     givens: tuple[Given, ...]
     measured: tuple[Measured, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[Question, ...]
     points: Fraction | None
     wording: Table[str, Table[str, Prose]]
     show: Table[str, str]

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from derive.algebra.kinds import KINDS
-from derive.course.parts import PARTS, POINTS, Part, points_in_all
+from derive.course.parts import PARTS, POINTS, Question, points_in_all
 from derive.course.problem_set import mapping_in, path_of
 from derive.course.prose import PROSE, PROSE_OR_NOTHING, Prose, read_prose
 from derive.course.schema import (
@@ -106,7 +106,7 @@ class ProblemKeys(Record):
     )
     values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
-    parts: tuple[Part, ...] = key("the questions", PARTS, required=True)
+    parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
         mapping_of(Reader({"anyOf": [TEXT.schema, _TEXTS]}, _sentences)),

@@ -15,7 +15,7 @@ from sympy import preorder_traversal
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import LEAST_SURE_FIRST, Grade
 from derive.algebra.expressions import Amount, Relation, Truncated
-from derive.course.parts import Part
+from derive.course.parts import Question
 from derive.course.problem import Problem
 from derive.course.reference.comparison import Remark
 from derive.course.written import ANY_OUTCOME
@@ -278,7 +278,7 @@ class _Writer:
 
     # --- parts ---
 
-    def _part(self, index: int, part: Part, illustrations: Sequence[Illustration]) -> PartPage:
+    def _part(self, index: int, part: Question, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
         blocks: list[Block] = self._found_before(part)
         ends: dict[str, int] = {}
@@ -298,7 +298,7 @@ class _Writer:
             label, self._told(part.ask.pieces), part.points, _illustrated(_punctuated(blocks), own, ends, steps)
         )
 
-    def _found_before(self, part: Part) -> list[Block]:
+    def _found_before(self, part: Question) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""
         before = [step for step in self.derivation.answering(part.answers) if step.key in self.shown_in]
         return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.numbers, self.words)]

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from derive.course.parts import AnswerForm, Part
+from derive.course.parts import AnswerForm, Question
 from derive.course.problem import load_problem
 from derive.course.problem_set import SetKeys
 from derive.course.reference.statements import EntryKeys, ErratumKeys, GroupKeys, stated_groups
@@ -20,7 +20,7 @@ from derive.errors import Faults
 from tests.courses import ROOT
 
 DOCUMENTED = {
-    "README.md": (ProblemKeys, Part, AnswerForm, DrawingKeys, SetKeys),
+    "README.md": (ProblemKeys, Question, AnswerForm, DrawingKeys, SetKeys),
     "docs/references.md": (GroupKeys, EntryKeys, ErratumKeys),
 }
 
