@@ -34,7 +34,23 @@ if TYPE_CHECKING:
 
 # What the Makefile has other rules for, as targets or as folders.
 TARGETS = frozenset(
-    ["all", "always", "bench", "build", "check", "clean", "derive", "help", "problems", "templates", "test", "tests"]
+    [
+        "all",
+        "always",
+        "bench",
+        "build",
+        "check",
+        "clean",
+        "derive",
+        "help",
+        "mutants",
+        "problems",
+        "schemas",
+        "templates",
+        "test",
+        "tests",
+        "tools",
+    ]
 )
 
 
