@@ -124,6 +124,7 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.tops.precession:precession_rates: comparison: tilt == angles.theta.symbol -> tilt != angles.theta.symbol",
         "mechanics.tops.precession:precession_rates: condition: [] if tilt == angles.theta.symbol else [_fixed_tilt(tilt, angles)] -> [] if not tilt == angles.theta.symbol else [_fixed_tilt(tilt, angles)]",
         "mechanics.rotation.principal:_axis_outcome: outcome: 'symmetry' -> 'single'",
+        "mechanics.rotation.principal:_is_round: comparison: of is not None -> of is None",
         "mechanics.rotation.principal:_is_round: comparison: lone_moment(moments.value) == 2 -> lone_moment(moments.value) != 2",
         "mechanics.rotation.principal:_is_round: number: 2 -> 3",
     ),

@@ -14,7 +14,7 @@ from derive.algebra.expressions import rate as rate_name
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import boundary_case, sign_by_factors, truth
-from derive.mechanics.equations.stability import LowestOrder
+from derive.mechanics.equations.stability import HIGHEST, LowestOrder
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.mechanics.systems.cyclic import OfMomentum
 from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop, Top
@@ -156,8 +156,9 @@ def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, ke
     case = boundary_case(condition)
     if case is None:
         raise Rejected(Complaint("no-border", f"`{condition.key}` has no border, so there is no least spin"))
-    least = case.right
+    least, tilt = case.right, potential.needed(EulerAngles).theta.symbol
     sleeps = border.needed(LowestOrder).is_minimum
+    least_there = _has_minimum(explicit(border.value), tilt)
 
     def beside(side: int) -> Route:
         """Whether the condition is true beside its bound, and whether small circles about the vertical last there."""
@@ -165,7 +166,7 @@ def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, ke
         def compared(found: Relation) -> tuple[Expr, Expr]:
             there = found.right * (1 + Dummy("u", positive=True)) ** side
             apart = sign_by_factors(tidied(_difference_of_rates(potential, found.left, there)))
-            lasts = {1: Integer(1), -1: Integer(0), 0: Integer(int(sleeps))}
+            lasts = {1: Integer(1), -1: Integer(0), 0: Integer(int(least_there))}
             return truth(found.mark, there - found.right), nan if apart is None else lasts[apart]
 
         return compared
@@ -181,6 +182,15 @@ def sleeping_spin(condition: Quantity, border: Quantity, potential: Quantity, ke
         key=key,
         parents=[condition, border],
     )
+
+
+def _has_minimum(value: Expr, q: Symbol) -> bool:
+    """Whether the first derivative that does not vanish at q = 0 is of even order and positive."""
+    for n in range(1, HIGHEST + 1):
+        there = tidied(diff(value, q, n).subs(q, 0))
+        if there != 0:
+            return n % 2 == 0 and bool(there.is_positive)
+    return False
 
 
 def _difference_of_rates(potential: Quantity, letter: Symbol, value: Expr) -> Expr:
