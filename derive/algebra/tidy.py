@@ -32,7 +32,7 @@ from sympy import (
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR5, TR6
+from sympy.simplify.fu import TR5, TR6, TR10i
 
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.normal_form import vanishes
@@ -65,7 +65,7 @@ def _tidied_scalar(value: Expr) -> Expr:
             return Integer(0)
         value = _roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value))))
         return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
-    return min((_as_one_fraction(form) for form in (value, *_by_one_square(value))), key=_length)
+    return min((_as_one_fraction(form) for form in (value, *_by_one_square(value), *_by_one_angle(value))), key=_length)
 
 
 def _as_one_fraction(value: Expr) -> Expr:
@@ -80,6 +80,12 @@ def _by_one_square(value: Expr) -> list[Expr]:
     if not value.atoms(sin) or not value.atoms(cos):
         return []
     return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
+
+
+def _by_one_angle(value: Expr) -> list[Expr]:
+    """cos a cos b + sin a sin b written as cos(a - b), and the like."""
+    angles = {function.args[0] for function in value.atoms(sin, cos)}
+    return [TR10i(expand(value))] if len(angles) > 1 and value.atoms(sin) else []
 
 
 def _length(value: Expr) -> tuple[int, str]:

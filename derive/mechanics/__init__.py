@@ -28,7 +28,9 @@ from derive.mechanics.systems.constraints import *
 from derive.mechanics.systems.coordinates import *
 from derive.mechanics.systems.cyclic import *
 from derive.mechanics.systems.lagrangian import *
+from derive.mechanics.systems.places import *
 from derive.mechanics.systems.rolling import *
+from derive.mechanics.systems.system import *
 from derive.mechanics.tops.precession import *
 from derive.mechanics.tops.sleeping import *
 from derive.mechanics.tops.top import *

@@ -27,14 +27,44 @@ T = TIME  # coordinates are functions of it where a second route makes them so
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A generalized coordinate. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
+    """A generalized coordinate, which stands in formulas as its letter does: `l*sin(theta)`.
 
     symbol   its name
     kind     `angle`, `length`, or another kind of quantity that varies
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
 
     symbol: Symbol
     kind: str
+
+    def _sympy_(self) -> Symbol:
+        return self.symbol
+
+    def __add__(self, other: Any) -> Any:
+        return self.symbol + other
+
+    def __sub__(self, other: Any) -> Any:
+        return self.symbol - other
+
+    def __rsub__(self, other: Any) -> Any:
+        return other - self.symbol
+
+    def __mul__(self, other: Any) -> Any:
+        return self.symbol * other
+
+    def __truediv__(self, other: Any) -> Any:
+        return self.symbol / other
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return other / self.symbol
+
+    def __pow__(self, other: Any) -> Any:
+        return self.symbol**other
+
+    def __neg__(self) -> Any:
+        return -self.symbol
+
+    __radd__, __rmul__ = __add__, __mul__
 
     @property
     def rate(self) -> Symbol:

@@ -1,0 +1,55 @@
+"""Places in space, by their components along fixed axes: formulas in coordinates, constants and the time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Expr, Integer
+
+from derive.errors import Complaint, Rejected
+
+__all__ = ["Place", "X", "Y", "Z", "point"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place, or a way between two: two components in a plane, three in space, m; the last is upwards."""
+
+    components: tuple[Expr, ...]
+
+    def __add__(self, other: Any) -> Place:
+        if not isinstance(other, Place):
+            return NotImplemented
+        if len(other.components) != len(self.components):
+            message = "one place has two components, the other three"
+            raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
+        return Place(tuple(a + b for a, b in zip(self.components, other.components, strict=True)))
+
+    def __mul__(self, factor: Any) -> Place:
+        return NotImplemented if isinstance(factor, Place) else Place(tuple(factor * c for c in self.components))
+
+    def __neg__(self) -> Place:
+        return Place(tuple(-c for c in self.components))
+
+    def __sub__(self, other: Place) -> Place:
+        return self + -other
+
+    __rmul__ = __mul__
+
+    @property
+    def height(self) -> Expr:
+        return self.components[-1]
+
+
+def point(*components: Any) -> Place:
+    """The place with these components, (x, y) in a vertical plane or (x, y, z) in space, y or z upwards, m."""
+    if len(components) not in (2, 3):
+        raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
+    try:
+        return Place(tuple(Integer(0) + c for c in components))
+    except TypeError:
+        raise Rejected(Complaint("wrong-argument", "`point` needs expressions, one for each component")) from None
+
+
+X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)

@@ -1,0 +1,216 @@
+"""A mechanical system: particles and the forces on them, its kinetic and its potential energy.
+
+Places are formulas in the coordinates, so that whatever ties particles together is built into them. The energies are
+made of the places alone; so are the mass points and forces by which every second route goes (d'Alembert's principle).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeAlias
+
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff, sqrt
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import TIME, Factors, Terms, TimeRate, explicit, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
+from derive.mechanics.systems.places import Place
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.record import coordinates_in, require_constant
+from derive.steps.step import Quantity, compared_with
+
+__all__ = ["Particle", "Spring", "System", "Weight", "kinetic_energy_of", "potential_energy_of", "spring", "weight"]
+
+HALF = Rational(1, 2)
+
+
+@dataclass(frozen=True)
+class Particle:
+    """A particle of a constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1."""
+
+    mass: Expr
+    at: Place
+
+    def __post_init__(self) -> None:
+        require_constant("Particle", "mass", self.mass)
+
+
+@dataclass(frozen=True)
+class Weight:
+    """The weight of every particle, downwards along the last axis, with the gravity g in m/s^2."""
+
+    gravity: Expr
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring without mass between two places, of constant k in N/m and natural length in m."""
+
+    constant: Expr
+    start: Place
+    end: Place
+    natural: Expr
+
+    @cached_property
+    def length(self) -> Expr:
+        return tidied(sqrt(Add(*(c**2 for c in (self.end - self.start).components))))
+
+
+def weight(gravity: Expr) -> Weight:
+    """The weight of all particles of a system."""
+    require_constant("weight", "gravity", gravity)
+    return Weight(gravity)
+
+
+def spring(constant: Expr, start: Place, end: Place, natural: Expr = Integer(0)) -> Spring:  # noqa: B008
+    """A spring between two places; without a natural length it pulls in proportion to its length."""
+    require_constant("spring", "spring constant", constant)
+    require_constant("spring", "natural length", natural)
+    return Spring(constant, start, end, natural)
+
+
+PartOfSystem: TypeAlias = Particle | Weight | Spring
+
+
+class System:
+    """Particles and the forces on them."""
+
+    def __init__(self, *parts: PartOfSystem):
+        self.particles = tuple(part for part in parts if isinstance(part, Particle))
+        self.weights = tuple(part for part in parts if isinstance(part, Weight))
+        self.springs = tuple(part for part in parts if isinstance(part, Spring))
+        unknown = [part for part in parts if not isinstance(part, Particle | Weight | Spring)]
+        if unknown:
+            message = f"`System` is made of particles, springs and a weight, not of {type(unknown[0]).__name__}"
+            raise Rejected(Complaint("wrong-argument", message))
+        if not self.particles:
+            raise Rejected(Complaint("wrong-argument", "a `System` needs a particle"))
+        if len(self.weights) > 1:
+            raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
+
+    @property
+    def gravity(self) -> Expr:
+        return self.weights[0].gravity if self.weights else Integer(0)
+
+    @cached_property
+    def coordinates(self) -> Mapping[Symbol, str]:
+        """Those that its places depend on, with their kinds."""
+        places = [particle.at for particle in self.particles] + [end for s in self.springs for end in (s.start, s.end)]
+        return coordinates_in(Add(*(Mul(scalar(f"c_{i}"), c) for i, p in enumerate(places) for c in p.components)))
+
+    @cached_property
+    def matter(self) -> Matter:
+        """Its mass points, and the forces on them."""
+        points = tuple(MassPoint(particle.mass, particle.at.components) for particle in self.particles)
+        loads = [self._weight_of(particle) for particle in self.particles] if self.weights else []
+        loads += [load for each in self.springs for load in _pulls(each)]
+        return Matter(points, tuple(loads), tuple(self.coordinates))
+
+    def _weight_of(self, particle: Particle) -> Load:
+        *across, _ = particle.at.components
+        return Load((*(Integer(0) for _ in across), -particle.mass * self.gravity), particle.at.components)
+
+
+def _pulls(each: Spring) -> tuple[Load, Load]:
+    """The forces with which a spring pulls at its two ends, towards each other where it is longer than by nature."""
+    way = (each.end - each.start).components
+    pull = [each.constant * (1 - each.natural / each.length) * c for c in way]
+    return Load(tuple(pull), each.start.components), Load(tuple(-c for c in pull), each.end.components)
+
+
+def _numbered(letter: str, i: int, system: System) -> Symbol:
+    """v of the only particle, else v_1, v_2, ..."""
+    return scalar(f"{letter}_{i + 1}" if len(system.particles) > 1 else letter)
+
+
+def _squared_speed(system: System, i: int) -> Quantity:
+    """Square of the speed of a particle, v^2 = x_dot^2 + y_dot^2."""
+    moving = list(system.coordinates)
+    place = system.particles[i].at.components
+    matter = Matter((MassPoint(Integer(2), place),), (), tuple(moving))
+    return establish(
+        "systems.squared_speed",
+        Pow(_numbered("v", i, system), 2),
+        lambda *at: Terms(*(Pow(TimeRate(c, *moving), 2) for c in at)),
+        {f"place_{k}": c for k, c in enumerate(place)},
+        key=_numbered("squared_speed", i, system).name,
+        routes={"functions_of_time": compared_with(matter.kinetic_energy)},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda value: by_rates(value, moving),
+            means={_numbered("v", i, system): _speed(place, moving)},
+        ),
+        scope=Scope(coordinates=system.coordinates),
+    )
+
+
+def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
+    return sqrt(Add(*(explicit(TimeRate(c, *moving)) ** 2 for c in place)))
+
+
+def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
+    """Kinetic energy of a system, T = sum of (1/2) m v^2 over its particles.
+
+    system   its particles
+    The square of each speed is a step of its own.
+    Second route: half the sum of m v.v, the places differentiated as functions of t.
+    Source: Taylor, *Classical Mechanics*, section 7.1.
+    """
+    speeds = [_squared_speed(system, i) for i in range(len(system.particles))]
+    masses = [particle.mass for particle in system.particles]
+
+    def law(*squares: Expr) -> Expr:
+        return Terms(*(Factors(HALF, m, square) for m, square in zip(masses, squares, strict=True)))
+
+    return establish(
+        "systems.kinetic_energy",
+        scalar(symbol),
+        law,
+        {f"speed_{i}": speed for i, speed in enumerate(speeds)},
+        key=key,
+        kind="energy",
+        routes={"mass_points": compared_with(system.matter.kinetic_energy)},
+        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, list(system.coordinates), halves=True)),
+        facts=[replace(system.matter, loads=())],
+    )
+
+
+def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
+    """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
+
+    system   its particles, springs and weight
+    Second route: the forces do the work -dU along any motion, for each coordinate -dU/dq = sum of F . dr/dq; at the
+    origin, with the springs at their natural length, it is zero.
+    Outcomes: generic, zero (no force that has one).
+    Source: Taylor, *Classical Mechanics*, section 4.2.
+    """
+    moving, matter = [*system.coordinates, TIME], system.matter
+
+    def work(found: Expr) -> tuple[Expr, Expr]:
+        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        lost = [-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
+        return Add(*lost), Add(*(matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
+
+    heights = [Factors(p.mass, system.gravity, p.at.height) for p in system.particles] if system.weights else []
+    stretched = [Factors(HALF, s.constant, Pow(_stretch(s), 2)) for s in system.springs]
+    return establish(
+        "systems.potential_energy",
+        scalar(symbol),
+        lambda: Terms(*heights, *stretched) if heights or stretched else Integer(0),
+        {},
+        key=key,
+        kind="energy",
+        routes={"work": work},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        lines=Lines(put_in=None, arranged=by_terms),
+        facts=[replace(matter, points=())],
+        scope=Scope(coordinates=system.coordinates),
+    )
+
+
+def _stretch(each: Spring) -> Expr:
+    return each.length - each.natural
