@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, Integer
+from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
+from sympy.matrices import ImmutableMatrix
 
 from derive.errors import Complaint, Rejected
 
-__all__ = ["Place", "X", "Y", "Z", "point"]
+__all__ = ["Axes", "Place", "X", "Y", "Z", "point", "space"]
 
 
 @dataclass(frozen=True)
@@ -53,3 +54,35 @@ def point(*components: Any) -> Place:
 
 
 X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Three axes at right angles, by their unit vectors in space, which are the columns of a rotation matrix.
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
+    """
+
+    in_space: ImmutableMatrix
+
+    def turned(self, about: Place, angle: Any) -> Axes:
+        """These axes turned about one of themselves, X, Y or Z, by an angle: a coordinate, a constant or `rate*t`."""
+        if about not in (X, Y, Z):
+            message = "axes are turned about one of themselves: X, Y or Z"
+            raise Rejected(Complaint("wrong-argument", message))
+        i = (X, Y, Z).index(about)
+        j, k = (i + 1) % 3, (i + 2) % 3
+        c, s = cos(angle), sin(angle)
+        turn = eye(3).as_mutable()
+        turn[j, j], turn[j, k], turn[k, j], turn[k, k] = c, -s, s, c
+        return Axes(ImmutableDenseMatrix(self.in_space * turn))
+
+    def place(self, *components: Any) -> Place:
+        """The place with these three components along these axes, from the origin that all axes share, m."""
+        along = point(*components)
+        if len(along.components) != 3:
+            raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
+        return Place(tuple(self.in_space * ImmutableDenseMatrix(along.components)))
+
+
+space = Axes(ImmutableDenseMatrix(eye(3)))

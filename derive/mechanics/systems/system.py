@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff, sqrt
+from sympy import Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, diff, sqrt
 
 from derive.algebra.collect import by_rates, by_terms
-from derive.algebra.expressions import TIME, Factors, Terms, TimeRate, explicit, scalar
+from derive.algebra.expressions import TIME, Factors, Terms, TimeRate, bound, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
@@ -23,9 +23,10 @@ from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import Quantity, compared_with
 
-__all__ = ["Particle", "Spring", "System", "Weight", "kinetic_energy_of", "potential_energy_of", "spring", "weight"]
+__all__ = ["Particle", "System", "central", "kinetic_energy_of", "potential_energy_of", "spring", "weight"]
 
-HALF = Rational(1, 2)
+HALF, ZERO = Rational(1, 2), Integer(0)
+DISTANCE = Dummy("r", positive=True)
 
 
 @dataclass(frozen=True)
@@ -47,17 +48,24 @@ class Weight:
 
 
 @dataclass(frozen=True)
-class Spring:
-    """A spring without mass between two places, of constant k in N/m and natural length in m."""
+class Central:
+    """A potential energy U(r) of the distance between two places, J, with its force along the line between them."""
 
-    constant: Expr
     start: Place
     end: Place
-    natural: Expr
+    distance: Symbol
+    energy: Expr
 
     @cached_property
     def length(self) -> Expr:
-        return tidied(sqrt(Add(*(c**2 for c in (self.end - self.start).components))))
+        return tidied(sqrt(tidied(Add(*(c**2 for c in (self.end - self.start).components)))))
+
+    def pulls(self) -> tuple[Load, Load]:
+        """The forces at its two ends, towards each other where the energy grows with the distance."""
+        way = (self.end - self.start).components
+        size = diff(self.energy, self.distance).subs(self.distance, self.length)
+        pull = tuple(size * c / self.length for c in way)
+        return Load(pull, self.start.components), Load(tuple(-c for c in pull), self.end.components)
 
 
 def weight(gravity: Expr) -> Weight:
@@ -66,14 +74,23 @@ def weight(gravity: Expr) -> Weight:
     return Weight(gravity)
 
 
-def spring(constant: Expr, start: Place, end: Place, natural: Expr = Integer(0)) -> Spring:  # noqa: B008
-    """A spring between two places; without a natural length it pulls in proportion to its length."""
+def spring(constant: Expr, start: Place, end: Place, natural: Expr = ZERO) -> Central:
+    """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m."""
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
-    return Spring(constant, start, end, natural)
+    return Central(start, end, DISTANCE, Factors(HALF, constant, Pow(Terms(DISTANCE, -natural), 2)))
 
 
-PartOfSystem: TypeAlias = Particle | Weight | Spring
+def central(energy: Expr, distance: Symbol, start: Place, end: Place) -> Central:
+    """A potential energy U(r) of the distance r between two places: `central(-G*M*m/r, r, sun, planet)`."""
+    if TIME in energy.free_symbols:
+        raise Rejected(
+            Complaint("changes", "`central` needs an energy of the distance alone, but it depends on the time t")
+        )
+    return Central(start, end, distance, energy)
+
+
+PartOfSystem: TypeAlias = Particle | Weight | Central
 
 
 class System:
@@ -82,10 +99,11 @@ class System:
     def __init__(self, *parts: PartOfSystem):
         self.particles = tuple(part for part in parts if isinstance(part, Particle))
         self.weights = tuple(part for part in parts if isinstance(part, Weight))
-        self.springs = tuple(part for part in parts if isinstance(part, Spring))
-        unknown = [part for part in parts if not isinstance(part, Particle | Weight | Spring)]
+        self.between = tuple(part for part in parts if isinstance(part, Central))
+        unknown = [part for part in parts if not isinstance(part, Particle | Weight | Central)]
         if unknown:
-            message = f"`System` is made of particles, springs and a weight, not of {type(unknown[0]).__name__}"
+            made_of = "particles, a weight, springs and other central forces"
+            message = f"`System` is made of {made_of}, not of {type(unknown[0]).__name__}"
             raise Rejected(Complaint("wrong-argument", message))
         if not self.particles:
             raise Rejected(Complaint("wrong-argument", "a `System` needs a particle"))
@@ -99,7 +117,7 @@ class System:
     @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
         """Those that its places depend on, with their kinds."""
-        places = [particle.at for particle in self.particles] + [end for s in self.springs for end in (s.start, s.end)]
+        places = [particle.at for particle in self.particles] + [end for s in self.between for end in (s.start, s.end)]
         return coordinates_in(Add(*(Mul(scalar(f"c_{i}"), c) for i, p in enumerate(places) for c in p.components)))
 
     @cached_property
@@ -107,19 +125,12 @@ class System:
         """Its mass points, and the forces on them."""
         points = tuple(MassPoint(particle.mass, particle.at.components) for particle in self.particles)
         loads = [self._weight_of(particle) for particle in self.particles] if self.weights else []
-        loads += [load for each in self.springs for load in _pulls(each)]
+        loads += [load for each in self.between for load in each.pulls()]
         return Matter(points, tuple(loads), tuple(self.coordinates))
 
     def _weight_of(self, particle: Particle) -> Load:
         *across, _ = particle.at.components
         return Load((*(Integer(0) for _ in across), -particle.mass * self.gravity), particle.at.components)
-
-
-def _pulls(each: Spring) -> tuple[Load, Load]:
-    """The forces with which a spring pulls at its two ends, towards each other where it is longer than by nature."""
-    way = (each.end - each.start).components
-    pull = [each.constant * (1 - each.natural / each.length) * c for c in way]
-    return Load(tuple(pull), each.start.components), Load(tuple(-c for c in pull), each.end.components)
 
 
 def _numbered(letter: str, i: int, system: System) -> Symbol:
@@ -196,11 +207,11 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         return Add(*lost), Add(*(matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
     heights = [Factors(p.mass, system.gravity, p.at.height) for p in system.particles] if system.weights else []
-    stretched = [Factors(HALF, s.constant, Pow(_stretch(s), 2)) for s in system.springs]
+    stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     return establish(
         "systems.potential_energy",
         scalar(symbol),
-        lambda: Terms(*heights, *stretched) if heights or stretched else Integer(0),
+        lambda: Terms(*heights, *stored) if heights or stored else Integer(0),
         {},
         key=key,
         kind="energy",
@@ -210,7 +221,3 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         facts=[replace(matter, points=())],
         scope=Scope(coordinates=system.coordinates),
     )
-
-
-def _stretch(each: Spring) -> Expr:
-    return each.length - each.natural
