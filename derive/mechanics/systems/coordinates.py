@@ -87,9 +87,9 @@ class OfCoordinate(Fact):
     coordinate: Coordinate
 
 
-def coordinate(name: str, kind: str = "angle") -> Coordinate:
-    """A coordinate by name, real, free to vary."""
-    found = Coordinate(scalar(name), kind)
+def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
+    """A coordinate by name, real, free to vary; `positive` where it is a distance, which cannot be negative."""
+    found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol, cos, diff, sin
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import TIME, explicit
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.steps.step import Fact
 
@@ -52,6 +52,11 @@ class Matter(Fact):
     def __add__(self, other: Matter) -> Matter:
         both = dict.fromkeys((*self.coordinates, *other.coordinates))
         return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both))
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether a place depends on the time itself, and not by the coordinates alone."""
+        return any(TIME in explicit(x).free_symbols for point in self.points for x in point.place)
 
     def kinetic_energy(self) -> Expr:
         """Half the sum of m v.v"""

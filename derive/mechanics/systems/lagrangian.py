@@ -202,7 +202,7 @@ def lagrangian(kinetic: Quantity, potential: Quantity, symbol: str = "L", key: s
     def of_mass_points(found: Expr) -> tuple[Expr, Expr]:
         return found + potential.value, matter.kinetic_energy()
 
-    driven = changes(kinetic.value) is not None or changes(potential.value) is not None
+    driven = matter.is_driven or changes(potential.value) is not None
 
     return establish(
         "lagrangian.lagrangian",

@@ -14,13 +14,13 @@ from typing import TypeAlias
 from sympy import Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, diff, sqrt
 
 from derive.algebra.collect import by_rates, by_terms
-from derive.algebra.expressions import TIME, Factors, Terms, TimeRate, bound, explicit, scalar
+from derive.algebra.expressions import TIME, Factors, Relation, Terms, TimeRate, bound, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
 from derive.mechanics.systems.places import Place
 from derive.steps.establish import Lines, Scope, establish
-from derive.steps.record import coordinates_in, require_constant
+from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Quantity, compared_with
 
 __all__ = ["Particle", "System", "central", "kinetic_energy_of", "potential_energy_of", "spring", "weight"]
@@ -58,12 +58,22 @@ class Central:
 
     @cached_property
     def length(self) -> Expr:
-        return tidied(sqrt(tidied(Add(*(c**2 for c in (self.end - self.start).components)))))
+        """Of a way along one fixed line, its component, where that is positive at rest and then taken to stay so."""
+        way = [c for c in (self.end - self.start).components if c != 0]
+        if len(way) > 1:
+            return tidied(sqrt(tidied(Add(*(c**2 for c in way)))))
+        (along,) = way or [ZERO]
+        at_rest = along.xreplace(dict.fromkeys(coordinates_in(along), ZERO))
+        if at_rest.is_nonzero is not True or along == at_rest:
+            return tidied(sqrt(along**2))
+        length = along if at_rest.is_positive else -along
+        assume(Relation(length, ">", ZERO))
+        return length
 
     def pulls(self) -> tuple[Load, Load]:
         """The forces at its two ends, towards each other where the energy grows with the distance."""
         way = (self.end - self.start).components
-        size = diff(self.energy, self.distance).subs(self.distance, self.length)
+        size = diff(explicit(self.energy), self.distance).subs(self.distance, self.length)
         pull = tuple(size * c / self.length for c in way)
         return Load(pull, self.start.components), Load(tuple(-c for c in pull), self.end.components)
 
