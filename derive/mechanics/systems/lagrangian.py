@@ -18,6 +18,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
+from derive.mechanics.systems.system import System, kinetic_energy_of, potential_energy_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
@@ -25,6 +26,7 @@ from derive.steps.subject import Subject, called
 
 __all__ = [
     "equation_of_motion",
+    "equations_of_motion",
     "generalized_force",
     "generalized_momentum",
     "lagrangian",
@@ -180,16 +182,23 @@ def _about_weight(mass: Any, at: tuple[Any, ...]) -> Subject:
     return Subject(mass=value_behind(mass), place=at)
 
 
-def lagrangian(kinetic: Quantity, potential: Quantity, symbol: str = "L", key: str = "lagrangian") -> Quantity:
+def lagrangian(
+    kinetic: Quantity | System, potential: Quantity | None = None, symbol: str = "L", key: str = "lagrangian"
+) -> Quantity:
     """Lagrangian, L = T - U.
 
-    kinetic, potential   energies in J of one body in one motion
+    kinetic, potential   energies in J of one body in one motion; or in place of both a system, whose energies they are
     Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
     time itself occurs, L and U together are the kinetic energy of the mass points.
     Errors: T and U belong to different bodies, masses or motions.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
+    if isinstance(kinetic, System):
+        system = kinetic
+        kinetic, potential = kinetic_energy_of(system), potential_energy_of(system)
     require_kind("lagrangian", "kinetic", kinetic, "energy")
+    if potential is None:
+        raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a potential energy, or a system alone"))
     require_kind("lagrangian", "potential", potential, "energy")
     moving = {**kinetic.coordinates, **potential.coordinates}
 
@@ -256,6 +265,18 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
         parents=[force, momentum, changing],
         facts=[FromLagrangian(of), OfCoordinate(q), matter],
     )
+
+
+def equations_of_motion(of: Quantity) -> tuple[Quantity, ...]:
+    """Lagrange's equations, one for each coordinate, d/dt dL/dq_dot - dL/dq = 0.
+
+    of   the Lagrangian, J
+    Keys: motion_ and the name of the coordinate.
+    Second route: as `equation_of_motion`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
+    """
+    known = [Coordinate(symbol, kind) for symbol, kind in of.coordinates.items()]
+    return tuple(equation_of_motion(of, q, key=f"motion_{q.symbol.name}") for q in known)
 
 
 def _difference(first: Expr, second: Expr) -> Expr:

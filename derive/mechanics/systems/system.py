@@ -22,6 +22,7 @@ from derive.mechanics.systems.places import Place
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Quantity, compared_with
+from derive.steps.subject import Subject
 
 __all__ = ["Particle", "System", "central", "kinetic_energy_of", "potential_energy_of", "spring", "weight"]
 
@@ -165,7 +166,7 @@ def _squared_speed(system: System, i: int) -> Quantity:
             arranged=lambda value: by_rates(value, moving),
             means={_numbered("v", i, system): _speed(place, moving)},
         ),
-        scope=Scope(coordinates=system.coordinates),
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
 
 
@@ -197,6 +198,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=None, arranged=lambda value: by_rates(value, list(system.coordinates), halves=True)),
         facts=[replace(system.matter, loads=())],
+        scope=Scope(about=Subject(body=system)),
     )
 
 
@@ -229,5 +231,5 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         outcome=lambda value: "zero" if value == 0 else "generic",
         lines=Lines(put_in=None, arranged=by_terms),
         facts=[replace(matter, points=())],
-        scope=Scope(coordinates=system.coordinates),
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
