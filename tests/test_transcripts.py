@@ -57,6 +57,8 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         },
         None,
     ),
+    "double": ({}, None),
+    "springs": ({}, None),
     "top": ({}, None),
     "top-slow": ({"900 rpm": "200 rpm"}, "brief"),
     "top-horizontal": ({"45 deg": "90 deg"}, "brief"),

@@ -61,7 +61,12 @@ def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: 
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
     if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
         return Mul(Rational(1, 2), spread(2 * coefficient), *(s**n for s, n in rates), evaluate=False)
-    return Mul(spread(coefficient), *(s**n for s, n in rates))
+    return Mul(_shorter_as_product(spread(coefficient)), *(s**n for s, n in rates))
+
+
+def _shorter_as_product(value: Expr) -> Expr:
+    """(l + x)^2, not l^2 + 2 l x + x^2."""
+    return min((value, factor(value)), key=lambda form: int(form.count_ops()))
 
 
 def spread(value: Expr) -> Expr:

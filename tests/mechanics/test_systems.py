@@ -171,7 +171,7 @@ def test_axes_turn_about_axes_that_have_turned() -> None:
         (lambda: central(k * l * t, l, point(0, 0), point(1, 0)), "depends on the time"),
         (lambda: System(), "needs a particle"),
         (lambda: System(Particle(m, point(0, 0)), weight(g), weight(g)), "has one weight"),
-        (lambda: System(Particle(m, point(0, 0)), Z), "not of Place"),
+        (lambda: System(Particle(m, point(0, 0)), Z), "not of Location"),
     ],
 )
 def test_what_makes_no_system_is_refused(wrong: Callable[[], Any], said: str) -> None:

@@ -101,6 +101,10 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "turning": lambda facts: "inertia" in facts.inputs,
         "particle": lambda facts: "inertia" not in facts.inputs,
     },
+    "systems.squared_speed": {
+        "alone": lambda facts: len(facts.subject.body.particles) == 1,
+        "of_several": lambda facts: len(facts.subject.body.particles) > 1,
+    },
     "systems.potential_energy": {"generic": lasts, "zero": vanishes},
     "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},
     "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},

@@ -216,7 +216,7 @@ def lagrangian(
     return establish(
         "lagrangian.lagrangian",
         scalar(symbol),
-        lambda t, u: Terms(t, -u),
+        lambda t, u: Terms(*Add.make_args(t), *(-term for term in Add.make_args(u))),
         {"kinetic": kinetic, "potential": potential},
         lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},

@@ -8,32 +8,33 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
 from sympy.matrices import ImmutableMatrix
 
+from derive.algebra.expressions import TIME
 from derive.errors import Complaint, Rejected
 
-__all__ = ["Axes", "Place", "X", "Y", "Z", "point", "space"]
+__all__ = ["Axes", "Location", "X", "Y", "Z", "point", "space", "t"]
 
 
 @dataclass(frozen=True)
-class Place:
+class Location:
     """A place, or a way between two: two components in a plane, three in space, m; the last is upwards."""
 
     components: tuple[Expr, ...]
 
-    def __add__(self, other: Any) -> Place:
-        if not isinstance(other, Place):
+    def __add__(self, other: Any) -> Location:
+        if not isinstance(other, Location):
             return NotImplemented
         if len(other.components) != len(self.components):
             message = "one place has two components, the other three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
-        return Place(tuple(a + b for a, b in zip(self.components, other.components, strict=True)))
+        return Location(tuple(a + b for a, b in zip(self.components, other.components, strict=True)))
 
-    def __mul__(self, factor: Any) -> Place:
-        return NotImplemented if isinstance(factor, Place) else Place(tuple(factor * c for c in self.components))
+    def __mul__(self, factor: Any) -> Location:
+        return NotImplemented if isinstance(factor, Location) else Location(tuple(factor * c for c in self.components))
 
-    def __neg__(self) -> Place:
-        return Place(tuple(-c for c in self.components))
+    def __neg__(self) -> Location:
+        return Location(tuple(-c for c in self.components))
 
-    def __sub__(self, other: Place) -> Place:
+    def __sub__(self, other: Location) -> Location:
         return self + -other
 
     __rmul__ = __mul__
@@ -43,12 +44,12 @@ class Place:
         return self.components[-1]
 
 
-def point(*components: Any) -> Place:
+def point(*components: Any) -> Location:
     """The place with these components, (x, y) in a vertical plane or (x, y, z) in space, y or z upwards, m."""
     if len(components) not in (2, 3):
         raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
     try:
-        return Place(tuple(Integer(0) + c for c in components))
+        return Location(tuple(Integer(0) + c for c in components))
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "`point` needs expressions, one for each component")) from None
 
@@ -65,7 +66,7 @@ class Axes:
 
     in_space: ImmutableMatrix
 
-    def turned(self, about: Place, angle: Any) -> Axes:
+    def turned(self, about: Location, angle: Any) -> Axes:
         """These axes turned about one of themselves, X, Y or Z, by an angle: a coordinate, a constant or `rate*t`."""
         if about not in (X, Y, Z):
             message = "axes are turned about one of themselves: X, Y or Z"
@@ -77,12 +78,13 @@ class Axes:
         turn[j, j], turn[j, k], turn[k, j], turn[k, k] = c, -s, s, c
         return Axes(ImmutableDenseMatrix(self.in_space * turn))
 
-    def place(self, *components: Any) -> Place:
+    def place(self, *components: Any) -> Location:
         """The place with these three components along these axes, from the origin that all axes share, m."""
         along = point(*components)
         if len(along.components) != 3:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
-        return Place(tuple(self.in_space * ImmutableDenseMatrix(along.components)))
+        return Location(tuple(self.in_space * ImmutableDenseMatrix(along.components)))
 
 
 space = Axes(ImmutableDenseMatrix(eye(3)))
+t = TIME

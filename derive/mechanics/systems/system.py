@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
-from sympy import Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, diff, sqrt
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, diff, factor, sqrt
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Factors, Relation, Terms, TimeRate, bound, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
-from derive.mechanics.systems.places import Place
+from derive.mechanics.systems.places import Location
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Quantity, compared_with
@@ -35,7 +35,7 @@ class Particle:
     """A particle of a constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1."""
 
     mass: Expr
-    at: Place
+    at: Location
 
     def __post_init__(self) -> None:
         require_constant("Particle", "mass", self.mass)
@@ -52,22 +52,24 @@ class Weight:
 class Central:
     """A potential energy U(r) of the distance between two places, J, with its force along the line between them."""
 
-    start: Place
-    end: Place
+    start: Location
+    end: Location
     distance: Symbol
     energy: Expr
 
     @cached_property
     def length(self) -> Expr:
-        """Of a way along one fixed line, its component, where that is positive at rest and then taken to stay so."""
-        way = [c for c in (self.end - self.start).components if c != 0]
-        if len(way) > 1:
-            return tidied(sqrt(tidied(Add(*(c**2 for c in way)))))
-        (along,) = way or [ZERO]
-        at_rest = along.xreplace(dict.fromkeys(coordinates_in(along), ZERO))
-        if at_rest.is_nonzero is not True or along == at_rest:
-            return tidied(sqrt(along**2))
-        length = along if at_rest.is_positive else -along
+        """Of a way along one line, its component there, where that is positive at rest and then taken to stay so."""
+        square = tidied(Add(*(c**2 for c in (self.end - self.start).components)))
+        length = sqrt(factor(square))
+        along = next(iter(length.atoms(Abs)), ZERO)
+        if length != along or not isinstance(along, Abs):
+            return length
+        (way,) = along.args
+        at_rest = way.xreplace(dict.fromkeys(coordinates_in(way), ZERO))
+        if way == at_rest or not at_rest.is_nonzero:
+            return length
+        length = way if at_rest.is_positive else -way
         assume(Relation(length, ">", ZERO))
         return length
 
@@ -85,14 +87,14 @@ def weight(gravity: Expr) -> Weight:
     return Weight(gravity)
 
 
-def spring(constant: Expr, start: Place, end: Place, natural: Expr = ZERO) -> Central:
+def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO) -> Central:
     """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m."""
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
     return Central(start, end, DISTANCE, Factors(HALF, constant, Pow(Terms(DISTANCE, -natural), 2)))
 
 
-def central(energy: Expr, distance: Symbol, start: Place, end: Place) -> Central:
+def central(energy: Expr, distance: Symbol, start: Location, end: Location) -> Central:
     """A potential energy U(r) of the distance r between two places: `central(-G*M*m/r, r, sun, planet)`."""
     if TIME in energy.free_symbols:
         raise Rejected(
@@ -160,6 +162,7 @@ def _squared_speed(system: System, i: int) -> Quantity:
         lambda *at: Terms(*(Pow(TimeRate(c, *moving), 2) for c in at)),
         {f"place_{k}": c for k, c in enumerate(place)},
         key=_numbered("squared_speed", i, system).name,
+        outcome="of_several" if len(system.particles) > 1 else "alone",
         routes={"functions_of_time": compared_with(matter.kinetic_energy)},
         lines=Lines(
             put_in=None,
