@@ -9,6 +9,11 @@ from __future__ import annotations
 
 # reason -> ids
 SURVIVORS: dict[str, tuple[str, ...]] = {
+    "other places, which the page says: a script's formulas are what the problem is about": (
+        "mechanics.systems.places:Location.__add__: dropped: a + b -> b",
+        "mechanics.systems.places:Location.__add__: plus/minus: a + b -> a - b",
+        "mechanics.systems.places:point: plus/minus: Integer(0) + c -> Integer(0) - c",
+    ),
     "another letter for the same thing, throughout: nothing says which letter a thing must have": (
         "mechanics.bodies.body:Body.direction: order: axis_vector(self, along, axis.name or 'components', symbol, key) -> axis_vector(self, along, axis.name or 'components', key, symbol)",
         "mechanics.rotation.composite:Composed.__init__: comparison: letters.count(letter) == 1 -> letters.count(letter) != 1",

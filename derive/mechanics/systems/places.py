@@ -8,8 +8,9 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
 from sympy.matrices import ImmutableMatrix
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Unverified
 
 __all__ = ["Axes", "Location", "X", "Y", "Z", "point", "space", "t"]
 
@@ -76,14 +77,31 @@ class Axes:
         c, s = cos(angle), sin(angle)
         turn = eye(3).as_mutable()
         turn[j, j], turn[j, k], turn[k, j], turn[k, k] = c, -s, s, c
-        return Axes(ImmutableDenseMatrix(self.in_space * turn))
+        turned = Axes(ImmutableDenseMatrix(self.in_space * turn))
+        _check_turned(self, turned, about, angle)
+        return turned
 
     def place(self, *components: Any) -> Location:
         """The place with these three components along these axes, from the origin that all axes share, m."""
         along = point(*components)
         if len(along.components) != 3:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
-        return Location(tuple(self.in_space * ImmutableDenseMatrix(along.components)))
+        found = self.in_space * ImmutableDenseMatrix(along.components)
+        if not equal(ImmutableDenseMatrix(self.in_space.T * found), ImmutableDenseMatrix(along.components)):
+            raise Unverified(
+                Complaint("unverified", "`place`: along the axes it has other components")
+            )
+        return Location(tuple(found))
+
+
+def _check_turned(before: Axes, after: Axes, about: Location, angle: Any) -> None:
+    """Rodrigues: a vector v of the old axes becomes v cos a + (e x v) sin a + e (e.v)(1 - cos a), e along the axis."""
+    e = before.in_space * ImmutableDenseMatrix(about.components)
+    for i in range(3):
+        v = before.in_space[:, i]
+        carried = v * cos(angle) + e.cross(v) * sin(angle) + e * e.dot(v) * (1 - cos(angle))
+        if not equal(ImmutableDenseMatrix(after.in_space[:, i]), ImmutableDenseMatrix(carried)):
+            raise Unverified(Complaint("unverified", "`turned`: the axes are not those that the rotation gives"))
 
 
 space = Axes(ImmutableDenseMatrix(eye(3)))

@@ -16,7 +16,7 @@ from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, di
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Factors, Relation, Terms, TimeRate, bound, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
 from derive.mechanics.systems.places import Location
 from derive.steps.establish import Lines, Scope, establish
@@ -50,12 +50,13 @@ class Weight:
 
 @dataclass(frozen=True)
 class Central:
-    """A potential energy U(r) of the distance between two places, J, with its force along the line between them."""
+    """A potential energy U(r) of the distance between two places, J, and the pull along the line between them, N."""
 
     start: Location
     end: Location
     distance: Symbol
     energy: Expr
+    pull: Expr
 
     @cached_property
     def length(self) -> Expr:
@@ -70,13 +71,16 @@ class Central:
         if way == at_rest or not at_rest.is_nonzero:
             return length
         length = way if at_rest.is_positive else -way
-        assume(Relation(length, ">", ZERO))
+        stays = Relation(length, ">", ZERO)
+        if not _is_so(stays, coordinates_in(way)):
+            raise Unverified(Complaint("unverified", f"a distance of {stays} would be negative at rest"))
+        assume(stays)
         return length
 
     def pulls(self) -> tuple[Load, Load]:
         """The forces at its two ends, towards each other where the energy grows with the distance."""
         way = (self.end - self.start).components
-        size = diff(explicit(self.energy), self.distance).subs(self.distance, self.length)
+        size = self.pull.subs(self.distance, self.length)
         pull = tuple(size * c / self.length for c in way)
         return Load(pull, self.start.components), Load(tuple(-c for c in pull), self.end.components)
 
@@ -91,7 +95,8 @@ def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO)
     """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m."""
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
-    return Central(start, end, DISTANCE, Factors(HALF, constant, Pow(Terms(DISTANCE, -natural), 2)))
+    energy = Factors(HALF, constant, Pow(Terms(DISTANCE, -natural), 2))
+    return Central(start, end, DISTANCE, energy, constant * DISTANCE - constant * natural)
 
 
 def central(energy: Expr, distance: Symbol, start: Location, end: Location) -> Central:
@@ -100,7 +105,7 @@ def central(energy: Expr, distance: Symbol, start: Location, end: Location) -> C
         raise Rejected(
             Complaint("changes", "`central` needs an energy of the distance alone, but it depends on the time t")
         )
-    return Central(start, end, distance, energy)
+    return Central(start, end, distance, energy, diff(energy, distance))
 
 
 PartOfSystem: TypeAlias = Particle | Weight | Central
@@ -143,7 +148,14 @@ class System:
 
     def _weight_of(self, particle: Particle) -> Load:
         *across, _ = particle.at.components
-        return Load((*(Integer(0) for _ in across), -particle.mass * self.gravity), particle.at.components)
+        down = -particle.mass * self.weights[0].gravity
+        return Load((*(ZERO for _ in across), down), particle.at.components)
+
+
+def _is_so(condition: Relation, coordinates: Mapping[Symbol, str]) -> bool:
+    """Whether it is a length that is positive where all coordinates are zero."""
+    at_rest = condition.residual.xreplace(dict.fromkeys(coordinates, ZERO))
+    return bool(condition.mark == ">" and at_rest.is_positive)
 
 
 def _numbered(letter: str, i: int, system: System) -> Symbol:
