@@ -88,9 +88,7 @@ class Axes:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
         found = self.in_space * ImmutableDenseMatrix(along.components)
         if not equal(ImmutableDenseMatrix(self.in_space.T * found), ImmutableDenseMatrix(along.components)):
-            raise Unverified(
-                Complaint("unverified", "`place`: along the axes it has other components")
-            )
+            raise Unverified(Complaint("unverified", "`place`: along the axes it has other components"))
         return Location(tuple(found))
 
 
