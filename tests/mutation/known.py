@@ -53,6 +53,7 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.rotation.principal:_is_round: name: moments.value -> moments.symbol",
     ),
     "a longer way, in which every line is true and checked": (
+        "steps.establish:establish: order: lines.chain(symbol, formula, substituted, result) -> lines.chain(symbol, formula, result, substituted)",
         "steps.chain:without_repeats: comparison: kept[-1].expr == form.expr -> kept[-1].expr != form.expr",
         "mechanics.bodies.body:Cuboid.extent: number: 1 -> 2",
         "mechanics.rotation.composite:axial_moment: name: moment.value -> moment.symbol",
