@@ -5,10 +5,13 @@ Reading back builds objects of the listed classes only; nothing is evaluated fro
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import fields
+from enum import Enum
 from typing import Any
 
 import sympy
-from sympy import ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Rational, Symbol
+from sympy import Basic, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Rational, Symbol
 from sympy.core.symbol import Str
 
 from derive.algebra.node import NODES
@@ -110,3 +113,34 @@ def _is_bounded(number: int) -> bool:
 
 def _is_small(size: Any) -> bool:
     return type(size) is int and 0 <= size <= MAX_SIZE
+
+
+# --- records ---------------------------------------------------------------------------------------------------------
+
+
+def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
+    """Lists, mappings and plain values for records of these classes, by name, and for what they hold."""
+    if isinstance(value, Basic | MatrixBase):
+        return {"expr": encoded(value)}
+    if isinstance(value, tuple | list):
+        return [as_data(each, classes) for each in value]
+    name = type(value).__name__
+    if classes.get(name) is type(value):
+        if isinstance(value, Enum):
+            return {"is": name, "value": value.value}
+        return {"is": name, **{f.name: as_data(getattr(value, f.name), classes) for f in fields(value)}}
+    if value is None or isinstance(value, str | bool | int | float):
+        return value
+    raise TypeError(f"{name} has no encoding")
+
+
+def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
+    """What `as_data` was given, with tuples for lists; nothing but these classes is built."""
+    if isinstance(data, list):
+        return tuple(from_data(each, classes) for each in data)
+    if not isinstance(data, dict):
+        return data
+    if "is" not in data:
+        return decoded(data["expr"])
+    made_of = {name: from_data(value, classes) for name, value in data.items() if name != "is"}
+    return classes[data["is"]](**made_of)

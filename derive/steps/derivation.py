@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from derive.algebra.encoding import decoded, encoded
+from derive.algebra.encoding import as_data, from_data
 from derive.algebra.equality import Compared, Evidence, Grade
 from derive.algebra.expressions import Relation
 from derive.errors import Complaint, Place, Rejected
@@ -135,71 +135,16 @@ def derivation_of(answers: Iterable[Iterable[str]], known: dict[str, Quantity], 
 # --- JSON ------------------------------------------------------------------------------------------------------------
 
 
+_CLASSES = {each.__name__: each for each in (Derivation, Step, Form, Level, Evidence, Compared, Grade)}
+
+
 def to_json(derivation: Derivation) -> str:
-    return json.dumps(
-        {
-            "steps": [_step_to_data(step) for step in derivation.steps],
-            "parts": derivation.parts,
-            "unshown": derivation.unshown,
-            "assumed": [encoded(condition) for condition in derivation.assumed],
-        }
-    )
+    return json.dumps(as_data(derivation, _CLASSES))
 
 
 def from_json(text: str) -> Derivation:
-    data = json.loads(text)
-    return Derivation(
-        steps=tuple(_step_from_data(step) for step in data["steps"]),
-        parts=tuple(tuple(part) for part in data["parts"]),
-        unshown=tuple(data["unshown"]),
-        assumed=tuple(decoded(condition) for condition in data["assumed"]),
-    )
-
-
-def _step_to_data(step: Step) -> dict[str, Any]:
-    return {
-        "key": step.key,
-        "rule": step.rule,
-        "symbol": encoded(step.symbol),
-        "chain": [_form_to_data(form) for form in step.chain],
-        "inputs": step.inputs,
-        "roles": [[role, encoded(symbol)] for role, symbol in step.roles],
-        "outcome": step.outcome,
-        "evidence": [[e.claim, e.compared, e.grade, e.detail] for e in step.evidence],
-        "kind": step.kind,
-        "words": step.words,
-        "coordinates": [[encoded(q), kind] for q, kind in step.coordinates],
-        "stands_for": step.stands_for,
-        "names": [[encoded(name), encoded(value)] for name, value in step.names],
-        "motion": [[encoded(rate), encoded(value)] for rate, value in step.motion],
-        "law_at": step.law_at,
-    }
-
-
-def _form_to_data(form: Form) -> list[Any]:
-    return [encoded(form.expr), form.because, form.level, [encoded(factor) for factor in form.nonzero]]
-
-
-def _step_from_data(data: dict[str, Any]) -> Step:
-    return Step(
-        key=data["key"],
-        rule=data["rule"],
-        symbol=decoded(data["symbol"]),
-        chain=tuple(
-            Form(decoded(expr), because, Level(level), tuple(decoded(factor) for factor in nonzero))
-            for expr, because, level, nonzero in data["chain"]
-        ),
-        inputs=tuple(data["inputs"]),
-        roles=tuple((role, decoded(symbol)) for role, symbol in data["roles"]),
-        outcome=data["outcome"],
-        evidence=tuple(
-            Evidence(claim, Compared(of), Grade(grade), detail) for claim, of, grade, detail in data["evidence"]
-        ),
-        kind=data["kind"],
-        words=tuple((name, key) for name, key in data["words"]),
-        coordinates=tuple((decoded(q), kind) for q, kind in data["coordinates"]),
-        stands_for=tuple(data["stands_for"]),
-        names=tuple((decoded(name), decoded(value)) for name, value in data["names"]),
-        motion=tuple((decoded(rate), decoded(value)) for rate, value in data["motion"]),
-        law_at=data["law_at"],
-    )
+    """The derivation that `to_json` wrote; ValueError, KeyError or TypeError for anything else."""
+    found = from_data(json.loads(text), _CLASSES)
+    if not isinstance(found, Derivation):
+        raise ValueError("this is no derivation")
+    return found

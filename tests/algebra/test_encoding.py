@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 import pytest
@@ -10,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import (
     E,
+    Expr,
     Function,
     I,
     Identity,
@@ -32,7 +35,7 @@ from sympy import (
 )
 
 from derive.algebra import expressions as ex
-from derive.algebra.encoding import decoded, encoded
+from derive.algebra.encoding import as_data, decoded, encoded, from_data
 from derive.algebra.node import NODES, Node
 from derive.algebra.rounding import Rounded
 from tests.mechanics.block import known_block
@@ -209,3 +212,29 @@ def test_data_nested_without_end_are_refused() -> None:
         decoded(deep)
     with pytest.raises(ValueError, match="too large"):
         decoded(["Tuple", *([["Integer", 1]] * 200_001)])
+
+
+class Size(StrEnum):
+    LARGE = "large"
+
+
+@dataclass(frozen=True)
+class Weighed:
+    mass: Expr
+    size: Size
+    notes: tuple[str, ...] = ()
+
+
+def test_a_record_goes_to_data_and_back_with_its_enums_and_expressions() -> None:
+    known = {"Weighed": Weighed, "Size": Size}
+    record = Weighed(Symbol("m", positive=True) ** 2, Size.LARGE, ("once", "twice"))
+    found = from_data(json.loads(json.dumps(as_data([record, None], known))), known)
+    assert found == (record, None)
+    assert found[0].size is Size.LARGE
+
+
+def test_only_records_that_are_named_go_to_data_and_back() -> None:
+    with pytest.raises(TypeError, match="Weighed has no encoding"):
+        as_data(Weighed(Integer(1), Size.LARGE), {})
+    with pytest.raises(KeyError):
+        from_data({"is": "Popen", "args": "true"}, {"Weighed": Weighed})

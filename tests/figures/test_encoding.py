@@ -33,5 +33,5 @@ def test_data_are_plain_json_and_every_mark_says_what_it_is() -> None:
 
 
 def test_what_cannot_be_kept_is_no_part_of_a_drawing() -> None:
-    with pytest.raises(TypeError, match="a drawing cannot hold a set"):
+    with pytest.raises(TypeError, match="set has no encoding"):
         drawings_to_data([Drawing("one", (PointMark(column(0, 0, 0), label={1}),))])
