@@ -130,7 +130,7 @@ def derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Qu
         raise Rejected(clashes)
     derivation = derivation_of(asked, known, run)
     values: dict[str, Step] = {}
-    dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
+    dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
     for part, answers_of_part in zip(problem.parts, asked, strict=True):
         for key, as_asked in answers_of_part.items():
             value = _value(problem, part, known[key], as_asked, dimensions)

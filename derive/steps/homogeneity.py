@@ -32,7 +32,7 @@ from derive.algebra.equality import Grade
 from derive.algebra.kinds import Inhomogeneous, common, dimension_of_kind, kind_with_article
 from derive.algebra.mass_integral import dimensions_of_variables
 from derive.algebra.node import DimensionOf, Node
-from derive.errors import Complaint
+from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Step
 
 Table = dict[Any, Dimension | None]
@@ -80,8 +80,13 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
     return NUMBER
 
 
-def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[Step]) -> tuple[Table, list[Complaint]]:
-    """Every name's dimension, step by step, and a complaint for each line that is not homogeneous."""
+def dimension_table(
+    declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
+) -> tuple[Table, list[Complaint]]:
+    """Every name's dimension, step by step, and a complaint for each line that is not homogeneous.
+
+    A letter of the `script` that is neither given nor a coordinate is refused: nothing says what it is, or if it moves.
+    """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []
     for step in steps:
@@ -89,6 +94,10 @@ def dimension_table(declared: Mapping[Any, Dimension | None], steps: Iterable[St
         local = {**table, **_opened_names(step, table)}
         try:
             dimension = _of_chain(step, local)
+        except KeyError as unknown:
+            message = f"`{step.key}` contains {unknown.args[0]}, which is neither given nor a coordinate"
+            help_line = 'ask for it in `solve()`, or name what varies with `coordinate("...")`'
+            raise Rejected(Complaint("unknown-letter", message, script, help=help_line)) from None
         except Inhomogeneous as fault:
             complaints.append(_complaint(step, str(fault)))
             dimension = dimension_of_kind(step.kind) if step.kind else None

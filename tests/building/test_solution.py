@@ -86,3 +86,16 @@ UNIT_OF_THE_EQUATION = """\
     answer: [equation_of_motion, frequency]
     form: {equation_of_motion: {unit: [m/s^2]}}
 """
+
+
+def test_a_letter_of_the_script_that_nobody_gave_is_refused_where_the_script_returns(tmp_path: Path) -> None:
+    solved(tmp_path)
+    script = tmp_path / "problems" / "set" / "pendulum.py"
+    script.write_text(SCRIPT.replace("length / gravity", "Symbol('h') / gravity"), encoding="utf-8")
+    script.write_text("from sympy import Symbol\n" + script.read_text(encoding="utf-8"), encoding="utf-8")
+    with pytest.raises(Rejected) as caught:
+        rendered(tmp_path, "set/pendulum")
+    (complaint,) = caught.value.complaints
+    assert complaint.code == "unknown-letter"
+    assert complaint.message == "`period` contains h, which is neither given nor a coordinate"
+    assert complaint.place and complaint.place.text.strip() == "return ("

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
-from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, diff, factor, sqrt
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, factor, sqrt
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Factors, Relation, Terms, TimeRate, bound, explicit, scalar
@@ -38,6 +38,9 @@ class Particle:
     at: Location
 
     def __post_init__(self) -> None:
+        if not isinstance(self.mass, Expr | int) or not isinstance(self.at, Location):
+            message = "`Particle` needs the expression of a mass and a place that `point` or `place` gives"
+            raise Rejected(Complaint("wrong-argument", message))
         require_constant("Particle", "mass", self.mass)
 
 
@@ -127,6 +130,17 @@ class System:
             raise Rejected(Complaint("wrong-argument", "a `System` needs a particle"))
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
+        if len({len(place.components) for place in self.places}) > 1:
+            message = "some places of this `System` have two components, others three: the last one is upwards"
+            raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
+        if not self.coordinates:
+            message = "nothing in this `System` moves: its places depend on no coordinate"
+            raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
+
+    @property
+    def places(self) -> list[Location]:
+        """Those of its particles, and the ends of what acts between them."""
+        return [particle.at for particle in self.particles] + [end for s in self.between for end in (s.start, s.end)]
 
     @property
     def gravity(self) -> Expr:
@@ -135,8 +149,7 @@ class System:
     @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
         """Those that its places depend on, with their kinds."""
-        places = [particle.at for particle in self.particles] + [end for s in self.between for end in (s.start, s.end)]
-        return coordinates_in(Add(*(Mul(scalar(f"c_{i}"), c) for i, p in enumerate(places) for c in p.components)))
+        return coordinates_in(ImmutableDenseMatrix([c for place in self.places for c in place.components]))
 
     @cached_property
     def matter(self) -> Matter:

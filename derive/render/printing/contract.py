@@ -1,7 +1,7 @@
 """The JSON of `derive solve ID --format json`: the contract that other programs read.
 
 Every step says what its page says, in plain SymPy text (`derive.render.printing.plain_sympy`): `names` is what each
-name in its chain stands for, and with these put in, `sympify(line, names)`, each line equals the one before it:
+name in its chain stands for, and once SymPy has read them and these are put in, each line equals the one before:
 
     a number        of `because: rounded` is `within` of the last line before the numbers
     a relation      has the residual, left minus right, of the one before it but for `factor`, which does not vanish
