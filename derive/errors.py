@@ -129,6 +129,10 @@ class Faults:
     ) -> None:
         self.add(Complaint(code, message, place, notes, help))
 
+    def take(self, others: Faults) -> None:
+        for complaint in others._complaints:
+            self.add(complaint)
+
     def __enter__(self) -> Faults:
         return self
 

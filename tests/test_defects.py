@@ -42,7 +42,7 @@ def page(folder: Path, name: str) -> str:
 def steps(folder: Path, name: str) -> dict[str, Quantity]:
     problem = load_problem(folder, f"defects/{name}")
     with recorded() as run:
-        problem.solve(**{given.name: given.value for given in problem.givens})
+        problem.script.solve(**{given.name: given.value for given in problem.givens})
     return {quantity.key: quantity for quantity in run.established}
 
 

@@ -37,6 +37,7 @@ FLOORS = (
     ("steps",),
     ("mechanics", "course"),
     ("figures",),
+    ("stock",),
     ("page",),
     ("render",),
     ("building",),

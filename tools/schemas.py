@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from derive.course.reference.statements import reference_schema
-from derive.course.written import problem_schema
+from derive.course.editors import problem_schema, reference_schema
 
 TEMPLATES = Path(__file__).parent.parent / "templates"
 

@@ -38,7 +38,14 @@ from derive.render.printing.latex_page import problem_latex
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered
 from derive.steps import record
-from derive.steps.derivation import Derivation, derivation_of, returned_quantities, standing_in, with_ancestors
+from derive.steps.derivation import (
+    Derivation,
+    answering,
+    derivation_of,
+    returned_groups,
+    returned_quantities,
+    with_ancestors,
+)
 from derive.steps.homogeneity import dimension_table
 from derive.steps.numeric import coefficient_of, comparison_of, value_of
 from derive.steps.step import Level, Quantity, Step
@@ -121,14 +128,15 @@ def _refers_to_problems(problem: Problem) -> bool:
 def derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
     run = record.Run()
-    answers = returned_quantities(run_solve(problem, run), problem.script.returns)
-    known = with_ancestors(answers, problem.script.returns)
-    instead = standing_in(quantity.step for quantity in known.values())
-    asked = [{instead.get(key, str(key)): key for key in part.answers} for part in problem.parts]
+    returned = run_solve(problem, run)
+    known = with_ancestors(returned_quantities(returned, problem.script.returns), problem.script.returns)
+    groups = returned_groups(returned, problem.script.returns)
+    steps = [quantity.step for quantity in known.values()]
+    asked = [answering(part.answers, steps, groups) for part in problem.parts]
     _check_answers(known, asked)
     if clashes := letter_clashes(problem, known):
         raise Rejected(clashes)
-    derivation = derivation_of(asked, known, run)
+    derivation = derivation_of(asked, known, run, groups)
     values: dict[str, Step] = {}
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
     for part, answers_of_part in zip(problem.parts, asked, strict=True):

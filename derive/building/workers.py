@@ -65,7 +65,9 @@ class Job:
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
     """Work on a problem, whose file is named if it gives no answer."""
-    path = f"problems/{problem_id}.yaml"
+    from derive.course.problem_set import problem_paths
+
+    path = problem_paths(root).get(problem_id, f"problems/{problem_id}.yaml")
     return Job(f"`{problem_id}`", work, limit, root / path, path)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import errno
 import os
+import re
 import signal
 import sys
 import traceback
@@ -18,7 +19,7 @@ from typing import TYPE_CHECKING, NoReturn
 from derive import FOLDER
 from derive.building.files import cannot_write, of_system, writing
 from derive.cli.terminal import complain, table, tell
-from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused, did_you_mean
 from derive.render.formats import TYPESET
 
 if TYPE_CHECKING:
@@ -128,25 +129,32 @@ def _root(arguments: argparse.Namespace) -> Path:
 
 
 def _problem_id(text: str) -> str:
-    """The id, also where a path was completed by the shell: problems/hw9/block.yaml."""
-    return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
+    """The id, also where a path was completed by the shell: problems/hw9/block.yaml, with a topic or without."""
+    text = text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
+    return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", text)
 
 
 def _list(arguments: argparse.Namespace) -> int:
     from derive.building.headline import headline
     from derive.building.workers import done, job_of
-    from derive.course.problem_set import problem_ids
+    from derive.course.problem_set import problem_paths, topic_of
 
     root = _root(arguments)
     _warn_of_names(root)
-    rows = [("problem", "points", "title")]
-    for problem_id in problem_ids(root):
+    topics = {problem_id: topic_of(path) for problem_id, path in sorted(problem_paths(root).items())}
+    if arguments.topic and arguments.topic not in topics.values():
+        known = sorted({topic for topic in topics.values() if topic})
+        help_line = did_you_mean(arguments.topic, known) or f"the topics are {', '.join(known) or 'none'}"
+        raise Misused(Complaint("no-such-topic", f"there is no topic `{arguments.topic}`", help=help_line))
+    rows = [("problem", "topic", "points", "title")]
+    for problem_id in (each for each, topic in topics.items() if arguments.topic in (None, topic)):
         try:
             points, title = done(job_of(root, problem_id, partial(headline, root, problem_id), limit=10))
-            rows.append((problem_id, points, title))
         except DeriveError as error:
-            rows.append((problem_id, "", f"(does not read: {error.complaints[0].message})"))
-    print(table(rows))
+            points, title = "", f"(does not read: {error.complaints[0].message})"
+        rows.append((problem_id, topics[problem_id], points, title))
+    without = [(row[0], *row[2:]) for row in rows]
+    print(table(rows if any(topics.values()) else without))
     return 0
 
 

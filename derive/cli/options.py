@@ -49,7 +49,8 @@ def _parser() -> argparse.ArgumentParser:
         sub.set_defaults(command=name)
         return sub
 
-    command("list", "list the problems")
+    listed = command("list", "list the problems")
+    listed.add_argument("--topic", metavar="TOPIC", help="only those of a topic, a folder within a set")
     solve = command("solve", "derive one problem and show its solution")
     solve.add_argument("id", metavar="ID", help="such as hw9/block")
     solve.add_argument("--format", choices=sorted([*formats(), *TYPESET]), default="text")

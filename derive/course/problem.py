@@ -7,36 +7,42 @@ whoever knows the steps; `Prose.place_of` and `Problem.place_of` say where to po
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from collections.abc import Mapping as Table
 from dataclasses import dataclass, field
 from fractions import Fraction
-from pathlib import Path
+from pathlib import Path, PurePosixPath
+from posixpath import normpath
 
 from sympy import Integer, Symbol
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import TIME, Amount, explicit
-from derive.algebra.kinds import kind_with_article, unit_of_kind
+from derive.algebra.kinds import Asked, kind_with_article, unit_of_kind
 from derive.course.expression import RESERVED, Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers, symbol_of_kind
 from derive.course.parts import Question
 from derive.course.placement import Placement, placements
+from derive.course.problem_set import path_of
 from derive.course.prose import Prose
+from derive.course.schema import read_record
 from derive.course.script import Parameter, Script, imported_script, run
+from derive.course.stock import Described, StockScript, stock_names, stock_script
 from derive.course.written import written_problem
-from derive.course.yaml_tree import Tree, Word, abridged
+from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Faults, Place, did_you_mean, nearest
 from derive.steps.record import Run, recorded
 
 DEFAULT_FIGURES = 4
 _SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
-_SCRIPT = re.compile(r"[A-Za-z0-9_-]{1,64}\.py")
+_SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Everything that a problem's file says, checked; paths are relative to the root."""
+    """Everything that a problem's file says, checked; paths are relative to the root.
+
+    What a source states is read where it is compared; `reference` is its text.
+    """
 
     id: str
     path: str
@@ -52,10 +58,12 @@ class Problem:
     show: Table[str, str]
     figures: int
     drawings: tuple[Placement, ...]
-    script: Script = field(repr=False)
+    script: Script | StockScript = field(repr=False)
     script_path: str
     places: Table[str, Place] = field(repr=False)
+    described: Described | None = None
     note: Prose | None = None
+    reference: str = ""
 
     @property
     def set_id(self) -> str:
@@ -64,11 +72,12 @@ class Problem:
     @property
     def inputs(self) -> tuple[str, ...]:
         """The files it was read from."""
-        return (self.path, self.script_path)
+        return (self.path, self.script_path) if self.script_path else (self.path,)
 
     @property
-    def solve(self) -> Callable[..., object]:
-        return self.script.solve
+    def asked(self) -> tuple[Word, ...]:
+        """What all its parts ask for."""
+        return tuple({str(answer): answer for part in self.parts for answer in part.answers}.values())
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
@@ -97,8 +106,9 @@ class Problem:
 def load_problem(root: Path, problem_id: str) -> Problem:
     """The problem, or one `Rejected` with every fault of its file and its script."""
     faults = Faults()
+    path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
-    script_path, script = _script(root, problem_id, written.solve, faults)
+    script_path, script = _script(root, path, written.solve, faults)
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     drawings = placements(written.drawings, pinned.symbols, len(written.parts), faults)
     points = written.points_in_all(faults)
@@ -108,7 +118,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     assert script is not None
     return Problem(
         id=problem_id,
-        path=f"problems/{problem_id}.yaml",
+        path=path,
         root=root,
         title=written.title,
         statement=written.statement,
@@ -123,6 +133,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         script_path=script_path,
         places=written.places,
         note=written.note,
+        reference=as_text(written.reference),
     )
 
 
@@ -133,26 +144,31 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
     with recorded(record):
+        if isinstance(problem.script, StockScript):
+            return problem.script.stock.solve(problem.described, problem.asked)
         return run(problem.script, {given.name: given.value for given in problem.givens})
 
 
-def _script(root: Path, problem_id: str, name: Word | None, faults: Faults) -> tuple[str, Script | None]:
-    """The script and its path, if there is one of that name beside the problem's file."""
+def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
+    """The script and its path, if there is one of that name beside the problem's file or beside another problem's, or
+    one of the engine."""
     if name is None:
         return "", None
-    set_id = problem_id.partition("/")[0]
-    folder = root / "problems" / set_id
-    if not _SCRIPT.fullmatch(name):
-        what = "the name of a script beside this file, such as `block.py`"
-        faults.error("wrong-type", f"`solve` must be {what}, but it is `{abridged(name)}`", name.place)
-    elif not (folder / name).exists():
-        help_line = did_you_mean(name, (file.name for file in folder.glob("*.py")))
+    if name in stock_names():
+        return "", StockScript(stock_script(name), name.place)
+    shown_as = normpath((PurePosixPath(path).parent / name).as_posix()) if _SCRIPT.fullmatch(name) else ""
+    if not shown_as.startswith("problems/"):
+        what = f"a script such as `block.py` or `../hw9/block.py`, or one of the engine, {', '.join(stock_names())}"
+        help_line = did_you_mean(name, stock_names())
+        faults.error("wrong-type", f"`solve` must be {what}, but it is `{abridged(name)}`", name.place, help=help_line)
+    elif not (file := root / shown_as).exists():
+        beside = (other.name for other in file.parent.glob("*.py"))
+        help_line = did_you_mean(name, [*beside, *stock_names()])
         faults.error("missing-file", f"there is no script `{name}`", name.place, help=help_line)
     else:
-        shown_as = f"problems/{set_id}/{name}"
         with faults:
-            module = "derive_problem_" + re.sub(r"\W", "_", f"{problem_id}_{name.removesuffix('.py')}")
-            return shown_as, imported_script(folder / name, shown_as, module)
+            module = "derive_problem_" + re.sub(r"\W", "_", f"{path}_{name.removesuffix('.py')}")
+            return shown_as, imported_script(file, shown_as, module)
     return "", None
 
 
@@ -161,30 +177,34 @@ def _script(root: Path, problem_id: str, name: Word | None, faults: Faults) -> t
 
 @dataclass(frozen=True)
 class Pinned:
-    """What `solve()` gets: its letters, what is given, and the numbers behind letters."""
+    """What `solve()` gets: its letters, what is given or described, and the numbers behind letters."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]
     measured: tuple[Measured, ...]
+    described: Described | None = None
 
 
 def pinned_by(
     kinds: Table[Word, str],
     numbers: Table[Word, Tree],
-    given: Table[Word, Tree],
+    given: Mapping | None,
     places: Table[str, Place],
-    script: Script | None,
+    script: Script | StockScript | None,
     faults: Faults,
 ) -> Pinned:
     """What three keys of a file say: `symbols:`, `values:` and `given:`, of which a script asks the last."""
-    symbols = _declared(kinds, faults)
+    symbols = declared_letters(kinds, faults)
     values = read_numbers(numbers, symbols, faults)
     if script is None:
         return Pinned(symbols, (), values)
+    if isinstance(script, StockScript):
+        return _described_by(script, given or Mapping((), script.returns), symbols, values, faults)
+    nodes = {name.word: node for name, node in given.pairs} if given else {}
     asked = {parameter.name: parameter for parameter in script.parameters}
-    _check_names(given, asked, places.get("given", places[""]), faults)
+    _check_names(nodes, asked, places.get("given", places[""]), faults)
     givens, symbols = read_givens(
-        {str(name): value for name, value in given.items() if name in asked},
+        {str(name): value for name, value in nodes.items() if name in asked},
         {name: parameter.kind for name, parameter in asked.items()},
         symbols,
         faults,
@@ -195,7 +215,21 @@ def pinned_by(
     return Pinned(symbols, givens, (*values, *(measured for given in givens for measured in given.measured)))
 
 
-def _declared(kinds: Table[Word, str], faults: Faults) -> dict[str, Declared]:
+def _described_by(
+    script: StockScript, given: Mapping, symbols: dict[str, Declared], values: tuple[Measured, ...], faults: Faults
+) -> Pinned:
+    """What a description says; each declared letter is given, and prose may mention it."""
+    own = Faults()
+    written = read_record(script.stock.keys, given, "`given`", own)
+    if own:
+        faults.take(own)
+        return Pinned(symbols, (), values)
+    described = script.stock.read(written, symbols, faults)
+    givens = tuple(Given(name, Asked(known.kind), known.symbol) for name, known in symbols.items())
+    return Pinned(symbols, givens, values, described)
+
+
+def declared_letters(kinds: Table[Word, str], faults: Faults) -> dict[str, Declared]:
     symbols = {}
     for word, kind in kinds.items():
         name = str(word)

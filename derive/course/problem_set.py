@@ -44,23 +44,33 @@ class SetKeys(Record):
 
 
 def problem_ids(root: Path) -> list[str]:
-    """`hw9/block` for every problem file below the root."""
-    files = sorted((root / "problems").glob("*/*.yaml"))
-    return [f"{file.parent.name}/{file.stem}" for file in files if file.stem not in _NOT_PROBLEMS and _named_well(file)]
+    """`hw9/block` for every problem file below the root, also for those in the folder of a topic of their set."""
+    return sorted(problem_paths(root))
 
 
-def _named_well(file: Path) -> bool:
-    return bool(NAME.fullmatch(file.stem) and NAME.fullmatch(file.parent.name))
+def problem_paths(root: Path) -> dict[str, str]:
+    """id -> file, relative to the root: `problems/hw9/block.yaml`, `problems/library/rotation/wheel.yaml`."""
+    top = root / "problems"
+    files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in sorted(top.glob(depth), reverse=True)]
+    found = [file.relative_to(top) for file in files if file.stem not in _NOT_PROBLEMS]
+    named_well = (file for file in found if all(NAME.fullmatch(name) for name in (*file.parent.parts, file.stem)))
+    return {f"{file.parts[0]}/{file.stem}": f"problems/{file.as_posix()}" for file in named_well}
+
+
+def topic_of(path: str) -> str:
+    """The folder of a problem's file within its set; none for a file beside `set.yaml`."""
+    parts = path.split("/")
+    return parts[2] if len(parts) > 3 else ""
 
 
 def path_of(root: Path, problem_id: str) -> str:
     """The problem's file, relative to the root, if there is such a problem."""
-    known = problem_ids(root)
-    if problem_id not in known:
+    paths = problem_paths(root)
+    if problem_id not in paths:
         raise Misused(
-            Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=_meant(problem_id, known))
+            Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=_meant(problem_id, list(paths)))
         )
-    return f"problems/{problem_id}.yaml"
+    return paths[problem_id]
 
 
 def _meant(problem_id: str, known: list[str]) -> str:

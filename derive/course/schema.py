@@ -156,6 +156,17 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
     return Reader({"type": "object", "additionalProperties": values.schema}, read, dict)
 
 
+def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
+    """A mapping that can be read only when more is known than the file says; it may be left empty."""
+
+    def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
+        if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.empty):
+            wrong_type(faults, f"`{name}`", "a mapping", node)
+        return node if isinstance(node, Mapping) else None
+
+    return Reader({"type": "object", "additionalProperties": values}, read)
+
+
 def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = None) -> Reader[tuple[T, ...]]:
     """A list, which is not empty; `each` is what an item is called."""
 

@@ -20,12 +20,11 @@ from derive.course.schema import (
     as_written,
     key,
     list_of,
+    mapping_node,
     mapping_of,
-    object_schema,
     one_of,
     read_record,
     record_of,
-    schema_for_editors,
 )
 from derive.course.yaml_tree import Mapping, Scalar, Tree, Word, shape_of
 from derive.errors import Faults, nearest
@@ -61,7 +60,7 @@ def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
 
 
 SYMBOLS = mapping_of(Reader({"enum": list(KINDS)}, _kind))
-GIVEN = mapping_of(as_written({"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema}]}))
+GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
 _TEXTS = {"type": "object", "additionalProperties": TEXT.schema}
 
@@ -98,11 +97,15 @@ class ProblemKeys(Record):
     """The keys of a problem's file."""
 
     title: Prose | None = key("the heading of the problem", PROSE, required=True)
-    solve: Word | None = key("the script beside this file whose `solve()` derives the answers", TEXT, required=True)
+    solve: Word | None = key(
+        "the script beside this file whose `solve()` derives the answers, or one of the engine", TEXT, required=True
+    )
     points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
     symbols: dict[Word, str] = key("letters and their kinds: `M: mass`", SYMBOLS)
-    given: dict[Word, Tree] = key(
-        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them", GIVEN
+    given: Mapping | None = key(
+        "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; "
+        "for a script of the engine the description of what it solves",
+        GIVEN,
     )
     values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
@@ -117,6 +120,7 @@ class ProblemKeys(Record):
         "where the drawings of the script stand, by their names", mapping_of(_DRAWING)
     )
     note: Prose | None = key("a remark after the last part, in prose", PROSE)
+    reference: Mapping | None = key("what a source states of the same problem", mapping_node({}))
 
     def points_in_all(self, faults: Faults) -> Fraction | None:
         return points_in_all(self.points, self.values_at.get("points"), self.parts, faults)
@@ -125,8 +129,3 @@ class ProblemKeys(Record):
 def written_problem(root: Path, problem_id: str, faults: Faults) -> ProblemKeys:
     """What the file says; `faults` takes all that is wrong with its keys and their shapes."""
     return read_record(ProblemKeys, mapping_in(root, path_of(root, problem_id), "a problem"), "a problem", faults)
-
-
-def problem_schema() -> str:
-    """The JSON schema of a problem's file."""
-    return schema_for_editors("A problem", object_schema(ProblemKeys))

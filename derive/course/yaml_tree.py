@@ -192,6 +192,15 @@ class Mapping:
 Tree: TypeAlias = Scalar | Sequence | Mapping
 
 
+def as_text(node: Tree | None) -> str:
+    """All that a node says, without where it says it."""
+    if isinstance(node, Mapping):
+        return "{" + ", ".join(f"{name.text!r}: {as_text(value)}" for name, value in node.pairs) + "}"
+    if isinstance(node, Sequence):
+        return "[" + ", ".join(map(as_text, node.items)) + "]"
+    return repr(node.text) if node else ""
+
+
 def shape_of(node: Tree) -> str:
     """What a node is, in words for a message."""
     if isinstance(node, Scalar):

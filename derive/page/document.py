@@ -245,7 +245,9 @@ class _Writer:
     # --- names ---
 
     def _page_names(self) -> dict[str, Any]:
-        names: dict[str, Any] = {**AXIS_NAMES, **{step.key: name_of(step) for step in self.derivation.steps}}
+        described = self.problem.described.letters if self.problem.described else {}
+        names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
+        names.update({step.key: name_of(step) for step in self.derivation.steps})
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)
         return names

@@ -6,9 +6,9 @@ A part shows, depth first, the steps behind its answers that no earlier part has
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from derive.algebra.encoding import as_data, from_data
 from derive.algebra.equality import Compared, Evidence, Grade
@@ -18,24 +18,28 @@ from derive.steps.record import Run
 from derive.steps.step import Form, Level, Quantity, Step
 
 MAX_NESTED, MAX_ANSWERS = 20, 10_000
+W = TypeVar("W", bound=str)
 
 
 @dataclass(frozen=True)
 class Derivation:
-    """Every step that the answers rest on, in the order of the page, how each part divides them, what is assumed."""
+    """Every step that the answers rest on, in the order of the page, how each part divides them, what is assumed.
+
+    `groups` are names that ask for several steps, with the keys of these.
+    """
 
     steps: tuple[Step, ...]
     parts: tuple[tuple[str, ...], ...]
     unshown: tuple[str, ...] = ()
     assumed: tuple[Relation, ...] = ()
+    groups: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     def step(self, key: str) -> Step:
         return next(step for step in self.steps if step.key == key)
 
     def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
         """The steps that answer what a part asks for, each once: those of these keys, or which stand for them."""
-        instead = standing_in(self.steps)
-        return tuple(self.step(key) for key in dict.fromkeys(instead.get(key, key) for key in asked))
+        return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     @property
     def warnings(self) -> tuple[Complaint, ...]:
@@ -76,6 +80,13 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
             raise Rejected(Complaint("script", message, place, help=help_line))
         waiting += [(item, depth + 1) for item in reversed(each)]
     return found
+
+
+def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[str, ...]]:
+    """name -> keys of the steps that a script returned under that name, in a mapping; one name may ask for them all."""
+    if not isinstance(value, dict):
+        return {}
+    return {str(name): tuple(q.key for q in returned_quantities(each, place)) for name, each in value.items()}
 
 
 def _is_whole(value: Any) -> bool:
@@ -119,7 +130,20 @@ def standing_in(steps: Iterable[Step]) -> dict[str, str]:
     return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
 
 
-def derivation_of(answers: Iterable[Iterable[str]], known: dict[str, Quantity], run: Run | None = None) -> Derivation:
+def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
+    """The keys of the steps that answer what is asked for, with the word that asks for each."""
+    steps = list(steps)
+    own, instead = {step.key for step in steps}, standing_in(steps)
+    each = [(str(key), name) for name in asked for key in ((name,) if name in own else groups.get(name, (name,)))]
+    return {instead.get(key, key): name for key, name in each}
+
+
+def derivation_of(
+    answers: Iterable[Iterable[str]],
+    known: dict[str, Quantity],
+    run: Run | None = None,
+    groups: Mapping[str, tuple[str, ...]] | None = None,
+) -> Derivation:
     """Divide the steps among the parts; `answers` holds the keys that each part asks for."""
     shown: dict[str, Step] = {}
     parts = []
@@ -129,7 +153,8 @@ def derivation_of(answers: Iterable[Iterable[str]], known: dict[str, Quantity], 
         parts.append(tuple(new))
     run = run or Run()
     unshown = tuple(dict.fromkeys(q.key for q in run.established if q.key not in shown))
-    return Derivation(tuple(shown.values()), tuple(parts), unshown, tuple(run.assumed))
+    named = tuple((groups or {}).items())
+    return Derivation(tuple(shown.values()), tuple(parts), unshown, tuple(run.assumed), named)
 
 
 # --- JSON ------------------------------------------------------------------------------------------------------------

@@ -226,6 +226,21 @@ def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: py
     assert second.split(maxsplit=1) == ["hw1/two", "(does not read: `mass` must be a mass)"]
 
 
+def test_a_list_may_be_of_one_topic(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    course.problem("one", "A block")
+    rotation = course.root / "problems" / "hw1" / "rotation"
+    rotation.mkdir()
+    (rotation / "wheel.yaml").write_text("A wheel")
+    assert main(["list", "--topic", "rotation"]) == 0
+    heading, line = capfd.readouterr().out.splitlines()
+    assert (heading.split(), line.split()) == (
+        ["problem", "topic", "points", "title"],
+        ["hw1/wheel", "rotation", "3", "A", "wheel"],
+    )
+    assert main(["list", "--topic", "rotaton"]) == 2
+    assert "did you mean `rotation`?" in capfd.readouterr().err
+
+
 def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -> None:
     title = {"about <<axis>>\nsolve": "about its axis\nsolve"}
     root = course_in(tmp_path, title)

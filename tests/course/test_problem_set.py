@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.course.problem import load_problem
-from derive.course.problem_set import problem_ids, problem_set, set_ids
+from derive.course.problem_set import problem_ids, problem_paths, problem_set, set_ids, topic_of
 from derive.errors import DeriveError, Misused, Rejected
 from tests.course.problem_file import PROBLEM, at
 
@@ -18,6 +18,16 @@ def test_ids_are_the_problem_files_and_nothing_beside_them(tmp_path: Path) -> No
     (folder / "odd name.yaml").write_text("")
     (tmp_path / "problems" / "stray.yaml").write_text("")
     assert (problem_ids(tmp_path), set_ids(tmp_path)) == (["hw9/block"], ["hw9"])
+
+
+def test_a_folder_within_a_set_is_a_topic(tmp_path: Path) -> None:
+    folder = at(tmp_path) / "problems" / "hw9"
+    (folder / "rotation").mkdir()
+    (folder / "rotation" / "wheel.yaml").write_text(PROBLEM.replace("block.py", "../block.py"))
+    paths = problem_paths(tmp_path)
+    assert paths == {"hw9/block": "problems/hw9/block.yaml", "hw9/wheel": "problems/hw9/rotation/wheel.yaml"}
+    assert [topic_of(path) for path in paths.values()] == ["", "rotation"]
+    assert load_problem(tmp_path, "hw9/wheel").script_path == "problems/hw9/block.py"
 
 
 @pytest.mark.parametrize(

@@ -15,8 +15,8 @@ from sympy import Expr, Symbol
 from derive.algebra.dimensions import Dimension
 from derive.course.expression import Declared, read_expression
 from derive.course.parts import UNIT
-from derive.course.problem import Problem, pinned_by
-from derive.course.problem_set import problem_ids
+from derive.course.problem import Problem, declared_letters, pinned_by
+from derive.course.problem_set import mapping_in, problem_ids
 from derive.course.schema import (
     FIGURES,
     MAX_FIGURES,
@@ -30,11 +30,9 @@ from derive.course.schema import (
     keys_of,
     list_of,
     mapping_of,
-    object_schema,
     one_or_more,
     read_record,
     record_of,
-    schema_for_editors,
     wrong_type,
 )
 from derive.course.units import Unit, read_unit
@@ -150,7 +148,7 @@ class GroupKeys(Record):
 
     problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
     symbols: dict[Word, str] = key("letters of the document and their kinds, also those that steps bring in", SYMBOLS)
-    given: dict[Word, Tree] = key("what the document starts from, as in the problem's file", GIVEN, required=True)
+    given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
     letters: dict[Word, Tree] = key(
         "letters of the document that are called otherwise here: `I_1: I_xx`",
         mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
@@ -161,10 +159,19 @@ class GroupKeys(Record):
     )
 
 
-def reference_schema() -> str:
-    """The JSON schema of what a document states."""
-    groups = {"type": "array", "items": object_schema(GroupKeys), "minItems": 1}
-    return schema_for_editors("What a document states", groups)
+@dataclass(frozen=True)
+class OwnKeys(Record):
+    """The keys of `reference:` in a problem's own file, whose letters and givens are those of the problem."""
+
+    source: Word | None = key("the book and its section, or the document", TEXT, required=True)
+    symbols: dict[Word, str] = key("letters that steps bring in, and their kinds", SYMBOLS)
+    letters: dict[Word, Tree] = key(
+        "letters of the source that are called otherwise here: `I_1: I_xx`",
+        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
+    )
+    entries: tuple[EntryKeys, ...] = key(
+        "the values that the source states", list_of(_ENTRY, "a list of entries"), required=True
+    )
 
 
 def reference_path(problem: Problem) -> str:
@@ -177,18 +184,31 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
 
     Groups of other problems are read when those are derived: their faults are not faults of this one.
     """
+    faults = Faults()
+    own = [_own_group(problem, faults)] if problem.reference else []
     path = reference_path(problem)
     if not (problem.root / path).exists():
-        return []
+        faults.stop()
+        return own
     node = read_yaml(problem.root / path, path)
-    faults = Faults()
     if not isinstance(node, Sequence):
         wrong_type(faults, "a reference", "a list of groups, each with `problem`, `given` and `entries`", node)
     ids = problem_ids(problem.root)
     items = node.items if isinstance(node, Sequence) else ()
     groups = [group for item in items if (group := _group(item, problem, ids, faults))]
     faults.stop()
-    return groups
+    return [*own, *groups]
+
+
+def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
+    """What the problem's own file says that a source states, of what that file gives."""
+    node = mapping_in(problem.root, problem.path, "a problem").get("reference")
+    assert isinstance(node, Mapping)
+    group = read_record(OwnKeys, node, "`reference`", faults)
+    described = problem.described.letters if problem.described else {}
+    symbols = {**problem.symbols, **described, **declared_letters(group.symbols, faults)}
+    pinned = replace(problem, symbols=symbols)
+    return pinned, _entries(group, pinned, faults)
 
 
 def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tuple[Problem, list[Entry]] | None:
@@ -212,7 +232,7 @@ def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tupl
     return None
 
 
-def _entries(group: GroupKeys, pinned: Problem, faults: Faults) -> list[Entry]:
+def _entries(group: GroupKeys | OwnKeys, pinned: Problem, faults: Faults) -> list[Entry]:
     # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
     # the derivation knows of it comes back when the two are compared.
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in pinned.symbols.items()}

@@ -1,0 +1,30 @@
+"""JSON schemas of the files that an instructor writes, by which editors complete and check them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from derive.course.reference.statements import GroupKeys, OwnKeys
+from derive.course.schema import object_schema, schema_for_editors
+from derive.course.stock import stock_names, stock_script
+from derive.course.written import ProblemKeys
+
+
+def problem_schema() -> str:
+    """Of a problem's file; what may stand under `given:` goes by the script of the engine that it names."""
+    schema = object_schema(ProblemKeys)
+    schema["properties"]["reference"] |= object_schema(OwnKeys)
+    return schema_for_editors("A problem", {**schema, "allOf": [_given_of(name) for name in stock_names()]})
+
+
+def reference_schema() -> str:
+    """Of what a document states about the problems of a set."""
+    groups = {"type": "array", "items": object_schema(GroupKeys), "minItems": 1}
+    return schema_for_editors("What a document states", groups)
+
+
+def _given_of(name: str) -> dict[str, Any]:
+    return {
+        "if": {"properties": {"solve": {"const": name}}, "required": ["solve"]},
+        "then": {"properties": {"given": object_schema(stock_script(name).keys)}},
+    }

@@ -1,0 +1,122 @@
+"""Scripts of the engine: `solve: system` names one, and `given:` then describes what a script would have said.
+
+Each is a module of `derive/stock` with one `STOCK`: which keys may stand under `given:`, what they mean once the
+letters are known, and the answers that are made of them. They are loaded by name, as a problem's own script is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any, TypeVar
+
+from sympy import Expr
+
+from derive import FOLDER
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.expressions import TIME
+from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named
+from derive.course.expression import Declared, read_expression
+from derive.course.schema import Record, wrong_type
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.errors import DeriveError, Faults, Place, rejected
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Described:
+    """What a problem describes; `letters` are those that it brings in itself, coordinates and their rates."""
+
+    letters: Mapping[str, Declared] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Stock:
+    """A script of the engine.
+
+    keys    what may stand under `given:`
+    read    what it says in the declared letters, after complaints about what cannot be meant
+    solve   its answers by the names that parts ask for; a name may stand for several steps
+    """
+
+    keys: type[Record]
+    read: Callable[[Any, Mapping[str, Declared], Faults], Described]
+    solve: Callable[[Any, Sequence[Word]], Mapping[str, object]]
+
+
+@dataclass(frozen=True)
+class StockScript:
+    """A script of the engine that a problem names, and where it does so."""
+
+    stock: Stock
+    returns: Place
+
+
+def stock_names(folder: Path = FOLDER / "stock") -> tuple[str, ...]:
+    """What `solve:` may name in place of a script."""
+    return tuple(sorted(file.stem for file in folder.glob("[a-z]*.py")))
+
+
+def stock_script(name: str) -> Stock:
+    found: Stock = import_module(f"derive.stock.{name}").STOCK
+    return found
+
+
+@contextmanager
+def told_at(place: Place | None) -> Iterator[None]:
+    """A verb knows no file: its complaint stands where it was asked for."""
+    try:
+        yield
+    except DeriveError as error:
+        raise type(error)(c if c.place else replace(c, place=place) for c in error.complaints) from error
+
+
+class InLetters:
+    """What a description says, read in its letters, of which `t` is always the time.
+
+    Each reading ends with a value or with what is wrong.
+    """
+
+    def __init__(self, letters: Mapping[str, Declared]):
+        self.letters = {TIME.name: Declared(TIME.name, TIME, "time"), **letters}
+
+    def value(self, node: Tree, name: str, kind: str) -> Expr:
+        """An expression of a kind; where letters of that kind are positive it cannot be known to be negative."""
+        found = self.of_dimension(node, name, dimension_of_kind(kind), kind_with_article(kind))
+        if found.is_nonpositive and about_kind(kind).positive and not about_kind(kind).signed:
+            rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
+        return found
+
+    def of_dimension(self, node: Tree, name: str, wanted: Dimension, is_a: str = "") -> Expr:
+        """An expression of a dimension, with either sign; zero has any dimension."""
+        is_a = is_a or named(wanted)
+        if not isinstance(node, Scalar) or node.empty:
+            faults = Faults()
+            wrong_type(faults, f"`{name}`", is_a, node)
+            faults.stop()
+        assert isinstance(node, Scalar)
+        expr, dimension = read_expression(node, self.letters)
+        if dimension != wanted and not expr.is_zero:
+            bare = expr.is_Rational and dimension == NUMBER
+            help_line = "put a letter here, and its number under `values:`" if bare else None
+            message = f"`{name}` must be {is_a}, but `{_text(node)}` is {named(dimension)}"
+            rejected("wrong-kind", message, node.place, help_line)
+        return expr
+
+
+def each(readings: Iterable[Callable[[], T]]) -> list[T]:
+    """What all of them yield, or the faults of all."""
+    faults, found = Faults(), []
+    for reading in readings:
+        with faults:
+            found.append(reading())
+    faults.stop()
+    return found
+
+
+def _text(node: Tree) -> str:
+    return " ".join(node.text.split()) if isinstance(node, Scalar) else ""

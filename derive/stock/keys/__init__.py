@@ -1,0 +1,1 @@
+"""What a description may say, key by key, and what that means in its letters."""

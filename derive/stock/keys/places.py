@@ -1,0 +1,177 @@
+"""Coordinates, turning axes and places, as `given:` describes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import partial
+
+from sympy import Expr
+
+from derive.algebra.expressions import TIME, rate, scalar
+from derive.algebra.kinds import dimension_of_kind
+from derive.course.expression import RESERVED, Declared
+from derive.course.schema import (
+    SCALAR,
+    TEXT,
+    Reader,
+    Record,
+    key,
+    list_of,
+    mapping_of,
+    object_schema,
+    one_of,
+    read_record,
+    wrong_type,
+)
+from derive.course.stock import InLetters, each, told_at
+from derive.course.yaml_tree import Mapping as MappingNode
+from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
+from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, rejected
+from derive.mechanics import X, Y, Z, point, space
+from derive.mechanics.systems.coordinates import kind_of_rate
+from derive.mechanics.systems.places import Axes, Location
+
+ANGLE, LENGTH, POSITIVE = "angle", "length", "positive length"
+COORDINATES = mapping_of(one_of((ANGLE, LENGTH, POSITIVE)))
+COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
+TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of turns, such as `[{z: phi}, {x: theta}]`"))
+AXIS_OF = {"x": X, "y": Y, "z": Z}
+
+
+@dataclass(frozen=True)
+class WayKeys(Record):
+    """The keys of a place that is told by the way to it."""
+
+    start: Word | None = key("the place from which the way goes; without it the origin", TEXT, called="from")
+    by: tuple[Tree, ...] = key("its components", COMPONENTS, required=True)
+    axes: Word | None = key("the turning axes along which they are, by their name under `axes`", TEXT, called="in")
+
+
+@dataclass(frozen=True)
+class WrittenPlace:
+    """A place as it stands in the file: its components, the way to it, or its name."""
+
+    name: Word | None
+    way: WayKeys | None
+    place: Place = field(repr=False, compare=False)
+
+
+_PLACE_IS = "its components, `{from: A, by: [x, y]}`, or the name of a place"
+
+
+def _place(node: Tree, name: str, faults: Faults) -> WrittenPlace | None:
+    if isinstance(node, MappingNode):
+        return WrittenPlace(None, read_record(WayKeys, node, "a place", faults), node.place)
+    if isinstance(node, Sequence):
+        by = COMPONENTS.read(node, name, faults)
+        return WrittenPlace(None, WayKeys({}, {}, by=by or ()), node.place)
+    if isinstance(node, Scalar) and not node.empty:
+        return WrittenPlace(node.word, None, node.place)
+    wrong_type(faults, f"`{name}`", _PLACE_IS, node)
+    return None
+
+
+_PLACE_SCHEMA = {
+    "anyOf": [
+        {"type": "string"},
+        {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 3},
+        object_schema(WayKeys),
+    ]
+}
+PLACE: Reader[WrittenPlace] = Reader(_PLACE_SCHEMA, _place)
+PLACES = mapping_of(PLACE)
+
+
+def coordinate_letters(
+    written: Mapping[Word, str], symbols: Mapping[str, Declared], faults: Faults
+) -> dict[str, Declared]:
+    """Each coordinate, its rate and its acceleration: theta, theta_dot, theta_ddot."""
+    found: dict[str, Declared] = {}
+    for name, sort in written.items():
+        kind = ANGLE if sort == ANGLE else LENGTH
+        if name in symbols:
+            message = f"`{name}` is declared under `symbols` and is a coordinate too"
+            faults.error("letter-clash", message, name.place, help="leave it out there")
+        elif name in RESERVED or name == TIME.name or not name.replace("_", "").isalnum() or not name[0].isalpha():
+            faults.error("symbol", f"`{name}` is no letter for a coordinate", name.place)
+        else:
+            q = scalar(str(name), positive=True) if sort == POSITIVE else scalar(str(name))
+            faster = kind_of_rate(kind)
+            found[str(name)] = Declared(str(name), q, kind)
+            found[f"{name}_dot"] = Declared(f"{name}_dot", rate(q), faster)
+            found[f"{name}_ddot"] = Declared(f"{name}_ddot", rate(q, 2), kind_of_rate(faster))
+    return found
+
+
+class Places:
+    """The named places and axes of a description, each worked out when it is first needed."""
+
+    def __init__(
+        self,
+        written: Mapping[Word, WrittenPlace],
+        turns: Mapping[Word, tuple[Mapping[Word, Tree], ...]],
+        letters: InLetters,
+    ):
+        self.written = {str(name): place for name, place in written.items()}
+        self.turns = turns
+        self.letters = letters
+        self.on_the_way: list[str] = []
+        self.first: tuple[int, str] | None = None  # how many components the first place has, and its name
+
+    def all_named(self) -> dict[str, Location]:
+        return dict(each([partial(self._with_name, Word.at(n, w.place)) for n, w in self.written.items()]))
+
+    def _with_name(self, name: Word) -> tuple[str, Location]:
+        return str(name), self.named(name)
+
+    def named(self, name: Word) -> Location:
+        written = self.written.get(name)
+        if written is None:
+            help_line = did_you_mean(name, self.written) or "give it under `places`, or write its components"
+            rejected("no-such-place", f"there is no place `{name}`", name.place, help_line)
+        if name in self.on_the_way:
+            rejected("circle", f"the way to `{name}` begins at `{name}` itself", written.place)
+        self.on_the_way.append(name)
+        try:
+            return self.at(written, name)
+        finally:
+            self.on_the_way.pop()
+
+    def at(self, written: WrittenPlace, name: str) -> Location:
+        """Where that is."""
+        if written.name is not None:
+            return self.named(written.name)
+        assert written.way is not None
+        way = written.way
+        components = each([partial(self._component, node, name) for node in way.by])
+        with told_at(written.place):
+            found = self.axes(way.axes).place(*components) if way.axes else point(*components)
+            self._check_size(found, name)
+            return self.named(way.start) + found if way.start else found
+
+    def axes(self, name: Word) -> Axes:
+        """The axes of that name, turn by turn from those of space."""
+        turns = next((turns for known, turns in self.turns.items() if known == name), None)
+        if turns is None:
+            help_line = did_you_mean(name, self.turns) or "give them under `axes`"
+            rejected("no-such-axes", f"there are no axes `{name}`", name.place, help_line)
+        axes = space
+        for about, node in (pair for turn in turns for pair in turn.items()):
+            if about not in AXIS_OF:
+                rejected("no-such-axis", f"axes are turned about x, y or z, not about `{about}`", about.place)
+            angle = self.letters.of_dimension(node, f"an angle of {name}", dimension_of_kind("angle"), "an angle")
+            with told_at(about.place):
+                axes = axes.turned(AXIS_OF[about], angle)
+        return axes
+
+    def _component(self, node: Tree, name: str) -> Expr:
+        return self.letters.of_dimension(node, f"a component of {name}", dimension_of_kind("length"))
+
+    def _check_size(self, found: Location, name: str) -> None:
+        """All places of one description are in a plane, or all are in space."""
+        size = len(found.components)
+        first, by = self.first = self.first or (size, name)
+        if size != first:
+            message = f"`{name}` has {size} components, but `{by}` has {first}"
+            raise Rejected(Complaint("wrong-length", message, help="give all places in a plane, or all in space"))

@@ -1,0 +1,48 @@
+"""Scripts of the engine: which there are, and how what they are given is read."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Symbol
+
+from derive.algebra.kinds import dimension_of_kind
+from derive.course.expression import Declared
+from derive.course.stock import InLetters, each, stock_names, stock_script, told_at
+from derive.course.yaml_tree import Scalar, Source
+from derive.errors import Complaint, Place, Rejected, rejected
+
+l = Declared("l", Symbol("l", positive=True), "length")
+HERE = Place("a.yaml", 3)
+
+
+def node(text: str) -> Scalar:
+    return Scalar(text, "", 0, len(text), Source("a.yaml", text))
+
+
+def test_each_script_of_the_engine_says_what_may_be_given() -> None:
+    assert "system" in stock_names()
+    for name in stock_names():
+        assert stock_script(name).keys
+
+
+def test_a_component_may_have_either_sign_and_zero_any_dimension() -> None:
+    letters = InLetters({"l": l})
+    assert letters.of_dimension(node("-2*l"), "x", dimension_of_kind("length")) == -2 * l.symbol
+    assert letters.of_dimension(node("0"), "x", dimension_of_kind("length")) == 0
+    with pytest.raises(Rejected, match="`x` must be positive"):
+        letters.value(node("-2*l"), "x", "length")
+
+
+def test_the_faults_of_all_are_told() -> None:
+    def wrong(text: str) -> None:
+        rejected("wrong", text, HERE)
+
+    with pytest.raises(Rejected) as refused:
+        each([lambda: wrong("one"), lambda: None, lambda: wrong("two")])
+    assert [c.message for c in refused.value.complaints] == ["one", "two"]
+
+
+def test_a_complaint_of_a_verb_stands_where_it_was_asked_for() -> None:
+    with pytest.raises(Rejected) as refused, told_at(HERE):
+        raise Rejected(Complaint("wrong", "no"))
+    assert refused.value.complaints[0].place == HERE

@@ -1,0 +1,65 @@
+"""A problem that is told by its `given:` alone, in a folder of its own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derive.course.problem import Problem, load_problem, run_solve
+from derive.errors import DeriveError
+from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.step import Quantity
+from tests.courses import ROOT
+
+PENDULUM = """\
+title: A pendulum
+solve: system
+symbols: {l: length, m: mass, g: acceleration, k: spring constant, omega: angular speed}
+given:
+  coordinates: {theta: angle}
+  places: {A: [l*sin(theta), -l*cos(theta)]}
+  particles: {bob: {mass: m, at: A}}
+  gravity: g
+statement: A bob.
+parts:
+  - ask: Find what is asked.
+    answer: equations_of_motion
+"""
+
+
+def course_with(folder: Path, text: str) -> Path:
+    problems = folder / "problems" / "trial"
+    problems.mkdir(parents=True, exist_ok=True)
+    (folder / "templates").exists() or (folder / "templates").symlink_to(ROOT / "templates")
+    (problems / "set.yaml").write_text("course: C\ntitle: T\nproblems: [one]\n", encoding="utf-8")
+    (problems / "one.yaml").write_text(text, encoding="utf-8")
+    return folder
+
+
+def edited(text: str, *edits: tuple[str, str]) -> str:
+    for old, new in edits:
+        assert text.count(old) == 1, f"{old!r} occurs {text.count(old)} times"
+        text = text.replace(old, new)
+    return text
+
+
+def loaded(folder: Path, text: str) -> Problem:
+    return load_problem(course_with(folder, text), "trial/one")
+
+
+def solved(folder: Path, text: str) -> dict[str, Quantity]:
+    """Every step by its key."""
+    return with_ancestors(returned_quantities(run_solve(loaded(folder, text))))
+
+
+def complaints(folder: Path, text: str) -> list[Any]:
+    """What is wrong with it, however far one comes."""
+    with pytest.raises(DeriveError) as refused:
+        solved(folder, text)
+    return list(refused.value.complaints)
+
+
+def messages(folder: Path, text: str) -> list[str]:
+    return [f"{c.place.line if c.place else 0}: {c.message}" for c in complaints(folder, text)]

@@ -1,0 +1,58 @@
+"""Places and axes of a description: how one leads to another, and what leads nowhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.stock.described import PENDULUM, edited, loaded, messages
+
+PLACES = "{A: [l*sin(theta), -l*cos(theta)]}"
+
+
+def test_a_place_may_be_told_from_another(tmp_path: Path) -> None:
+    ways = "{A: {from: B, by: [l, 0]}, B: {from: C, by: [0, l*theta]}, C: [l, l]}"
+    described = loaded(tmp_path, edited(PENDULUM, (PLACES, ways))).described
+    assert [str(c) for c in described.particles[0].at.components] == ["2*l", "l*theta + l"]  # type: ignore[union-attr]
+
+
+def test_places_along_axes_that_turn(tmp_path: Path) -> None:
+    text = edited(
+        PENDULUM,
+        (f"  places: {PLACES}", "  axes: {arm: [{z: theta}, {x: omega*t}]}"),
+        ("at: A", "at: {in: arm, by: [l, 0, 0]}"),
+    )
+    described = loaded(tmp_path, text).described
+    found = [str(c) for c in described.particles[0].at.components]  # type: ignore[union-attr]
+    assert found == ["l*cos(theta)", "l*sin(theta)", "0"]
+
+
+@pytest.mark.parametrize(
+    ("places", "said"),
+    [
+        ("{A: {from: B, by: [l, 0]}, B: {from: A, by: [l, 0]}}", "the way to `A` begins at `A` itself"),
+        ("{A: {from: A, by: [l, 0]}}", "the way to `A` begins at `A` itself"),
+        ("{A: [l, theta*l], B: [l, 0, 0]}", "`B` has 3 components, but `A` has 2"),
+        ("{A: {in: hoop, by: [l, 0, 0]}}", "there are no axes `hoop`"),
+        ("{A: {by: [l, 0], form: B}}", "a place has no key `form`"),
+        ("{A: }", "`A` must be its components, `{from: A, by: [x, y]}`, or the name of a place, but it is empty"),
+        ("{A: [l, m]}", "`a component of A` must be a length, but `m` is a mass"),
+        ("{A: [l, 2 m]}", "an operator is missing before `m`"),
+    ],
+)
+def test_what_leads_nowhere_is_told(places: str, said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(PENDULUM, (PLACES, places)))
+    assert any(message.partition(": ")[2] == said for message in found), found
+
+
+def test_axes_turn_about_one_of_three(tmp_path: Path) -> None:
+    text = edited(
+        PENDULUM, (f"  places: {PLACES}", "  axes: {arm: [{w: theta}]}"), ("at: A", "at: {in: arm, by: [l, 0, 0]}")
+    )
+    assert messages(tmp_path, text) == ["6: axes are turned about x, y or z, not about `w`"]
+
+
+def test_a_coordinate_is_a_letter(tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(PENDULUM, ("{theta: angle}", "{theta: angle, x y: angle, t: length}")))
+    assert found == ["5: `x y` is no letter for a coordinate", "5: `t` is no letter for a coordinate"]

@@ -1,0 +1,72 @@
+"""Systems that are described in YAML alone: their answers, and what is said of a description with faults."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import Rational, cos, sin, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, explicit
+from derive.building.solution import rendered
+from tests.stock.described import PENDULUM, complaints, course_with, edited, messages, solved
+
+l, m, g, k, omega = symbols("l m g k omega", positive=True)
+theta, theta_dot, theta_ddot = symbols("theta theta_dot theta_ddot", real=True)
+
+HOOP = (
+    ("  places: {A: [l*sin(theta), -l*cos(theta)]}", "  axes: {hoop: [{z: omega*t}]}"),
+    ("at: A}", "at: {in: hoop, by: [l*sin(theta), 0, -l*cos(theta)]}}"),
+)
+
+
+def test_the_pendulum_of_the_textbooks(tmp_path: Path) -> None:
+    motion = solved(tmp_path, PENDULUM)["motion_theta"]
+    assert equal(explicit(motion.value), Relation(l * theta_ddot + g * sin(theta), "=", 0))
+
+
+def test_a_bead_on_a_hoop_that_turns(tmp_path: Path) -> None:
+    """Taylor, example 7.6."""
+    motion = solved(tmp_path, edited(PENDULUM, *HOOP))["motion_theta"]
+    expected = theta_ddot - (omega**2 * cos(theta) - g / l) * sin(theta)
+    assert equal(explicit(motion.value), Relation(expected, "=", 0))
+
+
+def test_a_spring_has_energy(tmp_path: Path) -> None:
+    with_spring = ("  gravity: g\n", "  springs: [{constant: k, from: [0, -l], to: A}]\n")
+    energy = solved(tmp_path, edited(PENDULUM, with_spring, ("equations_of_motion", "potential_energy")))
+    found = energy["potential_energy"].value
+    assert equal(found, Rational(1, 2) * k * ((l * sin(theta)) ** 2 + (l - l * cos(theta)) ** 2))
+
+
+def test_a_part_asks_for_several_steps_by_one_name(tmp_path: Path) -> None:
+    page = rendered(course_with(tmp_path, PENDULUM), "trial/one")
+    assert "∂L/∂θ" in page.texts["text"]
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (("  gravity: g", "  gravity: l"), "8: `gravity` must be an acceleration, but `l` is a length"),
+        (("sin(theta)", "sin(thta)"), "6: `thta` is not declared"),
+        (("mass: m", "mass: -m"), "7: `mass` must be positive, but `-m` is not"),
+        (("at: A", "at: B"), "7: there is no place `B`"),
+        (("{theta: angle}", "{theta: angle, l: length}"), "5: `l` is declared under `symbols` and is a coordinate too"),
+        (("[l*sin(theta), -l*cos(theta)]", "[l]"), "6: `point` needs two components or three, not 1"),
+        (("particles:", "particle:"), "7: `given` has no key `particle`"),
+        (("answer: equations_of_motion", "answer: motion_phi"), "12: a system has no answer called `motion_phi`"),
+        (("[l*sin(theta), -l*cos(theta)]", "[l, 0]"), "5: nothing in this `System` moves"),
+        (("answer: equations_of_motion", "answer: conserved_theta"), "12: `conserved_momentum`: `lagrangian` contains"),
+    ],
+)
+def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(PENDULUM, edit))
+    assert any(message.startswith(said) for message in found), found
+
+
+def test_all_faults_are_told_at_once(tmp_path: Path) -> None:
+    text = edited(PENDULUM, ("sin(theta)", "sin(thta)"), ("  gravity: g", "  gravity: 9.8"), ("mass: m", "mass: l"))
+    found = complaints(tmp_path, text)
+    assert [c.place.line for c in found if c.place] == [6, 7, 8]
+    assert found[2].help == "put a letter here, and its number under `values:`"
