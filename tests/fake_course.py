@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 import derive.building
+from derive.course.problem_set import path_of
 from derive.errors import Complaint, Place, Rejected
 from derive.render.formats import formats
 from derive.render.rendered import Rendered, Tex
@@ -31,7 +32,7 @@ fi
 
 
 def rendered(root: Path, problem_id: str, detail: str | None, cache: object = None, draws: bool = False) -> Rendered:
-    path = f"problems/{problem_id}.yaml"
+    path = path_of(root, problem_id)
     said = (root / path).read_text().strip()
     if said == "loop":
         while True:
