@@ -17,6 +17,7 @@ from derive.algebra.dimensions import NUMBER
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import TIME, Amount
 from derive.algebra.kinds import (
+    ANNOTATIONS,
     DIRECTION,
     Asked,
     about_kind,
@@ -326,6 +327,35 @@ def _names_in(values: Iterable[tuple[Expr | _Number, ...] | Direction]) -> set[s
     for value in values:
         exprs.extend(value.components or () if isinstance(value, Direction) else value)
     return {str(symbol) for expr in exprs if isinstance(expr, Expr) for symbol in expr.free_symbols}
+
+
+class NumbersAsLetters:
+    """The letters behind which the numbers of a description go, so that its derivation stays symbolic.
+
+    Equal numbers of a kind have one letter.
+    """
+
+    def __init__(self, symbols: Mapping[str, Declared]):
+        self.letters = _LettersForNumbers(symbols, set(symbols))
+        self.known: dict[tuple[str, Expr], Expr] = {}
+        self.measured: list[Measured] = []
+
+    def letter(self, scalar: Scalar, name: str, kind: str) -> Expr | None:
+        """The letter, or an exact angle, of a number with its unit; nothing for an expression."""
+        number = _number_with_unit(scalar, _Wanted(name, kind), self.letters.symbols)
+        if number is None:
+            return None
+        if (kind, number.si) not in self.known:
+            given = _given(name, _asked_of_kind(kind), (number,), self.letters)
+            self.known[kind, number.si] = given.value
+            self.measured += given.measured
+        return self.known[kind, number.si]
+
+
+def _asked_of_kind(kind: str) -> Asked:
+    """How a script asks for one of that kind: by its usual letters."""
+    usual = next((asked for asked in ANNOTATIONS.values() if asked.each == kind), None)
+    return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))
 
 
 class _LettersForNumbers:

@@ -225,8 +225,9 @@ def _described_by(
         faults.take(own)
         return Pinned(symbols, (), values)
     described = script.stock.read(written, symbols, faults)
+    symbols |= described.chosen
     givens = tuple(Given(name, Asked(known.kind), known.symbol) for name, known in symbols.items())
-    return Pinned(symbols, givens, values, described)
+    return Pinned(symbols, givens, (*values, *described.measured), described)
 
 
 def declared_letters(kinds: Table[Word, str], faults: Faults) -> dict[str, Declared]:

@@ -16,10 +16,11 @@ from typing import Any, TypeVar
 from sympy import Expr
 
 from derive import FOLDER
-from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import TIME
-from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named
+from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.expression import Declared, read_expression
+from derive.course.given import Measured, NumbersAsLetters
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import DeriveError, Faults, Place, rejected
@@ -29,9 +30,15 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Described:
-    """What a problem describes; `letters` are those that it brings in itself, coordinates and their rates."""
+    """What a problem describes.
+
+    letters   those that it brings in itself, coordinates and their rates
+    chosen    those that stand for its numbers, which are `measured`
+    """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
+    chosen: Mapping[str, Declared] = field(default_factory=dict)
+    measured: tuple[Measured, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -83,26 +90,36 @@ class InLetters:
 
     def __init__(self, letters: Mapping[str, Declared]):
         self.letters = {TIME.name: Declared(TIME.name, TIME, "time"), **letters}
+        self.numbers = NumbersAsLetters(self.letters)
+
+    @property
+    def chosen(self) -> dict[str, Declared]:
+        """The letters that stand for numbers."""
+        known = self.numbers.letters.symbols
+        return {name: known[name] for name in known if name not in self.letters}
 
     def value(self, node: Tree, name: str, kind: str) -> Expr:
         """An expression of a kind; where letters of that kind are positive it cannot be known to be negative."""
-        found = self.of_dimension(node, name, dimension_of_kind(kind), kind_with_article(kind))
+        found = self.of_kind(node, name, kind)
         if found.is_nonpositive and about_kind(kind).positive and not about_kind(kind).signed:
             rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
         return found
 
-    def of_dimension(self, node: Tree, name: str, wanted: Dimension, is_a: str = "") -> Expr:
-        """An expression of a dimension, with either sign; zero has any dimension."""
-        is_a = is_a or named(wanted)
+    def of_kind(self, node: Tree, name: str, kind: str) -> Expr:
+        """An expression of the dimension of a kind, with either sign, or a number; zero has any dimension."""
+        wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
         if not isinstance(node, Scalar) or node.empty:
             faults = Faults()
             wrong_type(faults, f"`{name}`", is_a, node)
             faults.stop()
         assert isinstance(node, Scalar)
+        letter = self.numbers.letter(node, name, kind)
+        if letter is not None:
+            return letter
         expr, dimension = read_expression(node, self.letters)
         if dimension != wanted and not expr.is_zero:
             bare = expr.is_Rational and dimension == NUMBER
-            help_line = "put a letter here, and its number under `values:`" if bare else None
+            help_line = f"write it with its unit, `{_text(node)} {unit_of_kind(kind)}`" if bare else None
             message = f"`{name}` must be {is_a}, but `{_text(node)}` is {named(dimension)}"
             rejected("wrong-kind", message, node.place, help_line)
         return expr

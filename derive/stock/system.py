@@ -131,7 +131,16 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         with faults:
             gravity = known.value(written.gravity, "gravity", "acceleration")
     sorts = [(n, letters[n].kind, sort == POSITIVE) for n, sort in written.coordinates.items() if n in letters]
-    return DescribedSystem(letters, tuple(sorts), tuple(particles), tuple(springs), gravity, written.places[""])
+    return DescribedSystem(
+        letters=letters,
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        coordinates=tuple(sorts),
+        particles=tuple(particles),
+        springs=tuple(springs),
+        gravity=gravity,
+        place=written.places[""],
+    )
 
 
 def _particle(name: str, written: ParticleKeys, places: Places, letters: InLetters) -> Body:

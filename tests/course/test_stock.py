@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Symbol
+from sympy import Symbol, pi
 
-from derive.algebra.kinds import dimension_of_kind
 from derive.course.expression import Declared
 from derive.course.stock import InLetters, each, stock_names, stock_script, told_at
 from derive.course.yaml_tree import Scalar, Source
@@ -27,8 +26,8 @@ def test_each_script_of_the_engine_says_what_may_be_given() -> None:
 
 def test_a_component_may_have_either_sign_and_zero_any_dimension() -> None:
     letters = InLetters({"l": l})
-    assert letters.of_dimension(node("-2*l"), "x", dimension_of_kind("length")) == -2 * l.symbol
-    assert letters.of_dimension(node("0"), "x", dimension_of_kind("length")) == 0
+    assert letters.of_kind(node("-2*l"), "x", "length") == -2 * l.symbol
+    assert letters.of_kind(node("0"), "x", "length") == 0
     with pytest.raises(Rejected, match="`x` must be positive"):
         letters.value(node("-2*l"), "x", "length")
 
@@ -46,3 +45,12 @@ def test_a_complaint_of_a_verb_stands_where_it_was_asked_for() -> None:
     with pytest.raises(Rejected) as refused, told_at(HERE):
         raise Rejected(Complaint("wrong", "no"))
     assert refused.value.complaints[0].place == HERE
+
+
+def test_a_number_goes_behind_a_letter() -> None:
+    letters = InLetters({"l": l})
+    first, second, again = (letters.value(node(text), "a", "length") for text in ("2 m", "3 m", "200 cm"))
+    assert first == again != second
+    assert [(str(m.symbol), m.si) for m in letters.numbers.measured] == [(str(first), 2), (str(second), 3)]
+    assert set(letters.chosen) == {str(first), str(second)}
+    assert letters.of_kind(node("30 deg"), "a", "angle") == pi / 6

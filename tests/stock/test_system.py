@@ -69,4 +69,4 @@ def test_all_faults_are_told_at_once(tmp_path: Path) -> None:
     text = edited(PENDULUM, ("sin(theta)", "sin(thta)"), ("  gravity: g", "  gravity: 9.8"), ("mass: m", "mass: l"))
     found = complaints(tmp_path, text)
     assert [c.place.line for c in found if c.place] == [6, 7, 8]
-    assert found[2].help == "put a letter here, and its number under `values:`"
+    assert found[2].help == "write it with its unit, `9.8 m/s^2`"

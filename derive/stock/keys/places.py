@@ -9,7 +9,6 @@ from functools import partial
 from sympy import Expr
 
 from derive.algebra.expressions import TIME, rate, scalar
-from derive.algebra.kinds import dimension_of_kind
 from derive.course.expression import RESERVED, Declared
 from derive.course.schema import (
     SCALAR,
@@ -160,13 +159,13 @@ class Places:
         for about, node in (pair for turn in turns for pair in turn.items()):
             if about not in AXIS_OF:
                 rejected("no-such-axis", f"axes are turned about x, y or z, not about `{about}`", about.place)
-            angle = self.letters.of_dimension(node, f"an angle of {name}", dimension_of_kind("angle"), "an angle")
+            angle = self.letters.of_kind(node, f"an angle of {name}", "angle")
             with told_at(about.place):
                 axes = axes.turned(AXIS_OF[about], angle)
         return axes
 
     def _component(self, node: Tree, name: str) -> Expr:
-        return self.letters.of_dimension(node, f"a component of {name}", dimension_of_kind("length"))
+        return self.letters.of_kind(node, f"a component of {name}", "length")
 
     def _check_size(self, found: Location, name: str) -> None:
         """All places of one description are in a plane, or all are in space."""

@@ -38,7 +38,7 @@ def test_places_along_axes_that_turn(tmp_path: Path) -> None:
         ("{A: {by: [l, 0], form: B}}", "a place has no key `form`"),
         ("{A: }", "`A` must be its components, `{from: A, by: [x, y]}`, or the name of a place, but it is empty"),
         ("{A: [l, m]}", "`a component of A` must be a length, but `m` is a mass"),
-        ("{A: [l, 2 m]}", "an operator is missing before `m`"),
+        ("{A: [l, 2 kg]}", "`a component of A` must be a length, but `2 kg` is a mass"),
     ],
 )
 def test_what_leads_nowhere_is_told(places: str, said: str, tmp_path: Path) -> None:
