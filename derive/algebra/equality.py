@@ -38,6 +38,7 @@ from sympy.simplify.fu import TR5
 
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import vanishes
+from derive.algebra.ranges import settled
 from derive.algebra.samples import (
     DIGITS,
     NoNumber,
@@ -106,7 +107,7 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is no expression")
     try:
-        left, right = explicit(left), explicit(right)
+        left, right = settled(explicit(left)), settled(explicit(right))
     except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # an integral that SymPy cannot do
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: {error}")
     try:

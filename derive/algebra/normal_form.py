@@ -43,6 +43,7 @@ from sympy.polys.polyerrors import PolynomialError
 from sympy.polys.rings import sring
 
 from derive.algebra.expressions import PLUS_MINUS, explicit
+from derive.algebra.ranges import settled
 from derive.algebra.samples import is_zero_everywhere
 
 LARGEST = 4000  # operations; beyond this an expression is sampled, not expanded
@@ -53,7 +54,7 @@ PRIMES = 2**15  # up to which a number under a root is factored
 
 def vanishes(expr: Expr) -> bool:
     """Whether the expression is zero, decided exactly; False means "not shown", never "not zero"."""
-    expr = explicit(expr)
+    expr = settled(explicit(expr))
     if expr == 0:
         return True
     if not isinstance(expr, Expr) or expr.has(nan, zoo, oo, -oo) or _is_too_large(expr):

@@ -22,6 +22,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import And, Not, Or
 
 from derive.algebra.expressions import PLUS_MINUS
+from derive.algebra.ranges import range_of
 
 DIGITS = 50
 WORKING = (60, 160, 420)  # digits: the first decide as a rule, the others confirm what they found
@@ -71,6 +72,8 @@ def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> It
 def _drawn(letter: Expr, scale: int, sign: int, source: Random) -> Expr:
     if letter == PLUS_MINUS:
         return Integer(sign)
+    if (known := range_of(letter)) is not None:
+        return known.least + (known.greatest - known.least) * Rational(source.randint(1, 96), 97)
     if letter.is_nonnegative:
         sign = 1
     elif letter.is_nonpositive:

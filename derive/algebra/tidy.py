@@ -36,16 +36,17 @@ from sympy.simplify.fu import TR5, TR6, TR10i
 
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.normal_form import vanishes
+from derive.algebra.ranges import settled
 
 
 def tidied(value: Any) -> Any:
     """The explicit value in its tidy form, entry by entry for a matrix."""
-    value = _signs_squared(explicit(value))
+    value = settled(_signs_squared(explicit(value)))
     if isinstance(value, Relation):
         return Relation(tidied(value.left), value.mark, tidied(value.right))
     if isinstance(value, MatrixBase):
-        return ImmutableDenseMatrix(value.applyfunc(_tidied_scalar))
-    return _tidied_scalar(value)
+        return ImmutableDenseMatrix(value.applyfunc(tidied))
+    return settled(_tidied_scalar(value))
 
 
 def _signs_squared(value: Any) -> Any:
@@ -79,6 +80,10 @@ def _by_one_square(value: Expr) -> list[Expr]:
     """The value multiplied out, with sin^2 written by cos^2, and with cos^2 by sin^2."""
     if not value.atoms(sin) or not value.atoms(cos):
         return []
+    return _in_one_square(value)
+
+
+def _in_one_square(value: Expr) -> list[Expr]:
     return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
 
 
@@ -115,7 +120,8 @@ def _roots_drawn_out(value: Expr) -> Expr:
     """Squares out from under each root, where their sign is known: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
 
     def drawn(power: Expr) -> Expr:
-        base = together(power.base)
+        turning = power.base.atoms(sin, cos)
+        base = together(min((power.base, *(_in_one_square(power.base) if turning else ())), key=_length))
         numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
         (outside, inside), (below, under) = numerator, denominator
         root = Rational(1, power.exp.q)

@@ -16,6 +16,7 @@ from sympy import Expr, Integer, Rational, Symbol, expand, nan, oo, zoo
 
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
+from derive.algebra.ranges import Range
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, Rejected
 
@@ -29,11 +30,12 @@ MAX_EXP_ARGUMENT = 100
 
 @dataclass(frozen=True)
 class Declared:
-    """A symbol that the file declares, and of what kind it is."""
+    """A symbol that the file declares, of what kind it is, and between which numbers it lies."""
 
     name: str
     symbol: Symbol
     kind: str
+    lies: Range | None = None
 
     @property
     def dimension(self) -> Dimension:

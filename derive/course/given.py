@@ -27,6 +27,7 @@ from derive.algebra.kinds import (
     plural,
     unit_of_kind,
 )
+from derive.algebra.ranges import Range
 from derive.course.expression import RESERVED, Declared, rational, read_expression
 from derive.course.units import begins_with_unit, misfit, read_unit
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
@@ -81,7 +82,7 @@ class _Number:
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class Wanted:
     """What is being read, for messages: its name, its kind, and where `solve()` asks for it."""
 
     name: str
@@ -103,11 +104,16 @@ class _Wanted:
         rejected(code, message, place, help, *self.notes)
 
 
-def symbol_of_kind(name: str, kind: str) -> Symbol:
+def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
     """What a declared letter is in expressions: `t` is the time itself, any other letter of its kind a duration."""
     if name == TIME.name and kind == "time":
         return TIME
-    return Symbol(name, real=True, positive=True) if about_kind(kind).positive else Symbol(name, real=True)
+    positive = about_kind(kind).positive or lies is not None and _is_above_zero(lies)
+    return Symbol(name, real=True, positive=True) if positive else Symbol(name, real=True)
+
+
+def _is_above_zero(lies: Range) -> bool:
+    return bool(lies.least.is_positive or lies.least.is_zero and not lies.closed[0])
 
 
 def read_givens(
@@ -143,7 +149,7 @@ def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Me
         rejected("undeclared-symbol", f"`{name}` is not declared", name.place, help_line)
     if declared.symbol == TIME:
         rejected("time", "`t` is the time, which passes: it has no number", name.place, "use another letter: `t_1`")
-    wanted = _Wanted(str(name), declared.kind)
+    wanted = Wanted(str(name), declared.kind)
     scalar = _scalar(node, wanted, name.place)
     value = _value(scalar, wanted, symbols)
     if not isinstance(value, _Number):
@@ -166,17 +172,17 @@ def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], 
 
 def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
     """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
-    wanted = _Wanted(name, kind, notes)
+    wanted = Wanted(name, kind, notes)
     value = _value(_scalar(node, wanted), wanted, symbols)
     return value.si if isinstance(value, _Number) else value
 
 
-def _wanted(name: str, kind: Asked, notes: tuple[str, ...], numbers: Mapping[Symbol, Expr]) -> _Wanted:
-    return _Wanted(name, kind.each, notes, one_of_many=kind.count > 1, bounds=kind.bounds, numbers=numbers)
+def _wanted(name: str, kind: Asked, notes: tuple[str, ...], numbers: Mapping[Symbol, Expr]) -> Wanted:
+    return Wanted(name, kind.each, notes, one_of_many=kind.count > 1, bounds=kind.bounds, numbers=numbers)
 
 
 def _read_one(
-    node: Tree, kind: Asked, wanted: _Wanted, symbols: Mapping[str, Declared]
+    node: Tree, kind: Asked, wanted: Wanted, symbols: Mapping[str, Declared]
 ) -> tuple[Expr | _Number, ...] | Direction:
     if kind is DIRECTION:
         return _direction(node, wanted, symbols)
@@ -192,7 +198,7 @@ def _read_one(
     return tuple(values)
 
 
-def _three(node: Tree, wanted: _Wanted, what: str, help: str) -> tuple[Tree, ...]:
+def _three(node: Tree, wanted: Wanted, what: str, help: str) -> tuple[Tree, ...]:
     if not isinstance(node, Sequence):
         wanted.refuse("wrong-kind", f"`{wanted.name}` must be {what}, but it is {shape_of(node)}", node.place, help)
     if (n := len(node.items)) != 3:
@@ -203,7 +209,7 @@ def _three(node: Tree, wanted: _Wanted, what: str, help: str) -> tuple[Tree, ...
     return node.items
 
 
-def _scalar(node: Tree, wanted: _Wanted, where: Place | None = None) -> Scalar:
+def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
     if isinstance(node, Scalar) and not node.empty:
         return node
     if isinstance(node, Scalar):
@@ -211,12 +217,12 @@ def _scalar(node: Tree, wanted: _Wanted, where: Place | None = None) -> Scalar:
     wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but it is {shape_of(node)}", node.place)
 
 
-def _value(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Expr | _Number:
+def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | _Number:
     """A scalar as an expression, or as a number with its unit; its kind and its sign are checked."""
     if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
         point = f"{comma[1]}.{comma[2]}{comma[3]}"
         wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
-    number = _number_with_unit(scalar, wanted, symbols)
+    number = number_with_unit(scalar, wanted, symbols)
     if number is not None:
         _check_sign(number.si, scalar, wanted)
         return number
@@ -237,7 +243,7 @@ def _value(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> 
     return expr
 
 
-def _number_with_unit(scalar: Scalar, wanted: _Wanted, symbols: Mapping[str, Declared]) -> _Number | None:
+def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> _Number | None:
     """`1.5 kg`; nothing if the text is an expression."""
     match = _NUMBER_UNIT.fullmatch(scalar.text)
     if not match or not match["unit"].strip() or len(scalar.text) > 80:
@@ -270,7 +276,7 @@ def _ten_power(number: str) -> int:
     return int(power) if power and len(power) < 6 else 99 * bool(power)
 
 
-def _check_sign(value: Expr, scalar: Scalar, wanted: _Wanted) -> None:
+def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
     """Refused when it is known to be wrong, by itself or with the numbers known; `a - b` may well be positive."""
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
@@ -289,7 +295,7 @@ def _unit_example(kind: str) -> str:
     return f"write it as `1.5 {unit}`" if unit else "write it as `1.5`"
 
 
-def _direction(node: Tree, wanted: _Wanted, symbols: Mapping[str, Declared]) -> Direction:
+def _direction(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> Direction:
     names = ", ".join(f"`{name}`" for name in DIRECTION_NAMES)
     if isinstance(node, Scalar) and not node.empty:
         if node.text not in DIRECTION_NAMES:
@@ -298,7 +304,7 @@ def _direction(node: Tree, wanted: _Wanted, symbols: Mapping[str, Declared]) -> 
             wanted.refuse("wrong-kind", message, node.place, help_line)
         return Direction(node.text)
     items = _three(node, wanted, "a direction or 3 components", f"write {names}, or `[1, 1, 0]`")
-    wanted = _Wanted(wanted.name, "number", wanted.notes, one_of_many=True)
+    wanted = Wanted(wanted.name, "number", wanted.notes, one_of_many=True)
     own = Faults()
     components = []
     dimension = None
@@ -342,7 +348,7 @@ class NumbersAsLetters:
 
     def letter(self, scalar: Scalar, name: str, kind: str) -> Expr | None:
         """The letter, or an exact angle, of a number with its unit; nothing for an expression."""
-        number = _number_with_unit(scalar, _Wanted(name, kind), self.letters.symbols)
+        number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
         if number is None:
             return None
         if (kind, number.si) not in self.known:

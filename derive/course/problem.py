@@ -16,10 +16,12 @@ from posixpath import normpath
 from sympy import Integer, Symbol
 
 from derive.algebra.dimensions import Dimension
-from derive.algebra.expressions import TIME, Amount, explicit
-from derive.algebra.kinds import Asked, kind_with_article, unit_of_kind
-from derive.course.expression import RESERVED, Declared
-from derive.course.given import Given, Measured, read_givens, read_numbers, symbol_of_kind
+from derive.algebra.expressions import Amount, Relation, explicit
+from derive.algebra.kinds import Asked, about_kind, unit_of_kind
+from derive.algebra.ranges import Range, within
+from derive.course.declared import declared_letters
+from derive.course.expression import Declared
+from derive.course.given import Given, Measured, read_givens, read_numbers
 from derive.course.parts import Question
 from derive.course.placement import Placement, placements
 from derive.course.problem_set import path_of
@@ -27,13 +29,12 @@ from derive.course.prose import Prose
 from derive.course.schema import read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, StockScript, stock_names, stock_script
-from derive.course.written import written_problem
+from derive.course.written import SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Faults, Place, did_you_mean, nearest
-from derive.steps.record import Run, recorded
+from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4
-_SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
 _SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 
 
@@ -83,6 +84,11 @@ class Problem:
     def dimensions(self) -> dict[Symbol, Dimension]:
         """The dimension of every letter, also of those that were introduced for numbers."""
         return {declared.symbol: declared.dimension for declared in self.symbols.values()}
+
+    @property
+    def ranges(self) -> dict[Symbol, Range]:
+        """Between which numbers letters lie, where that is declared."""
+        return {declared.symbol: declared.lies for declared in self.symbols.values() if declared.lies}
 
     @property
     def amounts(self) -> dict[Symbol, Amount]:
@@ -143,10 +149,23 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
-    with recorded(record):
+    with recorded(record), within(problem.ranges):
+        for declared in problem.symbols.values():
+            _assume_range(declared)
         if isinstance(problem.script, StockScript):
             return problem.script.stock.solve(problem.described, problem.asked)
         return run(problem.script, {given.name: given.value for given in problem.givens})
+
+
+def _assume_range(declared: Declared) -> None:
+    """What the statement says of a letter that lies in a range; that a length is positive is not worth saying."""
+    if declared.lies is None:
+        return
+    least, greatest = declared.lies.least, declared.lies.greatest
+    above, below = ("=" * closed for closed in declared.lies.closed)
+    if not (least.is_zero and about_kind(declared.kind).positive):
+        assume(Relation(declared.symbol, f">{above}", least))
+    assume(Relation(declared.symbol, f"<{below}", greatest))
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
@@ -186,7 +205,7 @@ class Pinned:
 
 
 def pinned_by(
-    kinds: Table[Word, str],
+    kinds: Table[Word, SortOfLetter],
     numbers: Table[Word, Tree],
     given: Mapping | None,
     places: Table[str, Place],
@@ -228,20 +247,6 @@ def _described_by(
     symbols |= described.chosen
     givens = tuple(Given(name, Asked(known.kind), known.symbol) for name, known in symbols.items())
     return Pinned(symbols, givens, (*values, *described.measured), described)
-
-
-def declared_letters(kinds: Table[Word, str], faults: Faults) -> dict[str, Declared]:
-    symbols = {}
-    for word, kind in kinds.items():
-        name = str(word)
-        if not _SYMBOL.fullmatch(name) or name in RESERVED:
-            why = "has a meaning of its own" if name in RESERVED else "is not a letter or a name such as `omega_0`"
-            faults.error("symbol", f"`{name}` {why}, so it cannot be declared", word.place)
-        if name == TIME.name and kind != "time":
-            message = f"`t` is the time, but it is declared as {kind_with_article(kind)}"
-            faults.error("time", message, word.place, help="use another letter")
-        symbols[name] = Declared(name, symbol_of_kind(name, kind), kind)
-    return symbols
 
 
 def _check_names(given: Table[Word, Tree], asked: Table[str, Parameter], place: Place, faults: Faults) -> None:

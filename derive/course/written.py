@@ -35,16 +35,26 @@ CHAIN = "chain"  # what a sentence calls the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
 
-def _kind(node: Tree, name: str, faults: Faults) -> str:
+class SortOfLetter(str):
+    """The kind of a letter; `ends` is what stands after `in`, the range in which it lies."""
+
+    ends: Scalar | None = None
+
+
+def _kind(node: Tree, name: str, faults: Faults) -> SortOfLetter:
     """A kind; of one that is mistyped what was meant, so that the slip is not told again at every use."""
-    kind = node.text if isinstance(node, Scalar) else ""
-    if kind in KINDS:
-        return kind
-    close = nearest(kind, KINDS)
-    help_line = f"did you mean `{close}`?" if close else f"the kinds are {', '.join(KINDS)}"
-    message = f"the kind of `{name}` must be one that is known, but it is {shape_of(node)}"
-    faults.error("unknown-kind", message, node.place, help=help_line)
-    return close or "number"
+    text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
+    kind = text.strip()
+    if kind not in KINDS:
+        close = nearest(kind, KINDS)
+        help_line = f"did you mean `{close}`?" if close else f"the kinds are {', '.join(KINDS)}"
+        message = f"the kind of `{name}` must be one that is known, but it is {shape_of(node)}"
+        faults.error("unknown-kind", message, node.place, help=help_line)
+        kind = close or "number"
+    sort = SortOfLetter(kind)
+    if ends and isinstance(node, Scalar):
+        sort.ends = node.piece(len(node.text) - len(ends), len(ends))
+    return sort
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
@@ -59,7 +69,9 @@ def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
     return found
 
 
-SYMBOLS = mapping_of(Reader({"enum": list(KINDS)}, _kind))
+SYMBOLS = mapping_of(
+    Reader({"anyOf": [{"enum": list(KINDS)}, {"type": "string", "pattern": "^[a-z ]+ in [\\[(].+,.+[\\])]$"}]}, _kind)
+)
 GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
 _TEXTS = {"type": "object", "additionalProperties": TEXT.schema}
@@ -101,7 +113,9 @@ class ProblemKeys(Record):
         "the script beside this file whose `solve()` derives the answers, or one of the engine", TEXT, required=True
     )
     points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
-    symbols: dict[Word, str] = key("letters and their kinds: `M: mass`", SYMBOLS)
+    symbols: dict[Word, SortOfLetter] = key(
+        "letters and their kinds, with the range in which one lies: `M: mass`, `alpha: angle in (0, pi/2)`", SYMBOLS
+    )
     given: Mapping | None = key(
         "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; "
         "for a script of the engine the description of what it solves",

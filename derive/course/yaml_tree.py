@@ -119,6 +119,12 @@ class Scalar:
     def word(self) -> Word:
         return Word.at(self.text, self.place)
 
+    def piece(self, offset: int, length: int) -> Scalar:
+        """A part of the text, with its own place."""
+        text = self.text[offset : offset + length]
+        start = self.start + (self.quoted) + offset  # what is folded or escaped is told a little off its place
+        return Scalar(text, "", start, start + length, self.source)
+
     def place_within(self, offset: int, width: int = 1) -> Place:
         """The place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
         if not self.text:

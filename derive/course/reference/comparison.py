@@ -21,6 +21,7 @@ from typing import Any
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation
+from derive.algebra.ranges import within
 from derive.course.problem import Problem, run_solve
 from derive.course.reference.agreement import given_values, verdict_on
 from derive.course.reference.errata import Erratum, erratum_of
@@ -77,6 +78,11 @@ Steps = Table[str, Quantity]
 
 def comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
     """Every entry about this problem, compared; `known` are its steps for what its own file gives."""
+    with within(problem.ranges):
+        return _comparisons(problem, known)
+
+
+def _comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
     derived: list[tuple[dict[str, Any], Steps]] = [(given_values(problem), known)]
     found = []
     for pinned, entries in stated_groups(problem):

@@ -13,9 +13,10 @@ from dataclasses import dataclass, field, replace
 from sympy import Expr, Symbol
 
 from derive.algebra.dimensions import Dimension
+from derive.course.declared import declared_letters
 from derive.course.expression import Declared, read_expression
 from derive.course.parts import UNIT
-from derive.course.problem import Problem, declared_letters, pinned_by
+from derive.course.problem import Problem, pinned_by
 from derive.course.problem_set import mapping_in, problem_ids
 from derive.course.schema import (
     FIGURES,
@@ -36,7 +37,7 @@ from derive.course.schema import (
     wrong_type,
 )
 from derive.course.units import Unit, read_unit
-from derive.course.written import GIVEN, SYMBOLS, VALUES
+from derive.course.written import GIVEN, SYMBOLS, VALUES, SortOfLetter
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml
 from derive.errors import Faults, Place, did_you_mean
 
@@ -147,7 +148,9 @@ class GroupKeys(Record):
     """The keys of a group."""
 
     problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
-    symbols: dict[Word, str] = key("letters of the document and their kinds, also those that steps bring in", SYMBOLS)
+    symbols: dict[Word, SortOfLetter] = key(
+        "letters of the document and their kinds, also those that steps bring in", SYMBOLS
+    )
     given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
     letters: dict[Word, Tree] = key(
         "letters of the document that are called otherwise here: `I_1: I_xx`",
@@ -164,7 +167,7 @@ class OwnKeys(Record):
     """The keys of `reference:` in a problem's own file, whose letters and givens are those of the problem."""
 
     source: Word | None = key("the book and its section, or the document", TEXT, required=True)
-    symbols: dict[Word, str] = key("letters that steps bring in, and their kinds", SYMBOLS)
+    symbols: dict[Word, SortOfLetter] = key("letters that steps bring in, and their kinds", SYMBOLS)
     letters: dict[Word, Tree] = key(
         "letters of the source that are called otherwise here: `I_1: I_xx`",
         mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),

@@ -1,0 +1,63 @@
+"""Letters as a file declares them: a kind, and the range in which one lies."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping as Table
+
+from sympy import Expr
+
+from derive.algebra.expressions import TIME
+from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article
+from derive.algebra.ranges import Range
+from derive.course.expression import RESERVED, Declared, read_expression
+from derive.course.given import Wanted, number_with_unit, symbol_of_kind
+from derive.course.written import SortOfLetter
+from derive.course.yaml_tree import Scalar, Word, abridged
+from derive.errors import Faults, rejected
+
+_SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
+_RANGE = re.compile(r"\s*([\[(])([^,]+),([^,]+)([\])])\s*")
+
+
+def read_range(name: str, node: Scalar, kind: str) -> Range:
+    """Between which numbers a letter lies: `(0, pi/2)`, `[0, 90 deg]`."""
+    found = _RANGE.fullmatch(node.text)
+    if not found:
+        message = f"`{abridged(node.text)}` is no range in which `{name}` could lie"
+        rejected("range", message, node.place, "write `in (0, pi/2)`, or `in [0, pi/2]` with its ends")
+    least, greatest = (_end(name, node.piece(found.start(i), found.end(i) - found.start(i)), kind) for i in (2, 3))
+    if not (greatest - least).is_positive:
+        rejected("range", f"nothing lies between {least} and {greatest}", node.place)
+    if about_kind(kind).positive and not about_kind(kind).signed and least.is_negative:
+        rejected("range", f"`{name}` is {kind_with_article(kind)}, which is positive", node.place)
+    return Range(least, greatest, (found[1] == "[", found[4] == "]"))
+
+
+def _end(name: str, node: Scalar, kind: str) -> Expr:
+    wanted = Wanted(name, kind)
+    number = number_with_unit(node, wanted, {})
+    if number is not None:
+        return number.si
+    expr, dimension = read_expression(node, {})
+    bare = expr.is_Rational and kind != "number"
+    if not expr.is_zero and (bare or dimension != dimension_of_kind(kind)):
+        wanted.refuse("missing-unit", f"`{node.text.strip()}` needs a unit: {wanted.must_be_it}", node.place)
+    return expr
+
+
+def declared_letters(kinds: Table[Word, SortOfLetter], faults: Faults) -> dict[str, Declared]:
+    symbols = {}
+    for word, kind in kinds.items():
+        name = str(word)
+        if not _SYMBOL.fullmatch(name) or name in RESERVED:
+            why = "has a meaning of its own" if name in RESERVED else "is not a letter or a name such as `omega_0`"
+            faults.error("symbol", f"`{name}` {why}, so it cannot be declared", word.place)
+        if name == TIME.name and kind != "time":
+            message = f"`t` is the time, but it is declared as {kind_with_article(kind)}"
+            faults.error("time", message, word.place, help="use another letter")
+        lies = None
+        with faults:
+            lies = read_range(name, kind.ends, kind) if kind.ends else None
+        symbols[name] = Declared(name, symbol_of_kind(name, kind, lies), str(kind), lies)
+    return symbols

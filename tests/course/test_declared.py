@@ -1,0 +1,46 @@
+"""Letters as a file declares them: kinds, ranges, and what is said of neither."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import pi
+
+from derive.course.problem import run_solve
+from derive.steps.record import Run
+from tests.stock.described import PENDULUM, edited, loaded, messages
+
+WITH_RANGE = ("{l: length, m: mass", "{l: length, alpha: 'angle in (0, pi/2)', m: mass")
+
+
+def test_a_letter_may_lie_in_a_range(tmp_path: Path) -> None:
+    problem = loaded(tmp_path, edited(PENDULUM, WITH_RANGE))
+    (lies,) = problem.ranges.values()
+    assert (lies.least, lies.greatest, lies.closed) == (0, pi / 2, (False, False))
+    assert problem.symbols["alpha"].symbol.is_positive
+    run = Run()
+    run_solve(problem, run)
+    assert [str(each) for each in run.assumed] == ["alpha > 0", "alpha < pi/2"]
+
+
+def test_a_root_of_a_square_has_the_sign_that_the_range_settles(tmp_path: Path) -> None:
+    at = ("[l*sin(theta), -l*cos(theta)]", "[l*sqrt(sin(alpha)**2)*theta, 0]")
+    problem = loaded(tmp_path, edited(PENDULUM, WITH_RANGE, at, ("equations_of_motion", "kinetic_energy")))
+    (energy,) = run_solve(problem).values()  # type: ignore[attr-defined]
+    assert "Abs" not in str(energy.value)
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("angle in (0, 90)", "`90` needs a unit: `alpha` must be an angle"),
+        ("angle in (pi, 0)", "nothing lies between pi and 0"),
+        ("angle in 0 to pi", "`0 to pi` is no range in which `alpha` could lie"),
+        ("length in (-1 m, 1 m)", "`alpha` is a length, which is positive"),
+        ("angel in (0, pi)", "the kind of `alpha` must be one that is known, but it is `angel in (0, pi)`"),
+    ],
+)
+def test_what_is_no_range_is_told(written: str, said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(PENDULUM, (WITH_RANGE[0], WITH_RANGE[1].replace("angle in (0, pi/2)", written))))
+    assert [message.partition(": ")[2] for message in found] == [said]
