@@ -6,8 +6,12 @@ import os
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import settings
 
 import derive  # noqa: F401  before SymPy is imported, whose cache it sets
+
+settings.register_profile("any machine", deadline=None)  # how long one example takes goes by what else runs
+settings.load_profile("any machine")
 
 
 @pytest.fixture(autouse=True, scope="session")
