@@ -12,13 +12,17 @@ from derive.mechanics.arguments import checked
 from derive.mechanics.bodies.body import *
 from derive.mechanics.bodies.solids import *
 from derive.mechanics.bodies.thin_bodies import *
+from derive.mechanics.equations.conditions import *
 from derive.mechanics.equations.conservation import *
 from derive.mechanics.equations.euler_equations import *
 from derive.mechanics.equations.inequalities import *
 from derive.mechanics.equations.oscillations import *
 from derive.mechanics.equations.quadratics import *
+from derive.mechanics.equations.roots import *
+from derive.mechanics.equations.solving import *
 from derive.mechanics.equations.special_cases import *
 from derive.mechanics.equations.stability import *
+from derive.mechanics.equations.substitution import *
 from derive.mechanics.equations.values import *
 from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *

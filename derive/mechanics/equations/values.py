@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
+from sympy import Eq as Equality
 
 from derive.algebra.collect import by_terms
 from derive.algebra.expressions import (
@@ -22,11 +23,12 @@ from derive.algebra.expressions import (
     scalar,
 )
 from derive.algebra.kinds import KINDS
-from derive.algebra.tidy import size_and_rest
+from derive.algebra.tidy import size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation.vectors import RateByParticles, Through, length_by_turning
-from derive.steps.establish import Lines, Scope, establish
-from derive.steps.step import Form, Level, Quantity, compared_with
+from derive.mechanics.systems.dalembert import Matter
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
 
 __all__ = ["at", "let", "magnitude", "squared_magnitude", "with_values"]
@@ -194,16 +196,24 @@ def _rate_of_square(of: Quantity) -> list[RateByParticles]:
 
 
 def let(
-    key: str, law: Callable[..., Expr], *quantities: Quantity, symbol: str | None = None, kind: str | None = None
+    key: str,
+    law: Callable[..., Any],
+    *quantities: Quantity,
+    symbol: str | None = None,
+    kind: str | None = None,
+    because: str | None = None,
 ) -> Quantity:
-    """A name for an expression in quantities: a definition, shown with its substitution.
+    """A name for an expression in quantities, or an equation that is set up: a definition, shown with its substitution.
 
     key          what the step is called
-    law          a function of the quantities
+    law          a function of the quantities; it gives an expression, or an equation as SymPy's `Eq(left, right)`
     kind         what kind of quantity it is, "force", "time"; else it has the dimension of the expression and no kind
+    because      why it is so, in the words of the script: "by Newton's second law"
     It is about what the quantities are about, as far as they agree, and changes with the coordinates and the time that
-    it contains. Nothing checks that it is what its letter says: where it is an answer, the page calls it a definition.
-    Errors: no such kind; the expression is no scalar.
+    it contains. Mass points and forces of the quantities go with a sum of them. Nothing checks that it is what its letter
+    says: where it is an answer, the page calls it a definition.
+    Outcomes: generic, because (with the reason that is given), equation, equation_because.
+    Errors: no such kind; the expression is no scalar; an equation with a letter or a kind, or which holds by itself.
     Source: none needed: a definition.
     """
     if kind is not None and kind not in KINDS:
@@ -211,22 +221,45 @@ def let(
             Complaint("unknown-kind", f"`let`: there is no kind `{kind}`", help=f"the kinds are {', '.join(KINDS)}")
         )
 
-    def scalar_law(*those: Any) -> Expr:
+    def scalar_law(*those: Any) -> Any:
         value = law(*those)
-        if isinstance(value, int | float | complex):
+        if isinstance(value, Equality):
+            return Relation(value.lhs, "=", value.rhs)
+        if isinstance(value, int | float | complex) and not isinstance(value, bool):
             value = Integer(value) if isinstance(value, int) else None
-        if not isinstance(value, Expr):
+        if not isinstance(value, Expr | Relation):
             message = f"`let` names one number or expression, but `{key}` would be {type(value).__name__}"
             raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
         return value
 
+    is_equation = isinstance(scalar_law(*(q.symbol for q in quantities)), Relation)
+    if is_equation and (symbol or kind):
+        message = f"`let`: `{key}` is an equation, which has no letter and no kind"
+        raise Rejected(Complaint("wrong-argument", message))
+    reason = {"because": because} if because else {}
     return establish(
         "equations.let",
-        scalar(symbol or key),
+        None if is_equation else scalar(symbol or key),
         scalar_law,
         {q.key: q for q in quantities},
         key=key,
         definition=True,
         kind=kind,
+        outcome=_sort_of(is_equation, bool(because)),
+        lines=Lines(arranged=explicit if is_equation else tidied),
+        telling=Telling(words=reason),
+        facts=_facts_of(quantities),
         scope=Scope(differ=EVERYTHING),
     )
+
+
+def _sort_of(is_equation: bool, has_reason: bool) -> str:
+    if is_equation:
+        return "equation_because" if has_reason else "equation"
+    return "because" if has_reason else "generic"
+
+
+def _facts_of(quantities: Sequence[Quantity]) -> list[Fact]:
+    """The mass points and forces of all quantities, where each of them has some of one motion."""
+    known = [matter for q in quantities if (matter := q.fact(Matter)) is not None]
+    return [sum(known[1:], known[0])] if known and len(known) == len(quantities) else []

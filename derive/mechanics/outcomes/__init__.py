@@ -4,6 +4,6 @@ Verbs choose the word; here it is judged, by other means where there are any: th
 of a body by its particles, the shape of a potential by its derivatives. `establish` refuses a word that is not true.
 """
 
-from derive.mechanics.outcomes import of_bodies, of_conditions, of_motion, of_rotation
+from derive.mechanics.outcomes import of_answers, of_bodies, of_conditions, of_motion, of_rotation
 
-__all__ = ["of_bodies", "of_conditions", "of_motion", "of_rotation"]
+__all__ = ["of_answers", "of_bodies", "of_conditions", "of_motion", "of_rotation"]

@@ -1,0 +1,273 @@
+"""Where a quantity has a certain sign or value: a relation, worked until what is asked for stands alone."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import Any
+
+from sympy import Abs, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, sqrt
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.inequalities import of_the_size
+from derive.mechanics.equations.unknowns import (
+    lecture_form,
+    mark_for,
+    left_over,
+    unknown_of,
+    with_unknown,
+)
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.step import Form, Level, Quantity, value_behind
+
+__all__ = ["leaves_contact", "where"]
+
+TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
+ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
+WORDS = {
+    "=": "equal_to",
+    "!=": "different_from",
+    ">": "greater_than",
+    "<": "less_than",
+    ">=": "at_least",
+    "<=": "at_most",
+}
+POINTS = 40
+
+
+def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str = "condition") -> Quantity:
+    """Where a quantity is greater than a bound, less, equal to it: v > 0 where R > a/2, solved for one letter.
+
+    of       a scalar, any unit
+    mark     one of =, !=, <, >, <=, >=
+    bound    what it is compared with, of the same unit; 0, or another quantity
+    letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
+    in its square
+    Second route: a little above the solved bound, at it and a little below, the sign of the difference; and at random
+    points both relations are true, or both false.
+    Outcomes: solved, squared (for the square of the letter only), always, never (whatever the letters are).
+    Errors: the relation cannot be solved for that letter; a mark that is none.
+    Source: none needed: algebra of inequalities.
+    """
+    if mark not in TURNED:
+        message = f"`where`: `{mark}` is no mark"
+        raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
+    difference = tidied(explicit(_scalar(of)) - explicit(value_behind(bound)))
+    unknown = unknown_of("where", letter)
+    sign = sign_known(difference)
+    if sign is not None:
+        return _of_known_sign(of, mark, bound, difference, sign, key)
+    alone, solved, turned = _solved(of, difference, mark, unknown)
+    if _settled_by_its_letter(alone, solved):
+        return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
+    result = Relation(alone, turned, solved)
+    return establish(
+        "conditions.where",
+        None,
+        lambda v, b: Relation(v, mark, b),
+        {"quantity": of, "bound": bound},
+        lines=Lines(
+            put_in=Level.STANDARD,
+            after=[Form(result, "solved", nonzero=_divided_out(difference, alone, solved))],
+            result=False,
+            arranged=lambda _: result,
+        ),
+        routes={
+            "beside": lambda found: _beside(found, difference, mark),
+            "points": lambda found: _same_truth(found, difference, mark, unknown),
+        },
+        outcome="squared" if alone != unknown else "solved",
+        telling=Telling(words={"comparison": WORDS[mark]}, judged_by={"unknown": unknown}),
+        key=key,
+    )
+
+
+def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves_contact") -> Quantity:
+    """Where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
+
+    force    the normal force, positive while it pushes, N
+    letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
+    start    the value of that letter at the start, where the surfaces touch
+    Second route: a little towards the start the force is still positive, a little beyond it would be negative.
+    Outcomes: lost, never (the force is positive whatever the letter is).
+    Errors: the force is not positive at the start, or it is not linear in the letter.
+    Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
+    """
+    value, unknown = tidied(explicit(_scalar(force))), unknown_of("leaves_contact", letter)
+    if sign_known(value) == 1:
+        return establish(
+            "conditions.leaves_contact",
+            None,
+            lambda v: Relation(v, ">", 0),
+            {"force": force},
+            lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
+            routes={"size": lambda found: (found.residual, of_the_size(value, found.mark))},
+            outcome="never",
+            key=key,
+        )
+    at_start = tidied(with_unknown(value, unknown, explicit(start)))
+    if sign_known(at_start) != 1:
+        message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
+        raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
+    alone, solved, _ = _solved(force, value, "=", unknown)
+    if alone != unknown:
+        raise _unsolvable(force, unknown)
+    result = Relation(unknown, "=", solved)
+
+    def on_both_sides(found: Relation) -> tuple[Any, Any]:
+        """N at the place, and on the way there from the start."""
+        there = explicit(found.right)
+        way = Dummy("s", positive=True)
+        u = way / (1 + way)  # between 0 and 1
+        on_the_way = tidied(with_unknown(value, unknown, there + u * (explicit(start) - there)))
+        at_place = tidied(with_unknown(value, unknown, there))
+        expected = u * at_start
+        return on_the_way + 7 * at_place, expected
+
+    return establish(
+        "conditions.leaves_contact",
+        None,
+        lambda v: Relation(v, "=", 0),
+        {"force": force},
+        lines=Lines(
+            put_in=Level.STANDARD,
+            after=[Form(result, "solved", nonzero=_divided_out(value, unknown, solved))],
+            result=False,
+            arranged=lambda _: result,
+        ),
+        routes={"on_the_way": on_both_sides},
+        outcome="lost",
+        telling=Telling(
+            formulas={"from": (Relation(unknown, "=", start), Relation(start, "=", unknown))},
+            judged_by={"unknown": unknown},
+        ),
+        key=key,
+    )
+
+
+def _scalar(of: Quantity) -> Expr:
+    if not isinstance(of.value, Expr) or isinstance(of.value, Relation):
+        raise Rejected(Complaint("wrong-argument", f"`{of.key}` is no number that could be compared"))
+    return of.value
+
+
+def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
+    """The relation holds whatever the letters are, or never: what it is in fact."""
+    holds = sign in ALLOWED[mark]
+    fact = mark if holds else {1: ">", -1: "<", 0: "="}[sign]
+    return establish(
+        "conditions.where",
+        None,
+        lambda v, b: Relation(v, fact, b),
+        {"quantity": of, "bound": bound},
+        lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
+        routes={"points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.mark, None)},
+        outcome="always" if holds else "never",
+        telling=Telling(words={"comparison": WORDS[mark]}, judged_by={"difference": difference, "sign": Integer(sign)}),
+        key=key,
+    )
+
+
+def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
+    """What stands alone, the unknown or its square; its bound, and the mark between."""
+    u = mark_for(unknown)
+    written = with_unknown(difference, unknown, u)
+    if left_over(written, unknown):
+        raise _unsolvable(of, unknown)
+    core = Mul(*(f for f in Mul.make_args(written) if f.has(u) and not f.is_positive))
+    outside = written / core
+    polynomial = core.as_numer_denom()[0].as_poly(u)
+    below = core.as_numer_denom()[1]
+    powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
+    if powers in ([1], [2]):
+        powers = [*powers, 0]
+    if powers not in ([1, 0], [2, 0]) or below.has(u):
+        raise _unsolvable(of, unknown)
+    leading = polynomial.all_coeffs()[0]
+    rest = polynomial.as_expr().xreplace({u: Integer(0)})
+    rising = sign_known(leading * outside / below)
+    if not rising and mark not in ("=", "!="):
+        raise _unsolvable(of, unknown)
+    solved = lecture_form(-rest / leading)
+    turned = mark if rising != -1 else TURNED[mark]
+    if powers[0] == 1:
+        return unknown, solved, turned
+    if unknown.is_nonnegative and solved.is_nonnegative:
+        return unknown, lecture_form(sqrt(solved)), turned
+    return unknown**2, solved, turned
+
+
+def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
+    """Whether a positive letter, or a square, is compared with what cannot be positive: it is always the greater."""
+    return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
+
+
+def _divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
+    """The factor by which the two sides differ, where its sign is known from the numbers."""
+    factor = tidied(difference / (alone - solved))
+    sign = sign_known(factor)
+    return (factor,) if sign == 1 else (-factor,) if sign == -1 else ()
+
+
+def _unsolvable(of: Quantity, unknown: Expr) -> Rejected:
+    why = "it is not linear in it, or its factor has no known sign"
+    message = f"`{of.key}` cannot be compared by {unknown} alone: {why}"
+    return Rejected(Complaint("no-condition", message, help="give another of the letters it depends on"))
+
+
+def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
+    """The difference a little above the bound and at it, and what the solved relation says of its sign there."""
+    alone, place = found.sides
+    d = Dummy("d", positive=True)
+    unknown = alone.base if alone.is_Pow else alone
+    power = 2 if alone.is_Pow else 1
+    above = tidied(with_unknown(difference, unknown, _nth(place + d, power)))
+    at_place = tidied(with_unknown(difference, unknown, _nth(place, power)))
+    sign = sign_known(above)
+    if sign is None:
+        return at_place, Integer(0)
+    says = _truth(found.mark, 1)
+    return _matrix(at_place, above, Integer(says)), _matrix(
+        Integer(0), sign * Abs(above), Integer(int(sign in ALLOWED[mark]))
+    )
+
+
+def _nth(value: Expr, power: int) -> Expr:
+    return value if power == 1 else sqrt(value)
+
+
+def _truth(mark: str, sign: int) -> int:
+    return int(sign in ALLOWED[mark])
+
+
+def _matrix(*entries: Any) -> Any:
+    return ImmutableDenseMatrix(list(entries))
+
+
+def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:
+    """At random points both relations hold, or both do not."""
+    seen = 0
+    difference, residual = with_numbers(difference), with_numbers(found.residual)
+    letters = letters_of(difference) | letters_of(residual)
+    for point in islice(points(letters, seed_of(difference)), POINTS):
+        try:
+            here = _sign_of_number(value_at(difference, point))
+            there = _sign_of_number(value_at(residual, point)) if unknown is not None else 0
+        except (Undefined, NoNumber, TypeError):
+            continue
+        seen += 1
+        solved = there in ALLOWED[found.mark] if unknown is not None else True
+        if (here in ALLOWED[mark]) != solved:
+            where_apart = tuple((str(name), str(value)) for name, value in point.items())
+            return Verdict(Grade.REFUTED, "one of the relations holds and the other does not", where_apart)
+    if not seen:
+        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    return Verdict(Grade.SAMPLED, f"{seen} points")
+
+
+def _sign_of_number(value: Expr) -> int:
+    return 0 if value == 0 else 1 if value > 0 else -1

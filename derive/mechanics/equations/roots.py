@@ -1,0 +1,355 @@
+"""Roots of a polynomial equation in one letter: linear, quadratic, and of higher degree where it factors.
+
+A letter for a positive number keeps the roots that can be positive. Where it depends on the letters whether a root is
+real or positive, the condition is told with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Poly, Pow, Rational, Symbol, factor_list, gcd, sqrt
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.unknowns import (
+    coordinates_of,
+    kind_of_unknown,
+    lecture_form,
+    letter_of,
+    may_vanish,
+    meaning,
+    polynomial_in,
+    unknown_of,
+)
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.step import Fact, Level, Quantity, is_zero
+
+__all__ = ["roots"]
+
+FOUR, ZERO = Integer(4), Integer(0)
+
+
+@dataclass(frozen=True)
+class RootOf(Fact):
+    """One root of a factor of the polynomial: the coefficients of the factor, from the highest, and the sign taken.
+
+    sign   that of the square root; none for a linear factor
+    """
+
+    coefficients: tuple[Expr, ...]
+    sign: int
+    times: int
+
+    @property
+    def discriminant(self) -> Expr:
+        a, b, c = self.coefficients
+        return tidied(b**2 - FOUR * a * c)
+
+    @property
+    def value(self) -> Expr:
+        if len(self.coefficients) == 2:
+            a, b = self.coefficients
+            return tidied(-b / a)
+        a, b, _ = self.coefficients
+        return _drawn(a, b, self.discriminant, self.sign)
+
+    @property
+    def formula(self) -> Expr:
+        if len(self.coefficients) == 2:
+            a, b = self.coefficients
+            return Ratio(-b, a)
+        a, b, c = self.coefficients
+        under = Root(Terms(b**2, -FOUR * a * c))
+        return Ratio(Terms(-b, under if self.sign > 0 else Factors(Integer(-1), under)), 2 * a)
+
+
+def roots(
+    equation: Quantity, letter: Any, keys: Sequence[str] | None = None, symbols: Sequence[str] | None = None
+) -> tuple[Quantity, ...]:
+    """Roots of an equation in one letter, x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic factor, x = -b/a
+    for each linear one; only the positive ones where the letter is that of a positive number, in ascending order.
+
+    equation   a polynomial in the letter
+    letter     the unknown: a letter, a coordinate, a rate, or such as `cos(theta)`
+    keys       what the steps are called; else by the letter, with _1, _2 where there are several
+    symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
+    Second route: put back into the equation; by Vieta the sum and the product of all roots are those that the
+    coefficients give.
+    Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind the
+    first), none (no root is real), none_positive.
+    Errors: it is no polynomial in the letter, or has a factor of a degree above two.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
+    """
+    unknown = unknown_of("roots", letter)
+    left, (x,) = polynomial_in("roots", equation, [unknown])
+    polynomial = _polynomial(equation, left, x, unknown)
+    every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]
+    real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
+    if not real:
+        return (_no_root(equation, unknown, every, "none", keys),)
+    positive = unknown.is_positive
+    kept = [root for root in real if _sign(root) not in ((-1, 0) if positive else ())]
+    if not kept:
+        return (_no_root(equation, unknown, real, "none_positive", keys),)
+    kept = _ascending(kept)
+    names = list(keys or _names(unknown, len(kept)))
+    if len(names) != len(kept):
+        message = f"`roots`: `{equation.key}` has {len(kept)} root{'s' * (len(kept) > 1)} here, not {len(names)}"
+        raise Rejected(Complaint("wrong-argument", message))
+    letters = list(symbols or [""] * len(kept))
+    if len(letters) != len(kept):
+        raise Rejected(Complaint("wrong-argument", "`roots` needs as many symbols as there are roots"))
+    return tuple(
+        _step(equation, unknown, polynomial, kept, every, i, name, letter)
+        for i, (name, letter) in enumerate(zip(names, letters, strict=True))
+    )
+
+
+def _step(
+    equation: Quantity,
+    unknown: Expr,
+    polynomial: Poly,
+    kept: Sequence[RootOf],
+    every: Sequence[RootOf],
+    i: int,
+    key: str,
+    letter: str,
+) -> Quantity:
+    root, alone = kept[i], len(kept) == 1
+    others = [(each.value, each.times - (each is root)) for each in every]
+    numbered = letter or f"{letter_of(unknown).name}_{i + 1}"
+    name = unknown if alone and not letter else scalar(numbered, **_assumed(unknown))
+
+    def vieta(found: Expr) -> tuple[Any, Any]:
+        """Sum and product of all roots, from the found one and the others, against the coefficients."""
+        total = found + Add(*(value * n for value, n in others))
+        product = found * Mul(*(value**n for value, n in others))
+        n, (leading, *rest) = polynomial.degree(), polynomial.all_coeffs()
+        return ImmutableDenseMatrix([total, product]), ImmutableDenseMatrix(
+            [-rest[0] / leading, (-1) ** n * rest[-1] / leading]
+        )
+
+    condition = _condition(root, unknown)
+    excluded = may_vanish(root.coefficients[0])
+    told = {"condition": condition, "excluded": excluded}
+    return establish(
+        "roots.roots",
+        name,
+        lambda *_: root.formula,
+        {"equation": equation, "unknown": unknown},
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            arranged=lambda _: root.value,
+            means={} if isinstance(name, Symbol) else meaning(unknown, root.value),
+        ),
+        routes={
+            "put_back": lambda found: (polynomial.as_expr().xreplace({polynomial.gen: found}), ZERO),
+            "vieta": vieta,
+        },
+        outcome=_outcome(root, i, kept, every),
+        key=key,
+        kind=kind_of_unknown(unknown, coordinates_of(equation)),
+        telling=Telling(
+            formulas={role: (each, Relation(tidied(each.left), each.mark, 0)) for role, each in told.items() if each},
+            judged_by={
+                "polynomial": polynomial.as_expr(),
+                "gen": polynomial.gen,
+                "positive": Integer(bool(unknown.is_positive)),
+                "place": Integer(i),
+                "count": Integer(len(kept)),
+            },
+        ),
+        facts=[root],
+    )
+
+
+def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootOf]) -> str:
+    if i:
+        return "following"
+    if len(kept) > 1:
+        return "several"
+    if len(every) > 1:
+        return "only"
+    return "double" if root.times > 1 else "single"
+
+
+def _no_root(
+    equation: Quantity, unknown: Expr, every: Sequence[RootOf], outcome: str, keys: Sequence[str] | None
+) -> Quantity:
+    """The discriminant is negative; or the root that could be positive is not."""
+    if outcome == "none":
+        quantity = every[0].discriminant
+        result = Relation(quantity, "<", ZERO)
+        otherwise = _by_resultant(every[0])
+    else:
+        quantity = _greatest(every).value
+        result = Relation(quantity, "=" if is_zero(quantity) else "<", ZERO)
+        otherwise = _greatest(every).formula
+    return establish(
+        "roots.roots_absent",
+        None,
+        lambda *_: result,
+        {"equation": equation, "unknown": unknown},
+        lines=Lines(put_in=None, result=False),
+        routes={"otherwise": lambda found: (found.residual, otherwise)},
+        outcome=outcome,
+        key=(keys or [f"no_{letter_of(unknown).name}"])[0],
+    )
+
+
+def _by_resultant(root: RootOf) -> Expr:
+    """The discriminant from the root itself: a^2 times the square of the difference of the two roots."""
+    a, b, c = root.coefficients
+    return (b / a) ** 2 * a**2 - FOUR * (c / a) * a**2
+
+
+def _greatest(real: Sequence[RootOf]) -> RootOf:
+    return _ascending(list(real))[-1]
+
+
+def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Poly:
+    numerator = tidied(left).as_numer_denom()[0]
+    try:
+        found = numerator.as_poly(x)
+    except PolynomialError:
+        found = None
+    if found is None or found.degree() < 1:
+        message = f"`{equation.key}` is no polynomial in {unknown}"
+        raise Rejected(Complaint("no-polynomial", message))
+    if found.LC().could_extract_minus_sign():
+        found = -found
+    return found
+
+
+def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[Poly, int]]:
+    """The factors that contain the unknown, with their multiplicities."""
+    if polynomial.degree() <= 2 and not _has_zero_root(polynomial):
+        return _not_doubled(polynomial)
+    x = polynomial.gen
+    _, parts = factor_list(polynomial.as_expr(), x) if _is_plain(polynomial) else (1, [(polynomial.as_expr(), 1)])
+    found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
+    if any(part is None or part.degree() > 2 for part, _ in found):
+        degree = max(part.degree() for part, _ in found if part is not None)
+        message = f"`roots`: `{equation.key}` does not factor, and is of degree {degree} in {unknown}"
+        raise Rejected(Complaint("not-solved", message, help="put numbers in, or a special case"))
+    return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
+
+
+def _is_plain(polynomial: Poly) -> bool:
+    return bool(polynomial.as_expr().count_ops() < 800)
+
+
+def _has_zero_root(polynomial: Poly) -> bool:
+    return bool(is_zero(polynomial.all_coeffs()[-1]))
+
+
+def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
+    """A quadratic polynomial that is a square, as one linear factor twice."""
+    if polynomial.degree() == 2:
+        a, b, c = polynomial.all_coeffs()
+        if is_zero(b**2 - FOUR * a * c):
+            return [(Poly([2 * a, b], polynomial.gen), 2)]
+    return [(polynomial, 1)]
+
+
+def _of_factor(factor: Poly, times: int) -> list[RootOf]:
+    coefficients = tuple(tidied(c) for c in factor.all_coeffs())
+    if len(coefficients) == 2:
+        return [RootOf(coefficients, 0, times)]
+    return [RootOf(coefficients, sign, times) for sign in (-1, 1)]
+
+
+def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
+    """k (-b/k +- sqrt(D/k^2))/(2 a), with what b and the root have in common in front."""
+    under = sqrt(discriminant)
+    if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
+        return lecture_form((-b + sign * under) / (2 * a))
+    common = _common_root(b, discriminant)
+    inside = lecture_form(discriminant / common**2)
+    both = Add(tidied(-b / common), sign * sqrt(inside))
+    return Mul(tidied(common / (2 * a)), both)
+
+
+def _common_root(b: Expr, discriminant: Expr) -> Expr:
+    """The largest k of positive factors for which b/k and D/k^2 have no new denominators."""
+    if b == 0:
+        return Integer(1)
+    try:
+        content, factors = factor_list(gcd(b**2, discriminant))
+    except PolynomialError:
+        return Integer(1)
+    number = sqrt(content)
+    k = number if number.is_Rational else Integer(1)
+    return k * Mul(*(base ** (power // 2) for base, power in factors if base.is_positive))
+
+
+def _sign(root: RootOf) -> int | None:
+    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive."""
+    if len(root.coefficients) == 2:
+        return sign_known(root.value)
+    a, b, c = root.coefficients
+    upper = root.sign * (sign_known(a) or 0)
+    product, total = sign_known(c / a), sign_known(-b / a)
+    if product == -1:
+        return upper or None
+    if product == 1 and total is not None:
+        return total
+    if product == 0 and total:
+        return total if upper == total else 0
+    return sign_known(root.value)
+
+
+def _condition(root: RootOf, unknown: Expr) -> Relation | None:
+    """Under which the root is real, or positive where it must be."""
+    if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
+        return Relation(lecture_form(_without_positive(root.discriminant)), ">=", ZERO)
+    if unknown.is_positive and _sign(root) is None:
+        return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
+    return None
+
+
+def _sum_of_squares(root: RootOf) -> bool:
+    """b^2 - 4 a c where the product of the roots is negative."""
+    a, _, c = root.coefficients
+    return sign_known(a * c) == -1
+
+
+def _without_positive(value: Expr) -> Expr:
+    """The factors that decide its sign."""
+    value = tidied(value)
+    kept = [f for f in Mul.make_args(value) if not f.is_positive]
+    return Mul(*kept)
+
+
+def _ascending(found: list[RootOf]) -> list[RootOf]:
+    """In ascending order, where that is known: by numbers, by the signs, or within one quadratic factor."""
+    numbers = [with_numbers(root.value) for root in found]
+    if all(not number.free_symbols for number in numbers):
+        order = sorted(range(len(found)), key=lambda i: float(numbers[i]))
+        return [found[i] for i in order]
+    if len(found) == 2 and sign_known(found[0].value - found[1].value) == 1 or _turned(found):
+        return found[::-1]
+    return found
+
+
+def _turned(found: Sequence[RootOf]) -> bool:
+    """The two roots of one factor whose leading coefficient is negative."""
+    one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
+    return one_factor and sign_known(found[0].coefficients[0]) == -1
+
+
+def _names(unknown: Expr, count: int) -> list[str]:
+    letter = letter_of(unknown).name
+    name = letter if isinstance(unknown, Symbol) else f"{letter}_root"
+    return [name] if count == 1 else [f"{name}_{i + 1}" for i in range(count)]
+
+
+def _assumed(unknown: Expr) -> dict[str, bool]:
+    return {"positive": True} if unknown.is_positive else {}

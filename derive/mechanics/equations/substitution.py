@@ -1,0 +1,238 @@
+"""One result put into another: what an equation or a value becomes once its letters have values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
+
+from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
+from derive.errors import Complaint, Rejected, did_you_mean
+from derive.mechanics.equations.unknowns import (
+    coordinates_of,
+    lecture_form,
+    left_over,
+    letter_of,
+    meaning,
+    unknown_of,
+    with_unknown,
+)
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["put_in"]
+
+Replacement = tuple[Expr, Expr]  # what stands there, and what is put there
+Rests = Quantity | Mapping[Any, Any] | Sequence[Quantity]
+
+
+def put_in(of: Quantity, *others: Rests, key: str | None = None, symbol: str | None = None, **values: Any) -> Quantity:
+    """What a value or an equation becomes with other results, or values of letters, put in: f(x) with x = g is f(g).
+
+    of       a value or an equation
+    others   results, each for the letter that it is called by; equations that have a letter, a rate, its square or a
+    cosine alone on their left; mappings of letters or coordinates to values
+    values   of letters by their names, `theta=0`: those at one moment
+    One after another, in this order, the values last. A coordinate that is given as a function of others, or of the
+    time, takes its rates along.
+    Second route: the letters of the original replaced all at once by what they finally are.
+    Outcomes: results, values (letters only), identity (an equation that then holds by itself).
+    Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold.
+    Source: none needed: substitution.
+    """
+    rests, given = _sorted_out(others)
+    value = explicit(of.value)
+    told: list[Replacement] = []
+    for quantity in rests:
+        value = _all_put(value, _replacements(quantity, of), quantity.key, of, told)
+    there = _values(of, given, values, value)
+    for pair in there:
+        value = _all_put(value, [pair], str(pair[0]), of, told)
+    result = _arranged(value)
+    _check_holds(of, result)
+    name = _name(of, symbol)
+    return establish(
+        "substitution.put_in",
+        name,
+        lambda *_: value,
+        {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},
+        lines=Lines(
+            law=Level.STANDARD,
+            put_in=None,
+            arranged=lambda _: result,
+            means={} if name is None or isinstance(name, Symbol) else meaning(name, result),
+        ),
+        routes={"at_once": lambda found: (found, _at_once(explicit(of.value), told))},
+        outcome="identity" if _is_identity(result) else "results" if rests else "values",
+        key=key or _key_for(of, rests, there),
+        kind=of.step.kind,
+        telling=Telling(
+            formulas={
+                f"value_{i + 1}": (Relation(target, "=", at), Relation(at, "=", target))
+                for i, (target, at) in enumerate(there)
+            },
+            judged_by={"replaced": [letter_of(target) for target, _ in told]},
+        ),
+        facts=[fact for fact in of.facts if isinstance(fact, OfCoordinate)],
+        scope=Scope(differ=EVERYTHING, case_of=of),
+    )
+
+
+def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]]:
+    """The results, and the values of letters."""
+    results: list[Quantity] = []
+    given: dict[Any, Any] = {}
+    for each in others:
+        if isinstance(each, Quantity):
+            results.append(each)
+        elif isinstance(each, Mapping):
+            given.update(each)
+        else:
+            results += each
+    return results, given
+
+
+def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
+    """What a result replaces: its letter, and the rates of a coordinate that it gives for the whole motion."""
+    if isinstance(quantity.value, Relation):
+        target, value = quantity.value.sides
+        if quantity.value.mark != "=" or is_zero(quantity.value.residual):
+            raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no equation for a letter"))
+    else:
+        target, value = quantity.symbol, quantity.value
+    value = explicit(value)
+    if isinstance(value, MatrixBase):
+        raise Rejected(
+            Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no number", help="`at` takes vectors")
+        )
+    try:
+        target = unknown_of("put_in", target)
+    except Rejected:
+        target = None
+    if target is None or left_over(value, target):
+        message = f"`put_in`: `{quantity.key}` does not have one letter alone on its left"
+        raise Rejected(Complaint("wrong-argument", message, help="`solved_for` solves an equation for a letter"))
+    return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value)]
+
+
+def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[Replacement]:
+    """The rates of a coordinate, or of a rate, that is a function of others or of the time; the highest first."""
+    order = next((n for q in moving for n in (0, 1) if target == (rate(q, n) if n else q)), None)
+    letters = {rate(q, n) if n else q for q in moving for n in range(len(RATES))} | {TIME}
+    if order is None or not isinstance(target, Symbol) or not value.free_symbols & letters:
+        return []
+    found: list[Replacement] = []
+    for n in range(1, 3 - order):
+        value = explicit(TimeRate(value, *moving))
+        found.insert(0, (rate(target, n), value))
+    return found
+
+
+def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
+    """The letters, with what they are at that moment."""
+    letters = {s.name: s for s in value.free_symbols}
+    pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]
+    for name, at in named.items():
+        if name not in letters:
+            message = f"`put_in`: `{of.key}` does not contain {name}"
+            raise Rejected(Complaint("nothing-to-put-in", message, help=did_you_mean(name, letters)))
+        pairs.append((letters[name], at))
+    return [(target, _plain(of, target, at)) for target, at in pairs]
+
+
+def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
+    if isinstance(at, Coordinate):
+        return at.symbol
+    if isinstance(at, Quantity):
+        at = at.value
+    if isinstance(at, int) and not isinstance(at, bool):
+        return Integer(at)
+    if not isinstance(at, Expr) or at.is_Float:
+        message = f"`put_in`: the value of {target} must be an expression"
+        raise Rejected(Complaint("wrong-argument", message, help="fractions are written `Rational(1, 2)`"))
+    return explicit(at)
+
+
+def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity, told: list[Replacement]) -> Any:
+    """The value after these replacements, of which one must find what it replaces; they are put on the list."""
+    before = value
+    for target, at in pairs:
+        after = _mapped(value, target, at)
+        if after != value and not isinstance(target, Symbol) and left_over(after, target):
+            message = f"`put_in`: `{of.key}` contains {letter_of(target).name} otherwise than in {target}"
+            raise Rejected(Complaint("wrong-argument", message))
+        if after != value:
+            told.append((target, at))
+        value = after
+    if value == before:
+        message = f"`put_in`: `{of.key}` has nothing that `{called}` could replace"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    return value
+
+
+def _mapped(value: Any, target: Expr, at: Expr) -> Any:
+    if isinstance(value, Relation):
+        return Relation(with_unknown(value.left, target, at), value.mark, with_unknown(value.right, target, at))
+    if isinstance(value, MatrixBase):
+        return ImmutableDenseMatrix(value.applyfunc(lambda entry: with_unknown(entry, target, at)))
+    return with_unknown(value, target, at)
+
+
+def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
+    """The original with each letter replaced by what it is once all later values are put into it."""
+    final: dict[Symbol, Expr] = {}
+    for target, at in reversed(told):
+        final = {**final, **{letter: bound(v, final) for letter, v in meaning(target, at).items()}}
+    if isinstance(value, Relation):
+        return Relation(bound(value.left, final), value.mark, bound(value.right, final))
+    return bound(value, final)
+
+
+def _arranged(value: Any) -> Any:
+    """Tidy; of a relation to zero what is positive in all terms is left out."""
+    if isinstance(value, MatrixBase):
+        return ImmutableDenseMatrix(value.applyfunc(lecture_form))
+    if not isinstance(value, Relation):
+        return lecture_form(value)
+    if not is_zero(value.right):
+        return Relation(lecture_form(value.left), value.mark, lecture_form(value.right))
+    left = lecture_form(value.left)
+    kept = [f for f in Mul.make_args(left) if not f.is_positive]
+    core = Mul(*kept) if kept else left
+    return Relation(lecture_form(core), value.mark, Integer(0))
+
+
+def _is_identity(result: Any) -> bool:
+    return isinstance(result, Relation) and result.mark == "=" and is_zero(result.residual)
+
+
+def _check_holds(of: Quantity, result: Any) -> None:
+    """An equation between two different numbers holds never."""
+    if isinstance(result, Relation) and result.mark == "=" and not is_zero(result.residual):
+        if explicit(result.residual).is_nonzero:
+            message = f"`{of.key}` cannot hold with these values: it would be {result}"
+            raise Rejected(Complaint("cannot-hold", message))
+
+
+def _name(of: Quantity, symbol: str | None) -> Any:
+    """The letter of the original; what is called by a derivative takes its key for a letter."""
+    if isinstance(of.value, Relation):
+        return None
+    if symbol is not None:
+        return scalar(symbol)
+    if isinstance(of.value, MatrixBase) or isinstance(of.symbol, Symbol):
+        return of.symbol
+    try:
+        return unknown_of("put_in", of.symbol)
+    except Rejected:
+        return scalar(of.key)
+
+
+def _key_for(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> str:
+    """tension_at_theta, motion_x_with_tension."""
+    if there:
+        return f"{of.key}_at_" + "_".join(dict.fromkeys(letter_of(target).name for target, _ in there))
+    return f"{of.key}_with_" + "_".join(quantity.key for quantity in rests)

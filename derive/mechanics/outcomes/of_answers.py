@@ -1,0 +1,143 @@
+"""What must be true for each word that chooses a sentence about what carries a result on to what is asked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Integer, Poly
+
+from derive.algebra.expressions import Relation, explicit
+from derive.mechanics.outcomes.signs import sign_is
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.step import is_zero
+
+_CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
+_MARK_OF = {
+    "equal_to": "=",
+    "different_from": "!=",
+    "greater_than": ">",
+    "less_than": "<",
+    "at_least": ">=",
+    "at_most": "<=",
+}
+
+
+def _one_of(alone: bool, first: bool) -> Predicate:
+    """Of how many unknowns this is which."""
+
+    def is_so(facts: Judged) -> bool:
+        count = sum(role.startswith("equation_") for role in facts.inputs)
+        return (count == 1) == alone and (alone or (facts.inputs["place"] == 0) == first)
+
+    return is_so
+
+
+def _polynomial(facts: Judged) -> Poly:
+    return Poly(facts.inputs["polynomial"], facts.inputs["gen"])
+
+
+def _slope_there(facts: Judged) -> Any:
+    polynomial = _polynomial(facts)
+    return polynomial.diff(polynomial.gen).as_expr().xreplace({polynomial.gen: facts.result})
+
+
+def _single(facts: Judged) -> bool:
+    return _polynomial(facts).degree() == 1
+
+
+def _double(facts: Judged) -> bool:
+    return facts.inputs["count"] == 1 and is_zero(_slope_there(facts))
+
+
+def _only(facts: Judged) -> bool:
+    """Another root is there, at which the polynomial divided by this one vanishes; it is complex or not positive."""
+    return facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
+
+
+def _of_several(first: bool) -> Predicate:
+    return lambda facts: facts.inputs["count"] > 1 and (facts.inputs["place"] == 0) == first
+
+
+def _absent(facts: Judged) -> bool:
+    return isinstance(facts.result, Relation) and sign_known(facts.result.left) in _CAN_BE[facts.result.mark]
+
+
+def _put_in(only_values: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        identity = isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
+        return not identity and only_values == (not any(role.startswith("other_") for role in facts.inputs))
+
+    return is_so
+
+
+def _identity(facts: Judged) -> bool:
+    return isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
+
+
+def _compared(squared: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        left, right = facts.result.sides
+        unknown = facts.inputs["unknown"]
+        return bool(left == (unknown**2 if squared else unknown) and not explicit(right).has(left))
+
+    return is_so
+
+
+def _always(wanted: bool) -> Predicate:
+    """Whether the sign that the difference has for all values of the letters is one that was asked for."""
+
+    def is_so(facts: Judged) -> bool:
+        held = facts.inputs["sign"] in _CAN_BE[_MARK_OF[facts.words["comparison"]]]
+        difference = with_numbers(facts.inputs["difference"])
+        letters = sorted(difference.free_symbols, key=str)
+        there = difference.subs({letter: Integer(3 + 2 * i) / 4 for i, letter in enumerate(letters)}).evalf(20)
+        sign = 0 if is_zero(facts.inputs["difference"]) else (1 if there > 0 else -1)
+        return held == wanted and bool(sign == facts.inputs["sign"] or sign in _CAN_BE[facts.result.mark])
+
+    return is_so
+
+
+def _vanishing_force(facts: Judged) -> bool:
+    return facts.result.mark == "=" and bool(facts.result.left == facts.inputs["unknown"])
+
+
+def _as_let(equation: bool, reason: bool) -> Predicate:
+    return lambda facts: isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "equations.let": {
+        "generic": _as_let(False, False),
+        "because": _as_let(False, True),
+        "equation": _as_let(True, False),
+        "equation_because": _as_let(True, True),
+    },
+    "solving.solved_for": {
+        "alone": _one_of(True, True),
+        "several": _one_of(False, True),
+        "following": _one_of(False, False),
+    },
+    "roots.roots": {
+        "single": _single,
+        "double": _double,
+        "only": _only,
+        "several": _of_several(True),
+        "following": _of_several(False),
+    },
+    "roots.roots_absent": {"none": _absent, "none_positive": _absent},
+    "substitution.put_in": {"results": _put_in(False), "values": _put_in(True), "identity": _identity},
+    "conditions.where": {
+        "solved": _compared(False),
+        "squared": _compared(True),
+        "always": _always(True),
+        "never": _always(False),
+    },
+    "conditions.leaves_contact": {
+        "lost": _vanishing_force,
+        "never": sign_is(1, lambda facts: facts.inputs["force"]),
+    },
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)
