@@ -15,7 +15,9 @@ from derive.mechanics.bodies.thin_bodies import *
 from derive.mechanics.equations.conditions import *
 from derive.mechanics.equations.conservation import *
 from derive.mechanics.equations.euler_equations import *
+from derive.mechanics.equations.extrema import *
 from derive.mechanics.equations.inequalities import *
+from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.oscillations import *
 from derive.mechanics.equations.quadratics import *
 from derive.mechanics.equations.roots import *

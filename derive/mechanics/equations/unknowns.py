@@ -11,7 +11,7 @@ from typing import Any
 
 from sympy import Add, Dummy, Expr, Function, Integer, Matrix, Mul, Pow, Symbol, acos, asin, atan, cos, factor, sin, tan
 from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR5, TR6
+from sympy.simplify.fu import TR5, TR6, TR8
 
 from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
@@ -24,6 +24,7 @@ from derive.steps.known_numbers import sign_known
 from derive.steps.step import Quantity
 
 LARGEST = 2500  # operations of what is still multiplied out and factored
+SHORT = 40  # of what may be written with multiples of an angle
 INVERSE = {cos: acos, sin: asin, tan: atan}
 
 
@@ -149,8 +150,11 @@ def lecture_form(value: Expr) -> Expr:
     if forms[0].count_ops() <= LARGEST:
         forms.append(_factored(forms[0]))
         forms.append(spread(forms[0]))
-        if not any(f.is_Add for f in Mul.make_args(forms[0].as_numer_denom()[1])):
+        below = forms[0].as_numer_denom()[1]
+        if not any(f.is_Add for f in Mul.make_args(below)):
             forms.append(by_terms(forms[0].expand()))
+        if forms[0].count_ops() <= SHORT and not below.has(sin, cos):
+            forms.append(tidied(TR8(forms[0].expand())))
     return min(forms, key=lambda form: (int(form.count_ops()), str(form)))
 
 

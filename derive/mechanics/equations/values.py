@@ -8,6 +8,8 @@ from typing import Any
 from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 from sympy import Eq as Equality
 
+from sympy.logic.boolalg import BooleanAtom
+
 from derive.algebra.collect import by_terms
 from derive.algebra.expressions import (
     Dot,
@@ -225,6 +227,9 @@ def let(
         value = law(*those)
         if isinstance(value, Equality):
             return Relation(value.lhs, "=", value.rhs)
+        if isinstance(value, BooleanAtom):
+            message = f"`let`: the sides of `{key}` are {'always' if value else 'never'} equal"
+            raise Rejected(Complaint("wrong-argument", message))
         if isinstance(value, int | float | complex) and not isinstance(value, bool):
             value = Integer(value) if isinstance(value, int) else None
         if not isinstance(value, Expr | Relation):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Integer, Poly
+from sympy import Integer, Poly, oo
 
 from derive.algebra.expressions import Relation, explicit
 from derive.mechanics.outcomes.signs import sign_is
@@ -106,6 +106,30 @@ def _as_let(equation: bool, reason: bool) -> Predicate:
     return lambda facts: isinstance(facts.result, Relation) == equation and ("because" in facts.words) == reason
 
 
+def _near(*places: Any) -> Predicate:
+    """Whether something is left out, and the letter goes to one of these, or to none of those that have a word."""
+
+    def is_so(facts: Judged) -> bool:
+        to = facts.inputs["to"]
+        there = to in places if places else to not in (0, oo, -oo)
+        return there and not _nothing_left_out(facts)
+
+    return is_so
+
+
+def _nothing_left_out(facts: Judged) -> bool:
+    return is_zero(explicit(facts.inputs["value"]) - facts.result)
+
+
+def _bent(sign: int) -> Predicate:
+    """By the mean of the values a little to both sides, in numbers."""
+
+    def is_so(facts: Judged) -> bool:
+        return bool(facts.inputs["curved"] == -sign)
+
+    return is_so
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "equations.let": {
         "generic": _as_let(False, False),
@@ -133,6 +157,14 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "always": _always(True),
         "never": _always(False),
     },
+    "limits.limiting_case": {
+        "small": _near(Integer(0)),
+        "large": _near(oo, -oo),
+        "near": _near(),
+        "exact": _nothing_left_out,
+    },
+    "extrema.place": {"greatest": _bent(1), "least": _bent(-1)},
+    "extrema.value": {"greatest": _bent(1), "least": _bent(-1)},
     "conditions.leaves_contact": {
         "lost": _vanishing_force,
         "never": sign_is(1, lambda facts: facts.inputs["force"]),

@@ -37,6 +37,7 @@ from sympy.core.numbers import Exp1, Pi
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
+from derive.algebra.expansion import Expansion
 from derive.algebra.rounding import Rounded, decimal_text
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
@@ -410,6 +411,6 @@ class Notation:
         (ex.Partial, _partial),
         (ex.Slope, _slope),
         (ex.At, _at),
-        (ex.Truncated, lambda self, expr: self.layout(expr.args[0])),
+        (ex.Truncated | Expansion, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
     )

@@ -1,0 +1,132 @@
+"""The first terms of an expression where a letter is small, large, or near a value: by derivatives, term by term.
+
+    f = N/D, each expanded by Taylor in the small letter, and the quotient of the two series divided out
+
+The leading power may be negative, or a half. SymPy's own `series` is not asked: what has no such expansion is refused.
+Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotient of power series).
+"""
+
+from __future__ import annotations
+
+from sympy import Add, Dummy, Expr, Integer, Mul, Rational, Symbol, diff, nan, oo, zoo
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.node import DimensionOf, ScalarNode, TextOf, explicit
+from derive.algebra.tidy import tidied
+
+HIGHEST = 10  # derivatives that are taken at most
+LARGEST = 4000  # operations of an expression that is expanded
+SMALL = Dummy("epsilon", positive=True)
+SPOILT = (nan, zoo, oo, -oo)
+
+Series = dict[Rational, Expr]  # power -> coefficient
+
+
+class NoExpansion(Exception):
+    """The expression has no expansion in powers there, or none that can be found within reason."""
+
+
+class Expansion(ScalarNode):
+    """The terms of f up to a power of what is small. Arguments: f, the letter, where it goes to, the highest power.
+
+    Small is x itself where x goes to 0, 1/x where it grows without bound, x - a near a.
+    """
+
+    def doit(self, **hints: object) -> Expr:
+        f, x, to, power = self.args
+        try:
+            return tidied_terms(expanded(explicit(f), x, to, power), x, to)
+        except NoExpansion:
+            return nan
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return of(self.args[0])
+
+    def lowered(self, text: TextOf) -> str:
+        return text(self.args[0])
+
+
+def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
+    """The terms up to that power of what is small; only the leading one where no power is given."""
+    written = in_small(f, x, to)
+    if written.count_ops() > LARGEST:
+        raise NoExpansion(f)
+    try:
+        return _quotient(written, power)
+    except NoExpansion:
+        halved = {SMALL: SMALL**2}
+        doubled = _quotient(tidied(written.xreplace(halved)), None if power is None else 2 * power)
+        return {n / 2: c for n, c in doubled.items()}
+
+
+def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
+    """The expression in terms of what is small."""
+    if to == oo:
+        return tidied(f.subs(x, 1 / SMALL))
+    if to == -oo:
+        return tidied(f.subs(x, -1 / SMALL))
+    return tidied(f.subs(x, to + SMALL))
+
+
+def small_of(x: Symbol, to: Expr) -> Expr:
+    """What is small."""
+    return 1 / x if to == oo else -1 / x if to == -oo else x - to
+
+
+def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
+    """The terms added up, each tidy, with the factors of the leading one in front where that is shorter."""
+    small = small_of(x, to)
+    terms = [(n, tidied(c)) for n, c in sorted(series.items())]
+    plain = Add(*(c * small**n for n, c in terms))
+    if len(terms) < 2:
+        return plain
+    (first, leading), *rest = terms
+    inside = Add(Integer(1), *(tidied(c / leading) * small ** (n - first) for n, c in rest))
+    in_front = Mul(leading * small**first, inside, evaluate=False) if leading * small**first != 1 else inside
+    return min((in_front, plain), key=lambda form: int(form.count_ops()))
+
+
+def _quotient(f: Expr, power: Rational | None) -> Series:
+    above, below = f.as_numer_denom()
+    bottom, low = _taylor(below, 0)
+    top, high = _taylor(above, 0)
+    if not top:
+        return {}
+    first = Rational(high - low)
+    if power is not None and power < first:
+        raise NoExpansion(f)
+    count = 0 if power is None else int(power - first)
+    if count > HIGHEST:
+        raise NoExpansion(f)
+    top, _ = _taylor(above, high + count)
+    bottom, _ = _taylor(below, low + count)
+    found: list[Expr] = []
+    for k in range(count + 1):
+        carried = Add(*(found[j] * bottom.get(low + k - j, Integer(0)) for j in range(k)))
+        found.append(tidied((top.get(high + k, Integer(0)) - carried) / bottom[low]))
+    return {first + k: c for k, c in enumerate(found) if c != 0}
+
+
+def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
+    """The coefficients at least up to that power, and the lowest power that there is."""
+    found: dict[int, Expr] = {}
+    derivative, factorial = f, Integer(1)
+    for n in range(HIGHEST + 1):
+        if n:
+            derivative, factorial = diff(derivative, SMALL), factorial * n
+        try:
+            coefficient = tidied(derivative.subs(SMALL, 0)) / factorial
+        except (PolynomialError, ZeroDivisionError, ValueError):
+            raise NoExpansion(f) from None
+        if coefficient.has(*SPOILT):
+            raise NoExpansion(f)
+        if coefficient != 0:
+            found[n] = coefficient
+        if found and n >= up_to:
+            return found, min(found)
+        if derivative == 0:
+            break
+    if not found and derivative != 0:
+        raise NoExpansion(f)
+    return found, min(found, default=0)

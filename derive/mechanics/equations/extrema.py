@@ -1,0 +1,269 @@
+"""The greatest and the least value of a result: where its slope vanishes, what it is there, and which of the two."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from typing import Any
+
+from sympy import Abs, Add, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
+from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR8
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import At, Relation, Slope, explicit, scalar
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, letter_of, unknown_of
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.step import Level, Quantity, is_zero
+
+__all__ = ["maximum", "minimum"]
+
+POINTS, BESIDE = 6, 9
+Within = tuple[Expr, Expr]
+
+
+def maximum(of: Quantity, letter: Any, within: Within | None = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
+    """Where a result is greatest, and how great it is: f'(x) = 0 and f''(x) < 0.
+
+    of       a scalar, any unit
+    letter   what may be chosen: an angle, a frequency, a length
+    within   the interval from which it is chosen; else all values that the letter can have
+    Second route: the value there against those at many other places of the interval.
+    Outcomes: greatest, least; their condition is told, where the place exists for some values of the letters only.
+    Errors: no place, or several, where the slope vanishes and the curvature has that sign.
+    Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
+    """
+    return _extremum(of, letter, within, key, "maximum", -1)
+
+
+def minimum(of: Quantity, letter: Any, within: Within | None = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
+    """Where a result is least, and how great it is there: f'(x) = 0 and f''(x) > 0.
+
+    of       a scalar, any unit
+    letter   what may be chosen: an angle, a frequency, a length
+    within   the interval from which it is chosen; else all values that the letter can have
+    Second route: as `maximum`.
+    Errors: no place, or several, where the slope vanishes and the curvature has that sign.
+    Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
+    """
+    return _extremum(of, letter, within, key, "minimum", 1)
+
+
+def _extremum(
+    of: Quantity, letter: Any, within: Within | None, key: str, verb: str, curved: int
+) -> tuple[Quantity, Quantity]:
+    value, x = explicit(of.value), letter_of(unknown_of(verb, letter))
+    if not isinstance(value, Expr) or isinstance(value, Relation) or x not in value.free_symbols:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is no value that depends on {x.name}"))
+    slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
+    found = [(p, c) for p, c in _places(slope, x) if _lies_within(p, c, within, x)]
+    fitting = [(p, c) for p, c in found if _curved(tidied(curvature.subs(x, p)), c) in (curved, None)]
+    if len(fitting) > 1:
+        fitting = [pair for pair in fitting if pair[1] is None and _curved_surely(curvature, x, pair[0]) == curved] or fitting
+    if len(fitting) != 1:
+        many = "no place" if not fitting else f"{len(fitting)} places"
+        message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
+        raise Rejected(Complaint("no-extremum", message, help="give the interval with `within=(..., ...)`"))
+    ((place, condition),) = fitting
+    name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
+    at = establish(
+        "extrema.place",
+        name,
+        lambda *_: place,
+        {"quantity": of, "letter": x},
+        lines=Lines(put_in=None, law=Level.BRIEF, arranged=lambda _: place),
+        routes={
+            "slope": lambda p: (slope.subs(x, p), Integer(0)),
+            "beside": lambda p: _against_others(value, x, p, within, condition, curved),
+        },
+        outcome="greatest" if curved < 0 else "least",
+        key=f"{key}_{x.name}",
+        kind=kind_of_unknown(x, coordinates_of(of)),
+        telling=Telling(
+            formulas={
+                "slope": (Relation(Slope(value, x, Integer(1)), "=", 0), Relation(slope, "=", 0)),
+                **({"condition": (condition, Relation(tidied(condition.left), ">", 0))} if condition else {}),
+            },
+            judged_by={"value": value, "curved": Integer(curved)},
+        ),
+        scope=Scope(coordinates={}),
+    )
+    top = establish(
+        "extrema.value",
+        scalar(f"{of.symbol.name}_{verb[:3]}") if isinstance(of.symbol, Symbol) else scalar(key),
+        lambda f, p: At(f, x, p),
+        {"quantity": of, "place": at},
+        lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=lecture_form),
+        routes={"beside": lambda top: _not_exceeded(value, x, top, within, condition, curved, place)},
+        outcome="greatest" if curved < 0 else "least",
+        key=key,
+        kind=of.step.kind,
+        telling=Telling(judged_by={"value": value, "curved": Integer(curved), "letter": x}),
+    )
+    return at, top
+
+
+# --- where the slope vanishes ---
+
+
+def _places(slope: Expr, x: Symbol) -> Iterator[tuple[Expr, Relation | None]]:
+    """The zeros of each factor of the slope, with the condition under which they are real."""
+    numerator = slope.as_numer_denom()[0]
+    for form in dict.fromkeys((numerator, tidied(TR8(numerator.expand())))):
+        found = [pair for factor in Mul.make_args(form) for pair in _zeros(factor.as_base_exp()[0], x)]
+        if found:
+            yield from found
+            return
+
+
+def _zeros(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    if not factor.has(x):
+        return []
+    if isinstance(factor, sin | cos):
+        return [(p, None) for p in _of_angle(factor, x)]
+    angles = {f.args[0] for f in factor.atoms(sin, cos) if f.has(x)}
+    if not angles:
+        return _of_polynomial(factor, x)
+    if angles == {x}:
+        return _of_one_angle(factor, x)
+    return []
+
+
+def _of_angle(function: Function, x: Symbol) -> list[Expr]:
+    """Of cos(k x + c) the places where it vanishes, for a few half turns."""
+    (angle,) = function.args
+    k = angle.diff(x)
+    if k.has(x):
+        return []
+    start = pi / 2 if isinstance(function, cos) else Integer(0)
+    return [tidied((start + n * pi - angle.subs(x, 0)) / k) for n in range(-3, 4)]
+
+
+def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    try:
+        polynomial = factor.as_poly(x)
+    except PolynomialError:
+        return []
+    if polynomial is None:
+        return []
+    coefficients = polynomial.all_coeffs()
+    if len(coefficients) == 2:
+        a, b = coefficients
+        return [(tidied(-b / a), None)]
+    if len(coefficients) == 3:
+        a, b, c = coefficients
+        if b == 0:
+            inside = lecture_form(-c / a)
+            condition = None if sign_known(inside) == 1 else Relation(inside, ">", 0)
+            return [] if sign_known(inside) == -1 else [(sign * tidied(sqrt(inside)), condition) for sign in (1, -1)]
+        inside = tidied(b**2 - 4 * a * c)
+        if sign_known(inside) == -1:
+            return []
+        condition = None if sign_known(inside) == 1 else Relation(inside, ">", 0)
+        return [(lecture_form((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
+    return []
+
+
+def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    """A cos + B = 0, or A sin + B cos = 0, at one angle."""
+    u, v = Dummy("u"), Dummy("v")
+    written = factor.expand().xreplace({sin(x): u, cos(x): v})
+    if written.has(x):
+        return []
+    polynomial = Poly(written, u, v)
+    if polynomial.total_degree() == 1:
+        a, b, c = (polynomial.coeff_monomial(m) for m in (u, v, 1))
+        if c == 0 and a != 0:
+            return [(atan(tidied(-b / a)) + n * pi, None) for n in (-1, 0, 1)]
+        if a == 0:
+            return [(sign * acos(tidied(-c / b)), None) for sign in (1, -1)]
+    return []
+
+
+def _lies_within(place: Expr, condition: Relation | None, within: Within | None, x: Symbol) -> bool:
+    if x.is_positive and within is None:
+        return bool(sign_known(place) == 1) or (condition is not None and not place.could_extract_minus_sign())
+    if within is None:
+        return True
+    seen = [_numbers(expr, point) for point in _points(place, within) for expr in [(place, *within)]]
+    decided = [low < there < high for there, low, high in seen if None not in (there, low, high) and low < high]
+    return bool(decided) and all(decided)
+
+
+def _points(place: Expr, within: Within) -> Iterator[dict[Any, Any]]:
+    letters = set().union(*(letters_of(with_numbers(e)) for e in (place, *within)))
+    for i in range(POINTS):
+        yield {s: Rational(3 + 2 * i + k, 29) for k, s in enumerate(sorted(letters, key=str))}
+
+
+def _numbers(exprs: Sequence[Expr], point: dict[Any, Any]) -> tuple[Any, ...]:
+    found = []
+    for expr in exprs:
+        try:
+            found.append(value_at(with_numbers(expr), point))
+        except (Undefined, NoNumber):
+            found.append(None)
+    return tuple(found)
+
+
+def _curved(curvature: Expr, condition: Relation | None) -> int | None:
+    return sign_known(curvature)
+
+
+def _curved_surely(curvature: Expr, x: Symbol, place: Expr) -> int | None:
+    return sign_known(tidied(curvature.subs(x, place)))
+
+
+# --- the second routes ---
+
+
+def _against_others(
+    value: Expr, x: Symbol, place: Expr, within: Within | None, condition: Relation | None, curved: int
+) -> Verdict:
+    return _not_exceeded(value, x, value.subs(x, place), within, condition, curved, place)
+
+
+def _not_exceeded(
+    value: Expr,
+    x: Symbol,
+    top: Expr,
+    within: Within | None,
+    condition: Relation | None,
+    curved: int,
+    place: Expr,
+) -> Verdict:
+    """At places spread over the interval, or near the place where there is none, nothing is beyond the extreme value."""
+    value, top, place = (with_numbers(e) for e in (value, top, place))
+    letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
+    if condition is not None:
+        letters |= letters_of(condition.left)
+    seen = 0
+    for point in islice(points(letters, seed_of(value)), 60):
+        try:
+            if condition is not None and value_at(with_numbers(condition.left), point) <= 0:
+                continue
+            best, centre = value_at(top, point), value_at(place, point)
+            ends = [value_at(with_numbers(e), point) for e in within] if within else [centre / 2, centre * 2]
+            if within is None and not x.is_positive:
+                ends = [centre - 1, centre + 1]
+            if not ends[0] <= centre <= ends[1]:
+                continue
+            others = [value_at(value, {**point, x: ends[0] + (ends[1] - ends[0]) * Rational(2 * k + 1, 2 * BESIDE)})
+                      for k in range(BESIDE)]
+            own = value_at(value, {**point, x: centre})
+        except (Undefined, NoNumber, TypeError):
+            continue
+        seen += 1
+        slack = Rational(1, 10**18) * (1 + Abs(best))
+        if any(curved * (best - other) > slack for other in others) or Abs(own - best) > slack:
+            where = tuple((str(name), str(number)) for name, number in point.items())
+            return Verdict(Grade.REFUTED, "another place of the interval has a value beyond it", where)
+        if seen == POINTS:
+            break
+    if not seen:
+        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    return Verdict(Grade.SAMPLED, f"{seen} points, {BESIDE} places each")
