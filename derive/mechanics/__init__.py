@@ -14,6 +14,7 @@ from derive.mechanics.bodies.solids import *
 from derive.mechanics.bodies.thin_bodies import *
 from derive.mechanics.equations.conditions import *
 from derive.mechanics.equations.conservation import *
+from derive.mechanics.equations.energy_integral import *
 from derive.mechanics.equations.euler_equations import *
 from derive.mechanics.equations.extrema import *
 from derive.mechanics.equations.inequalities import *

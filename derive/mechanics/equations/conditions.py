@@ -15,8 +15,8 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size
 from derive.mechanics.equations.unknowns import (
     lecture_form,
-    mark_for,
     left_over,
+    mark_for,
     unknown_of,
     with_unknown,
 )

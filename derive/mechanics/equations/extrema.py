@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
+from sympy import Abs, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR8
 
@@ -18,7 +18,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, letter_of, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.step import Level, Quantity
 
 __all__ = ["maximum", "minimum"]
 
@@ -63,7 +63,9 @@ def _extremum(
     found = [(p, c) for p, c in _places(slope, x) if _lies_within(p, c, within, x)]
     fitting = [(p, c) for p, c in found if _curved(tidied(curvature.subs(x, p)), c) in (curved, None)]
     if len(fitting) > 1:
-        fitting = [pair for pair in fitting if pair[1] is None and _curved_surely(curvature, x, pair[0]) == curved] or fitting
+        fitting = [
+            pair for pair in fitting if pair[1] is None and _curved_surely(curvature, x, pair[0]) == curved
+        ] or fitting
     if len(fitting) != 1:
         many = "no place" if not fitting else f"{len(fitting)} places"
         message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
@@ -252,8 +254,10 @@ def _not_exceeded(
                 ends = [centre - 1, centre + 1]
             if not ends[0] <= centre <= ends[1]:
                 continue
-            others = [value_at(value, {**point, x: ends[0] + (ends[1] - ends[0]) * Rational(2 * k + 1, 2 * BESIDE)})
-                      for k in range(BESIDE)]
+            others = [
+                value_at(value, {**point, x: ends[0] + (ends[1] - ends[0]) * Rational(2 * k + 1, 2 * BESIDE)})
+                for k in range(BESIDE)
+            ]
             own = value_at(value, {**point, x: centre})
         except (Undefined, NoNumber, TypeError):
             continue

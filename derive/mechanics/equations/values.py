@@ -7,7 +7,6 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 from sympy import Eq as Equality
-
 from sympy.logic.boolalg import BooleanAtom
 
 from derive.algebra.collect import by_terms

@@ -130,6 +130,20 @@ def _bent(sign: int) -> Predicate:
     return is_so
 
 
+def _released(at_rest: bool) -> Predicate:
+    return lambda facts: is_zero(facts.inputs["initial"]) == at_rest
+
+
+def _isochronous(wanted: bool) -> Predicate:
+    """The acceleration is proportional to the coordinate, or it is not."""
+
+    def is_so(facts: Judged) -> bool:
+        q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
+        return is_zero(a - a.diff(q).subs(q, 0) * q) == wanted
+
+    return is_so
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "equations.let": {
         "generic": _as_let(False, False),
@@ -165,6 +179,8 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "extrema.place": {"greatest": _bent(1), "least": _bent(-1)},
     "extrema.value": {"greatest": _bent(1), "least": _bent(-1)},
+    "energy_integral.energy_kept": {"from_rest": _released(True), "moving": _released(False)},
+    "energy_integral.period_by_energy": {"exact": _isochronous(True), "expanded": _isochronous(False)},
     "conditions.leaves_contact": {
         "lost": _vanishing_force,
         "never": sign_is(1, lambda facts: facts.inputs["force"]),

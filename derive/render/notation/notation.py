@@ -39,6 +39,7 @@ from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expansion import Expansion
 from derive.algebra.rounding import Rounded, decimal_text
+from derive.algebra.swing import SwingTime
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
     CROSS,
@@ -339,6 +340,11 @@ class Notation:
         items: list[Layout] = [item for sign in signs for item in sign]
         return row(*items, *([THIN_SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
 
+    def _swing(self, expr: SwingTime) -> Layout:
+        f, q, amplitude, _ = expr.args
+        sign = IntegralSign(Digits("0"), self.layout(amplitude))
+        return row(sign, Fraction(row(Upright("d"), self.layout(q)), RootSign(self.layout(f))))
+
     def _mass_integral(self, expr: ex.MassIntegral) -> Layout:
         return row(IntegralSign(), self._as_factor(expr.args[0]), THIN_SPACE, Upright("d"), Name("m"))
 
@@ -411,6 +417,7 @@ class Notation:
         (ex.Partial, _partial),
         (ex.Slope, _slope),
         (ex.At, _at),
+        (SwingTime, lambda self, expr: self._swing(expr)),
         (ex.Truncated | Expansion, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
     )

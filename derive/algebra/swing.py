@@ -1,0 +1,107 @@
+"""The time of a swing between two turning points at -A and A, in powers of the amplitude A.
+
+    4 integral of dq/sqrt(f) from 0 to A, where f is the square of the rate: even in q and zero at A
+
+With q = A sin u the root loses its zero: f/(A cos u)^2 is a power series in A whose coefficients are polynomials in
+sines and cosines. Source: Landau, Lifshitz, *Mechanics*, section 11 (the period by energy; the pendulum is problem 1).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from sympy import Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, nan, sin, sqrt
+from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR5
+
+from derive.algebra.dimensions import Dimension, power, quotient
+from derive.algebra.expansion import HIGHEST, SPOILT, NoExpansion
+from derive.algebra.integrals import sine_and_cosine_integral
+from derive.algebra.node import DimensionOf, ScalarNode, TextOf, explicit
+from derive.algebra.tidy import tidied
+
+ANGLE = Dummy("u", real=True)
+
+
+class SwingTime(ScalarNode):
+    """The integral of dq/sqrt(f) from 0 to A, up to a power of A. Arguments: f, q, A, the power."""
+
+    def doit(self, **hints: object) -> Expr:
+        f, q, amplitude, order = self.args
+        try:
+            return quarter_swing(explicit(f), q, amplitude, int(order))
+        except NoExpansion:
+            return nan
+
+    @property
+    def variables(self) -> tuple[Expr, ...]:
+        return (self.args[1],)
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        f, q, _, _ = self.args
+        return quotient(of(q), power(of(f), Fraction(1, 2)))
+
+    def lowered(self, text: TextOf) -> str:
+        f, q, amplitude, _ = self.args
+        return f"Integral(1/sqrt({text(f, (q,))}), ({text(q, (q,))}, 0, {text(amplitude)}))"
+
+
+def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
+    """The terms up to that power of the amplitude."""
+    inside = reduced_square(f, q, amplitude, order)
+    (leading, *rest) = inside
+    if leading.has(ANGLE) or leading == 0:
+        raise NoExpansion(f)
+    corrections = [tidied(c / leading) for c in rest]
+    terms = [_mean(term) * amplitude**k for k, term in enumerate(_inverse_root(corrections, order))]
+    return tidied(1 / sqrt(leading)) * Add(*terms)
+
+
+def reduced_square(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> list[Expr]:
+    """The coefficients of the powers of A in f/(A cos u)^2 at q = A sin u."""
+    if order > HIGHEST - 2 or not tidied(f.subs(q, -q) - f) == 0 or not tidied(f.subs(q, amplitude)) == 0:
+        raise NoExpansion(f)
+    small = Dummy("a", positive=True)
+    value = f.subs({q: small * sin(ANGLE), amplitude: small}, simultaneous=True)
+    found, factorial = [], Integer(1)
+    for n in range(order + 3):
+        if n:
+            value, factorial = diff(value, small), factorial * n
+        found.append(TR5((value.subs(small, 0) / factorial).expand(), max=2 * HIGHEST).expand())
+    if any(c.has(*SPOILT) for c in found) or found[0] != 0 or found[1] != 0:
+        raise NoExpansion(f)
+    return [_divided(c, f) for c in found[2:]]
+
+
+def _divided(coefficient: Expr, f: Expr) -> Expr:
+    """Divided by cos^2 u."""
+    c = Dummy("c")
+    written = coefficient.xreplace({cos(ANGLE): c})
+    try:
+        polynomial = written.as_poly(c)
+    except PolynomialError:
+        polynomial = None
+    if written == 0:
+        return Integer(0)
+    if polynomial is None or written.has(ANGLE) or any(n < 2 for (n,) in polynomial.monoms()):
+        raise NoExpansion(f)
+    return Add(*(tidied(k) * cos(ANGLE) ** (n - 2) for (n,), k in polynomial.terms()))
+
+
+def _inverse_root(corrections: list[Expr], order: int) -> list[Expr]:
+    """The coefficients of (1 + sum of c_k A^k)^(-1/2): with y' (1 + e) = -(1/2) e' y, power by power."""
+    found: list[Expr] = [Integer(1)]
+    for n in range(1, order + 1):
+        terms = [(Rational(-k, 2) - (n - k)) * corrections[k - 1] * found[n - k] for k in range(1, n + 1)]
+        found.append((Add(*terms) / n).expand())
+    return found
+
+
+def _mean(term: Expr) -> Expr:
+    """The integral over u from 0 to pi/2 of a polynomial in cos u."""
+    total = Integer(0)
+    for part in Add.make_args(term.expand()):
+        outside, inside = part.as_independent(ANGLE, as_Add=False)
+        n = inside.exp if isinstance(inside, Pow) else Integer(inside.has(ANGLE))
+        total += Mul(outside, sine_and_cosine_integral(0, int(n))) / 2
+    return tidied(total)
