@@ -144,6 +144,30 @@ def _isochronous(wanted: bool) -> Predicate:
     return is_so
 
 
+def _free_motion(wanted: str) -> Predicate:
+    """By the roots of the characteristic equation, as far as the letters decide."""
+
+    def is_so(facts: Judged) -> bool:
+        a, b, c = facts.inputs["linear"]
+        if is_zero(a):
+            return wanted == ("accumulates" if is_zero(c) else "relaxes")
+        if is_zero(c):
+            return wanted == ("uniform" if is_zero(b) else "relaxes")
+        stiffness, sign = sign_known(c / a), sign_known((b / a) ** 2 - 4 * c / a)
+        if stiffness == -1:
+            return wanted == "runs_away"
+        if is_zero(b):
+            return wanted == "oscillates" and stiffness == 1
+        fitting = {-1: "underdamped", 0: "critically_damped", 1: "overdamped"}
+        return wanted == fitting[sign] if sign is not None else facts.inputs["case"] and wanted in fitting.values()
+
+    return is_so
+
+
+def _loses(wanted: bool) -> Predicate:
+    return lambda facts: is_zero(facts.inputs["loss"]) != wanted
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "equations.let": {
         "generic": _as_let(False, False),
@@ -181,6 +205,21 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "extrema.value": {"greatest": _bent(1), "least": _bent(-1)},
     "energy_integral.energy_kept": {"from_rest": _released(True), "moving": _released(False)},
     "energy_integral.period_by_energy": {"exact": _isochronous(True), "expanded": _isochronous(False)},
+    "linear_motion.solution": {
+        word: _free_motion(word)
+        for word in (
+            "oscillates",
+            "underdamped",
+            "critically_damped",
+            "overdamped",
+            "runs_away",
+            "uniform",
+            "relaxes",
+            "accumulates",
+        )
+    },
+    "linear_motion.steady_amplitude": {"damped": _loses(True), "undamped": _loses(False)},
+    "linear_motion.lag": {"damped": _loses(True), "undamped": _loses(False)},
     "conditions.leaves_contact": {
         "lost": _vanishing_force,
         "never": sign_is(1, lambda facts: facts.inputs["force"]),
