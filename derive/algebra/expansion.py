@@ -8,10 +8,11 @@ Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotie
 
 from __future__ import annotations
 
-from sympy import Add, Dummy, Expr, Integer, Mul, Rational, Symbol, diff, nan, oo, zoo
+from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, diff, nan, oo, zoo
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import Factors, Terms
 from derive.algebra.node import DimensionOf, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
@@ -75,16 +76,23 @@ def small_of(x: Symbol, to: Expr) -> Expr:
 
 
 def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms added up, each tidy, with the factors of the leading one in front where that is shorter."""
+    """The terms added up, each tidy."""
+    small = small_of(x, to)
+    return Add(*(tidied(c) * small**n for n, c in sorted(series.items())))
+
+
+def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
+    """The terms as written, the leading one first, with its factors in front where that is shorter."""
     small = small_of(x, to)
     terms = [(n, tidied(c)) for n, c in sorted(series.items())]
-    plain = Add(*(c * small**n for n, c in terms))
+    plain = Terms(*(c * small**n for n, c in terms))
     if len(terms) < 2:
-        return plain
+        return tidied_terms(series, x, to)
     (first, leading), *rest = terms
-    inside = Add(Integer(1), *(tidied(c / leading) * small ** (n - first) for n, c in rest))
-    in_front = Mul(leading * small**first, inside, evaluate=False) if leading * small**first != 1 else inside
-    return min((in_front, plain), key=lambda form: int(form.count_ops()))
+    inside = Terms(Integer(1), *(tidied(c / leading) * small ** (n - first) for n, c in rest))
+    lead = leading * small**first
+    forms = [plain] if lead == 1 else [Factors(lead, inside), plain]
+    return min(forms, key=lambda form: sum(int(part.count_ops()) for part in form.args))
 
 
 def _quotient(f: Expr, power: Rational | None) -> Series:

@@ -17,6 +17,7 @@ from derive.mechanics.equations.conservation import *
 from derive.mechanics.equations.energy_integral import *
 from derive.mechanics.equations.euler_equations import *
 from derive.mechanics.equations.extrema import *
+from derive.mechanics.equations.forced import *
 from derive.mechanics.equations.inequalities import *
 from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.linear_motion import *
@@ -27,6 +28,7 @@ from derive.mechanics.equations.solving import *
 from derive.mechanics.equations.special_cases import *
 from derive.mechanics.equations.stability import *
 from derive.mechanics.equations.substitution import *
+from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
 from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *

@@ -313,7 +313,7 @@ class _Writer:
         key, value = step.key, self.values.get(step.key)
         forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
         numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
-        if isinstance(step.result, Truncated):
+        if isinstance(step.result, Truncated) or step.chain[-1].because == "series":
             return Answer(key, step.symbol, step.result, "approx")
         if isinstance(step.result, Relation):
             return Answer(key, step.result.left, step.result.right, step.result.word, numbers)

@@ -66,6 +66,12 @@ def assume(condition: Relation) -> None:
         run.assumed.append(condition)
 
 
+def assumed() -> list[Relation]:
+    """What the page says that it takes to hold."""
+    run = current_run.get()
+    return list(run.assumed) if run is not None else []
+
+
 def coordinates_in(result: Any) -> dict[Symbol, str]:
     """The coordinates of the run that a result contains, themselves or by a rate."""
     run = current_run.get()

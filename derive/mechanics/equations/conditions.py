@@ -56,6 +56,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
     if mark not in TURNED:
         message = f"`where`: `{mark}` is no mark"
         raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
+    bound = Integer(bound) if isinstance(bound, int) else bound
     difference = tidied(explicit(_scalar(of)) - explicit(value_behind(bound)))
     unknown = unknown_of("where", letter)
     sign = sign_known(difference)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, lambdify, pi, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, lambdify, pi, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import NoExpansion
@@ -57,7 +57,7 @@ def speed_from_energy(
     That the energy keeps the value of the start is a step of its own.
     Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
     acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate is that of the start.
-    Outcomes: from_rest, moving.
+    Outcomes: generic; of the step of the energy: that it was at rest, or moving.
     Errors: the energy is not conserved, contains another coordinate, or is not quadratic in the rate.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
@@ -76,7 +76,6 @@ def speed_from_energy(
         message = f"`speed_from_energy`: `{energy.key}` is no sum of m q_dot^2/2 and an energy of place"
         raise Rejected(Complaint("wrong-argument", message))
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
-    outcome = "from_rest" if initial == 0 else "moving"
 
     def keeps(found: Relation) -> tuple[Any, Any]:
         """It holds at the start, and its rate vanishes along the motion; the right side is a constant."""
@@ -91,7 +90,7 @@ def speed_from_energy(
         {"energy": energy},
         lines=Lines(put_in=Level.BRIEF, law=Level.FULL, result=False, arranged=explicit),
         routes={"motion": keeps},
-        outcome=outcome,
+        outcome="from_rest" if initial == 0 else "moving",
         key=f"{energy.key}_kept" if key is None else f"{key}_energy",
         telling=Telling(
             formulas={"place": (Relation(letter, "=", first), Relation(first, "=", letter))},
@@ -156,8 +155,8 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str = "tau", key
 
     squared   q_dot^2 as `speed_from_energy` yields it for a release from rest at q = A, the same for q and -q, 1/s^2
     order     the highest power of the amplitude that is kept
-    Second route: in the limit of small amplitudes it is that of the linearised equation of motion, 2 pi/omega_0; and the
-    integral in numbers, for small amplitudes.
+    Second route: for small amplitudes it is that of the linearised equation of motion, 2 pi/omega_0; and the integral
+    in numbers.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
     Errors: it did not start from rest at a letter; the motion is not the same to both sides.
     Source: Landau, Lifshitz, *Mechanics*, section 11.
@@ -173,7 +172,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str = "tau", key
         message = f"`period_by_energy`: `{squared.key}` is not the same at {q.name} and -{q.name}"
         raise Rejected(Complaint("wrong-argument", message, help="measure the coordinate from the middle of the swing"))
     try:
-        found = _written(4 * quarter_swing(value, q, amplitude, order), amplitude)
+        found = 4 * quarter_swing(value, q, amplitude, order)
         leading = quarter_swing(value, q, amplitude, 0)
     except NoExpansion:
         message = f"`period_by_energy`: the motion of `{squared.key}` is no oscillation about {q.name} = 0"
@@ -193,7 +192,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str = "tau", key
         lines=Lines(
             law=Level.BRIEF,
             put_in=None,
-            after=[Form(found, "result" if exact else "series")],
+            after=[Form(found, "result") if exact else Form(_written(found, amplitude), "series")],
             result=False,
             arranged=lambda _: found,
         ),
@@ -212,10 +211,11 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str = "tau", key
 
 
 def _written(value: Expr, amplitude: Symbol) -> Expr:
-    """2 pi sqrt(l/g) (1 + A^2/16)"""
+    """2 pi sqrt(l/g) (1 + A^2/16), in ascending powers."""
     whole = value.subs(amplitude, 0)
-    rest = tidied(value / whole)
-    return whole if rest == 1 else whole * rest.expand()
+    rest = tidied(value / whole).expand()
+    terms = sorted(Add.make_args(rest), key=lambda term: int(term.as_coeff_exponent(amplitude)[1]))
+    return Factors(whole, Terms(*terms)) if len(terms) > 1 else whole * rest
 
 
 def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order: int) -> Verdict:

@@ -18,6 +18,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, letter_of, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.record import assumed
 from derive.steps.step import Level, Quantity
 
 __all__ = ["maximum", "minimum"]
@@ -60,12 +61,10 @@ def _extremum(
     if not isinstance(value, Expr) or isinstance(value, Relation) or x not in value.free_symbols:
         raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is no value that depends on {x.name}"))
     slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
-    found = [(p, c) for p, c in _places(slope, x) if _lies_within(p, c, within, x)]
-    fitting = [(p, c) for p, c in found if _curved(tidied(curvature.subs(x, p)), c) in (curved, None)]
-    if len(fitting) > 1:
-        fitting = [
-            pair for pair in fitting if pair[1] is None and _curved_surely(curvature, x, pair[0]) == curved
-        ] or fitting
+    found = [pair for pair in _places(slope, x) if _lies_within(*pair, within, x)]
+    signs = [sign_known(curvature.subs(x, place)) for place, _ in found]
+    sure = [pair for pair, sign in zip(found, signs, strict=True) if sign == curved]
+    fitting = sure or [pair for pair, sign in zip(found, signs, strict=True) if sign is None]
     if len(fitting) != 1:
         many = "no place" if not fitting else f"{len(fitting)} places"
         message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
@@ -90,7 +89,7 @@ def _extremum(
                 "slope": (Relation(Slope(value, x, Integer(1)), "=", 0), Relation(slope, "=", 0)),
                 **({"condition": (condition, Relation(tidied(condition.left), ">", 0))} if condition else {}),
             },
-            judged_by={"value": value, "curved": Integer(curved)},
+            judged_by={"value": value, "letter": x, "place": place},
         ),
         scope=Scope(coordinates={}),
     )
@@ -104,7 +103,7 @@ def _extremum(
         outcome="greatest" if curved < 0 else "least",
         key=key,
         kind=of.step.kind,
-        telling=Telling(judged_by={"value": value, "curved": Integer(curved), "letter": x}),
+        telling=Telling(judged_by={"value": value, "letter": x, "place": place}),
     )
     return at, top
 
@@ -212,14 +211,6 @@ def _numbers(exprs: Sequence[Expr], point: dict[Any, Any]) -> tuple[Any, ...]:
     return tuple(found)
 
 
-def _curved(curvature: Expr, condition: Relation | None) -> int | None:
-    return sign_known(curvature)
-
-
-def _curved_surely(curvature: Expr, x: Symbol, place: Expr) -> int | None:
-    return sign_known(tidied(curvature.subs(x, place)))
-
-
 # --- the second routes ---
 
 
@@ -227,6 +218,11 @@ def _against_others(
     value: Expr, x: Symbol, place: Expr, within: Within | None, condition: Relation | None, curved: int
 ) -> Verdict:
     return _not_exceeded(value, x, value.subs(x, place), within, condition, curved, place)
+
+
+def _holds(condition: Relation, point: Any) -> bool:
+    size = value_at(with_numbers(condition.residual), point)
+    return bool(size < 0 if condition.mark in {"<", "<="} else size > 0)
 
 
 def _not_exceeded(
@@ -238,15 +234,15 @@ def _not_exceeded(
     curved: int,
     place: Expr,
 ) -> Verdict:
-    """At places spread over the interval, or near the place where there is none, nothing is beyond the extreme value."""
+    """At places spread over the interval, or near the place, nothing is beyond the extreme value."""
     value, top, place = (with_numbers(e) for e in (value, top, place))
     letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
-    if condition is not None:
-        letters |= letters_of(condition.left)
+    conditions = [*([] if condition is None else [condition]), *assumed()]
+    letters |= {s for each in conditions for s in letters_of(each.residual)}
     seen = 0
     for point in islice(points(letters, seed_of(value)), 60):
         try:
-            if condition is not None and value_at(with_numbers(condition.left), point) <= 0:
+            if not all(_holds(each, point) for each in conditions):
                 continue
             best, centre = value_at(top, point), value_at(place, point)
             ends = [value_at(with_numbers(e), point) for e in within] if within else [centre / 2, centre * 2]

@@ -8,7 +8,7 @@ from typing import Any
 from sympy import Expr, Rational, Symbol, oo
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expansion import Expansion, NoExpansion, expanded, small_of, tidied_terms
+from derive.algebra.expansion import Expansion, NoExpansion, expanded, in_ascending_powers, small_of, tidied_terms
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.errors import Complaint, Rejected
@@ -61,7 +61,7 @@ def limiting_case(
         lines=Lines(
             law=Level.STANDARD,
             put_in=None,
-            after=[Form(found, "result" if exact else "series")],
+            after=[Form(found, "result") if exact else Form(in_ascending_powers(series, x, place), "series")],
             result=False,
             arranged=lambda _: found,
             means={} if isinstance(name, Symbol) else meaning(name, found),

@@ -1,7 +1,7 @@
-"""Linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), solved with what q starts from.
+"""Linear equations of motion with constant coefficients, a q_ddot + b q_dot + c q = f(t), solved with their start.
 
-The roots of a s^2 + b s + c tell the free motion; what drives it, a sum of powers of t, exponentials, sines and cosines,
-tells a particular one. The solution put back into the equation, with its start, is the only one.
+The roots of a s^2 + b s + c tell the free motion; what drives it, a sum of powers of t, exponentials, sines and
+cosines, tells a particular one. The solution put back into the equation, with its start, is the only one.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from typing import Any
 
 from sympy import (
     Add,
+    Dummy,
     Expr,
     ImmutableDenseMatrix,
     Integer,
     Matrix,
     Mul,
     Pow,
-    atan,
     cos,
     cosh,
     diff,
@@ -30,21 +30,19 @@ from sympy import (
     sin,
     sinh,
     sqrt,
-    tan,
 )
 from sympy.simplify.fu import TR8
 
-from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, explicit, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
-from derive.steps.record import assume
 from derive.steps.step import Level, Quantity, is_zero, value_behind
 
-__all__ = ["solution", "steady_amplitude"]
+__all__ = ["solution"]
 
 ZERO, ONE = Integer(0), Integer(1)
 CASES = {"underdamped": -1, "critically_damped": 0, "overdamped": 1}  # case -> sign of b^2 - 4 a c
@@ -97,7 +95,7 @@ def solution(
     such kind.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
-    linear = _linear(equation, q)
+    linear = linear_equation(equation, q)
     first = explicit(value_behind(start))
     initial = None if linear.order == 1 else explicit(value_behind(ZERO if start_rate is None else start_rate))
     if linear.order == 1 and start_rate is not None:
@@ -109,8 +107,6 @@ def solution(
     values = _constants(basis, particular, first, initial)
     free = _free(basis, values, linear, sort)
     found = _joined(free, particular)
-    if condition is not None:
-        assume(condition)
 
     def from_the_start(motion: Expr) -> tuple[Any, Any]:
         at = [motion.subs(TIME, 0), *([] if initial is None else [diff(motion, TIME).subs(TIME, 0)])]
@@ -149,7 +145,7 @@ def _equals(left: Expr, right: Expr) -> Relation:
     return Relation(left, "=", right)
 
 
-def _linear(equation: Quantity, q: Coordinate) -> Linear:
+def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
     left = residual_of("solution", equation).expand()
     state = (q.acceleration, q.rate, q.symbol)
     a, b, c = (tidied(diff(left, s)) for s in state)
@@ -260,14 +256,14 @@ def _particular_of(linear: Linear, term: Expr, equation: Quantity) -> Expr:
         return tidied(outside / linear.b) * _accumulated(inside, equation)
     if inside == 1 or inside.is_polynomial(TIME):
         return outside * _of_power(linear, inside)
-    if isinstance(inside, exp) and _is_linear_in_time(inside.args[0]):
+    if isinstance(inside, exp) and is_linear_in_time(inside.args[0]):
         return outside * inside * _under_exponential(linear, diff(inside.args[0], TIME))
-    if len(swings) == 1 and inside == swings[0] and _is_linear_in_time(swings[0].args[0]):
+    if len(swings) == 1 and inside == swings[0] and is_linear_in_time(swings[0].args[0]):
         return outside * _under_swing(linear, swings[0])
     raise _unknown_driving(equation, term)
 
 
-def _is_linear_in_time(angle: Expr) -> bool:
+def is_linear_in_time(angle: Expr) -> bool:
     return not diff(angle, TIME).has(TIME)
 
 
@@ -303,7 +299,7 @@ def _under_exponential(linear: Linear, k: Expr) -> Expr:
 
 
 def _under_swing(linear: Linear, swing: Expr) -> Expr:
-    """The forced oscillation; one that grows where the driving has the frequency of the free motion and none is damped."""
+    """The forced oscillation; one that grows where it has the frequency of a free motion that is not damped."""
     (angle,) = swing.args
     w = diff(angle, TIME)
     stiff, loss = tidied(linear.c - linear.a * w**2), tidied(linear.b * w)
@@ -318,11 +314,11 @@ def _accumulated(inside: Expr, equation: Quantity) -> Expr:
     if inside == 1:
         return TIME
     base, power = inside.as_base_exp()
-    if isinstance(inside, exp | sin | cos) and _is_linear_in_time(inside.args[0]):
+    if isinstance(inside, exp | sin | cos) and is_linear_in_time(inside.args[0]):
         rate = diff(inside.args[0], TIME)
         whole = {exp: inside, sin: -cos(inside.args[0]), cos: sin(inside.args[0])}[inside.func]
         return whole / rate
-    if _is_linear_in_time(base) and not power.has(TIME):
+    if is_linear_in_time(base) and not power.has(TIME):
         rate = diff(base, TIME)
         if power == -1:
             start = base.subs(TIME, 0)
@@ -359,88 +355,9 @@ def _joined(free: Expr, particular: Expr) -> Expr:
         outside, inside = free.as_independent(TIME, as_Add=False)
         if is_zero(outside + particular):
             return Mul(lecture_form(particular), 1 - inside, evaluate=False)
-    together = factor_terms((free + particular).expand())
-    return min((free + particular, together), key=lambda form: int(form.count_ops()))
-
-
-def steady_amplitude(
-    equation: Quantity, q: Coordinate, symbol: str = "A", key: str = "steady_amplitude"
-) -> tuple[Quantity, Quantity]:
-    """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
-    tangent of its lag, tan(delta) = b omega/(c - a omega^2).
-
-    equation   a q_ddot + b q_dot + c q = F cos(omega t)
-    q          the coordinate
-    Second route: the forced oscillation with this amplitude and this lag put back into the equation.
-    Outcomes: damped, undamped (the oscillation is in step, or opposite).
-    Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
-    Source: Taylor, *Classical Mechanics*, section 5.5.
-    """
-    linear = _linear(equation, q)
-    force, angle = _one_swing(linear, equation)
-    w = diff(angle, TIME)
-    stiff, loss = linear.c - linear.a * w**2, linear.b * w
-    damped = "damped" if linear.b != 0 else "undamped"
-    size = scalar(symbol, positive=True)
-    lag = scalar("delta")
-
-    def put_back(amplitude: Expr) -> tuple[Any, Any]:
-        """cos(delta) and sin(delta) are the two legs over F/A."""
-        over = force / amplitude
-        motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
-        return expand(linear.residual(motion)), ZERO
-
-    def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """With sin(delta) = tan(delta) cos(delta), what the oscillation leaves a quarter turn on vanishes."""
-        motion = cos(angle) + tangent * sin(angle)
-        left = linear.a * diff(motion, TIME, 2) + linear.b * diff(motion, TIME) + linear.c * motion
-        return expand(left).coeff(sin(angle)), ZERO
-
-    amplitude = establish(
-        "linear_motion.steady_amplitude",
-        size,
-        lambda *_: Ratio(force, Root(Terms(Pow(stiff, 2), Pow(loss, 2)))),
-        {"equation": equation, "q": q.symbol},
-        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda value: _amplitude(force, stiff, loss)),
-        routes={"put_back": put_back},
-        outcome=damped,
-        key=key,
-        kind=q.kind,
-        telling=Telling(
-            formulas={"motion": (Factors(size, cos(angle - lag)), size * cos(angle - lag))},
-            judged_by={"loss": loss},
-        ),
-    )
-    lags = establish(
-        "linear_motion.lag",
-        scalar("delta") if damped == "undamped" else tan(lag),
-        lambda *_: ZERO if damped == "undamped" else Ratio(loss, stiff),
-        {"equation": equation},
-        lines=Lines(
-            law=Level.FULL,
-            put_in=None,
-            arranged=lecture_form,
-            means={lag: atan(loss / stiff)} if damped == "damped" else {},
-        ),
-        routes={"quarter_turn_on": lagging},
-        outcome=damped,
-        key=f"{key}_lag",
-        kind="number" if damped == "damped" else "angle",
-        telling=Telling(judged_by={"loss": loss}),
-    )
-    return amplitude, lags
-
-
-def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
-    if loss == 0:
-        return lecture_form(force / sqrt(stiff**2))
-    return force / sqrt(Add(stiff**2, lecture_form(loss**2)))
-
-
-def _one_swing(linear: Linear, equation: Quantity) -> tuple[Expr, Expr]:
-    """The size and the angle of what drives it, F cos(omega t)."""
-    outside, inside = linear.driven.as_independent(TIME, as_Add=False)
-    if not isinstance(inside, cos) or not _is_linear_in_time(inside.args[0]) or sign_known(outside) != 1:
-        message = f"`steady_amplitude`: `{equation.key}` is not driven by one F cos(omega t) with a positive F"
-        raise Rejected(Complaint("unknown-driving", message))
-    return outside, inside.args[0]
+    whole = free + particular
+    marks = {f: Dummy(str(f)) for f in whole.atoms(sin, cos, exp, cosh, sinh) if f.has(TIME)}
+    back = {mark: f for f, mark in marks.items()}
+    factored = lecture_form(whole.xreplace(marks)).xreplace(back)
+    forms = (whole, factor_terms(whole.expand()), factored)
+    return min(forms, key=lambda form: int(form.count_ops()))

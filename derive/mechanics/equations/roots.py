@@ -199,7 +199,7 @@ def _no_root(
         {"equation": equation, "unknown": unknown},
         lines=Lines(put_in=None, result=False),
         routes={"otherwise": lambda found: (found.residual, otherwise)},
-        outcome=outcome,
+        outcome="none" if outcome == "none" else "none_positive",
         key=(keys or [f"no_{letter_of(unknown).name}"])[0],
     )
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
 
-from derive.algebra.expressions import Ratio
+from derive.algebra.expressions import Ratio, Relation
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import (
@@ -114,8 +114,11 @@ def _solution(
         key=key,
         kind=kind_of_unknown(unknown, known),
         telling=Telling(
-            formulas={"excluded": (excluded, type(excluded)(tidied(excluded.left), "!=", 0))} if excluded else {},
-            judged_by={"unknown": unknown, "count": Integer(len(wanted)), "place": Integer(i)},
+            formulas={
+                "unknown": (unknown, unknown),
+                **({"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {}),
+            },
+            judged_by={"count": Integer(len(wanted)), "place": Integer(i)},
         ),
         scope=Scope(differ=EVERYTHING),
     )
@@ -158,7 +161,7 @@ def _named(given: Sequence[Quantity], several: str = "are", one: str = "is") -> 
 def _key_of(unknown: Expr) -> str:
     """theta_ddot, theta_dot_squared, cos_theta."""
     if isinstance(unknown, Symbol):
-        return unknown.name
+        return str(unknown.name)
     letter = letter_of(unknown)
     if unknown.is_Pow:
         return f"{letter.name}_squared" if unknown.exp == 2 else f"{letter.name}_power_{unknown.exp}"

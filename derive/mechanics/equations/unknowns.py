@@ -15,17 +15,35 @@ from sympy.simplify.fu import TR5, TR6, TR8
 
 from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
-from derive.algebra.expressions import RATES, Relation, explicit, rate
-from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.expressions import RATES, Relation, explicit, rate, scalar
+from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.known_numbers import sign_known
+from derive.steps.record import coordinate_named
 from derive.steps.step import Quantity
+
+__all__ = ["unknown"]
 
 LARGEST = 2500  # operations of what is still multiplied out and factored
 SHORT = 40  # of what may be written with multiples of an angle
 INVERSE = {cos: acos, sin: asin, tan: atan}
+
+
+def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
+    """A letter of the script that is to be found: a tension, a force of constraint, a height; it may change in time.
+
+    name       of the letter, which the problem does not give
+    kind       what kind of quantity it is: "force"
+    positive   whether it stands for a positive number, so that only positive roots count
+    """
+    if kind not in KINDS:
+        message = f"`unknown`: there is no kind `{kind}`"
+        raise Rejected(Complaint("unknown-kind", message, help=f"the kinds are {', '.join(KINDS)}"))
+    letter = scalar(name, positive=True) if positive else scalar(name)
+    coordinate_named(letter, kind)
+    return letter
 
 
 def unknown_of(verb: str, given: Any) -> Expr:

@@ -9,7 +9,7 @@ from sympy import Add, Expr, Integer, MatrixSymbol, Mul, Pow
 from sympy import Eq as Equality
 from sympy.logic.boolalg import BooleanAtom
 
-from derive.algebra.collect import by_terms
+from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import (
     Dot,
     Factors,
@@ -29,6 +29,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.rotation.vectors import RateByParticles, Through, length_by_turning
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 from derive.steps.subject import EVERYTHING, Subject
 
@@ -211,8 +212,8 @@ def let(
     kind         what kind of quantity it is, "force", "time"; else it has the dimension of the expression and no kind
     because      why it is so, in the words of the script: "by Newton's second law"
     It is about what the quantities are about, as far as they agree, and changes with the coordinates and the time that
-    it contains. Mass points and forces of the quantities go with a sum of them. Nothing checks that it is what its letter
-    says: where it is an answer, the page calls it a definition.
+    it contains. Mass points and forces that all its quantities have go with it. Nothing checks that it is what its
+    letter says: where it is an answer, the page calls it a definition.
     Outcomes: generic, because (with the reason that is given), equation, equation_because.
     Errors: no such kind; the expression is no scalar; an equation with a letter or a kind, or which holds by itself.
     Source: none needed: a definition.
@@ -250,11 +251,17 @@ def let(
         definition=True,
         kind=kind,
         outcome=_sort_of(is_equation, bool(because)),
-        lines=Lines(arranged=explicit if is_equation else tidied),
+        lines=Lines(arranged=explicit if is_equation else _by_rates if kind == "energy" else tidied),
         telling=Telling(words=reason),
         facts=_facts_of(quantities),
         scope=Scope(differ=EVERYTHING),
     )
+
+
+def _by_rates(value: Expr) -> Expr:
+    """(1/2) m R^2 theta_dot^2 + m g R cos(theta): an energy has its terms apart."""
+    moving = list(coordinates_in(value))
+    return by_rates(explicit(value), moving, halves=True) if moving else tidied(value)
 
 
 def _sort_of(is_equation: bool, has_reason: bool) -> str:

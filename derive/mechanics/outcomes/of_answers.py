@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import Any
 
-from sympy import Integer, Poly, oo
+from sympy import Expr, Integer, Poly, Rational, Symbol, oo
 
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import sign_is
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
 _CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
@@ -28,7 +31,7 @@ def _one_of(alone: bool, first: bool) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         count = sum(role.startswith("equation_") for role in facts.inputs)
-        return (count == 1) == alone and (alone or (facts.inputs["place"] == 0) == first)
+        return (count == 1) == alone and bool(alone or (facts.inputs["place"] == 0) == first)
 
     return is_so
 
@@ -122,12 +125,28 @@ def _nothing_left_out(facts: Judged) -> bool:
 
 
 def _bent(sign: int) -> Predicate:
-    """By the mean of the values a little to both sides, in numbers."""
+    """By the values a little to both sides of the place, in numbers: they are below it, or above."""
 
     def is_so(facts: Judged) -> bool:
-        return bool(facts.inputs["curved"] == -sign)
+        value, x, place = (with_numbers(facts.inputs[role]) for role in ("value", "letter", "place"))
+        conditions = [c for c in (facts.inputs.get("condition"), *assumed()) if c is not None]
+        letters = {s for e in (value, place, *(c.residual for c in conditions)) for s in letters_of(e)} - {x}
+        seen = []
+        for point in islice(points(letters, seed_of(value, place)), 40):
+            try:
+                if all((value_at(c.residual, point) > 0) == (c.mark in {">", ">="}) for c in conditions):
+                    seen.append(_beside(value, x, value_at(place, point), point))
+            except (Undefined, NoNumber, TypeError):
+                continue
+        return bool(seen) and all(sign * apart > 0 for apart in seen[:3])
 
     return is_so
+
+
+def _beside(value: Expr, x: Symbol, place: Expr, point: Any) -> Expr:
+    near = abs(place) / 10**6 + Rational(1, 10**9)
+    there, *others = (value_at(value, {**point, x: place + k * near}) for k in (0, 1, -1))
+    return min(there - other for other in others) if there > others[0] else max(there - other for other in others)
 
 
 def _released(at_rest: bool) -> Predicate:

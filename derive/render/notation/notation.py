@@ -30,6 +30,7 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
+    exp,
     fraction,
 )
 from sympy.core.function import AppliedUndef
@@ -148,7 +149,7 @@ class Notation:
         return row(*items)
 
     def _product(self, expr: Expr) -> Layout:
-        above, below = fraction(roots_together(expr))
+        above, below = fraction(roots_together(expr), exact=True)  # e^(-t) stays above
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)
@@ -407,6 +408,7 @@ class Notation:
         (ex.Cross, lambda self, expr: self._between_vectors(CROSS, Binding.PRODUCT, expr)),
         (ex.Outer, _outer),
         (ex.Norm, _norm),
+        (exp, lambda self, expr: Raised(Name("e"), self.layout(expr.args[0]))),
         (Abs, lambda self, expr: Fenced(self.layout(expr.args[0]), "|")),
         (ex.CarriedRate | ex.TimeRate, _rate),
         (ex.BodyRate, _body_rate),

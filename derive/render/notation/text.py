@@ -164,7 +164,7 @@ def _line(layout: Layout) -> str:
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
             letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
-            return letter + (small if not small.isascii() and "/" not in exponent else f"^({exponent})")
+            return letter + (small if set(exponent) <= set("0123456789-+") else f"^({exponent})")
         case RootSign(inside):
             inner = plain(inside)
             return f"√{inner}" if isinstance(inside, Digits | Name) else f"√({inner})"

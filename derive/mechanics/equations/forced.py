@@ -1,0 +1,109 @@
+"""The forced oscillation that is left once the free motion has died away: its amplitude and its lag."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Add, Expr, Integer, Mul, Pow, atan, cos, diff, expand, sin, sqrt, tan
+
+from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation
+from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.systems.coordinates import Coordinate
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import assume
+from derive.steps.step import Level, Quantity
+
+__all__ = ["steady_amplitude"]
+
+
+def steady_amplitude(
+    equation: Quantity, q: Coordinate, symbol: str = "A", key: str = "steady_amplitude"
+) -> tuple[Quantity, Quantity]:
+    """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
+    tangent of its lag, tan(delta) = b omega/(c - a omega^2).
+
+    equation   a q_ddot + b q_dot + c q = F cos(omega t)
+    q          the coordinate
+    Second route: the forced oscillation with this amplitude and this lag put back into the equation.
+    Outcomes: damped, undamped (the oscillation is in step, or opposite).
+    Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
+    Source: Taylor, *Classical Mechanics*, section 5.5.
+    """
+    linear = linear_equation(equation, q)
+    force, angle = _one_swing(linear, equation)
+    if sign_known(force) is None:
+        assume(Relation(_of_unknown_sign(force), ">", Integer(0)))
+    w = diff(angle, TIME)
+    stiff, loss = linear.c - linear.a * w**2, linear.b * w
+    damped = "damped" if linear.b != 0 else "undamped"
+    size = scalar(symbol)
+    lag = scalar("delta")
+
+    def put_back(amplitude: Expr) -> tuple[Any, Any]:
+        """cos(delta) and sin(delta) are the two legs over F/A."""
+        over = force / amplitude
+        motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
+        return expand(linear.residual(motion)), Integer(0)
+
+    def lagging(tangent: Expr) -> tuple[Any, Any]:
+        """With sin(delta) = tan(delta) cos(delta), what the oscillation leaves a quarter turn on vanishes."""
+        motion = cos(angle) + tangent * sin(angle)
+        left = linear.a * diff(motion, TIME, 2) + linear.b * diff(motion, TIME) + linear.c * motion
+        return expand(left).coeff(sin(angle)), Integer(0)
+
+    amplitude = establish(
+        "linear_motion.steady_amplitude",
+        size,
+        lambda *_: Ratio(force, Root(Terms(Pow(stiff, 2), Pow(loss, 2)))),
+        {"equation": equation, "q": q.symbol},
+        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda value: _amplitude(force, stiff, loss)),
+        routes={"put_back": put_back},
+        outcome=damped,
+        key=key,
+        kind=q.kind,
+        telling=Telling(
+            formulas={"motion": (Factors(size, cos(angle - lag)), size * cos(angle - lag))},
+            judged_by={"loss": loss},
+        ),
+    )
+    lags = establish(
+        "linear_motion.lag",
+        scalar("delta") if damped == "undamped" else tan(lag),
+        lambda *_: Integer(0) if damped == "undamped" else Ratio(loss, stiff),
+        {"equation": equation},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            arranged=lecture_form,
+            means={lag: atan(loss / stiff)} if damped == "damped" else {},
+        ),
+        routes={"quarter_turn_on": lagging},
+        outcome=damped,
+        key=f"{key}_lag",
+        kind="number" if damped == "damped" else "angle",
+        telling=Telling(judged_by={"loss": loss}),
+    )
+    return amplitude, lags
+
+
+def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
+    if loss == 0:
+        return lecture_form(force / sqrt(stiff**2))
+    return force / sqrt(Add(stiff**2, lecture_form(loss**2)))
+
+
+def _of_unknown_sign(value: Expr) -> Expr:
+    return Mul(*(f for f in Mul.make_args(tidied(value)) if not f.is_positive))
+
+
+def _one_swing(linear: Linear, equation: Quantity) -> tuple[Expr, Expr]:
+    """The size and the angle of what drives it, F cos(omega t)."""
+    outside, inside = linear.driven.as_independent(TIME, as_Add=False)
+    if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
+        message = f"`steady_amplitude`: `{equation.key}` is not driven by one F cos(omega t)"
+        raise Rejected(Complaint("unknown-driving", message))
+    return outside, inside.args[0]
