@@ -57,7 +57,6 @@ def speed_from_energy(
     That the energy keeps the value of the start is a step of its own.
     Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
     acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate is that of the start.
-    Outcomes: generic; of the step of the energy: that it was at rest, or moving.
     Errors: the energy is not conserved, contains another coordinate, or is not quadratic in the rate.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
@@ -77,25 +76,8 @@ def speed_from_energy(
         raise Rejected(Complaint("wrong-argument", message))
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
-    def keeps(found: Relation) -> tuple[Any, Any]:
-        """It holds at the start, and its rate vanishes along the motion; the right side is a constant."""
-        there = found.residual.xreplace({letter: first, speed: initial})
-        changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
-        return ImmutableDenseMatrix([there, changing, found.left]), ImmutableDenseMatrix([ZERO, ZERO, value])
-
-    conserved = establish(
-        "energy_integral.energy_kept",
-        None,
-        lambda e: Relation(e, "=", at_start),
-        {"energy": energy},
-        lines=Lines(put_in=Level.BRIEF, law=Level.FULL, result=False, arranged=explicit),
-        routes={"motion": keeps},
-        outcome="from_rest" if initial == 0 else "moving",
-        key=f"{energy.key}_kept" if key is None else f"{key}_energy",
-        telling=Telling(
-            formulas={"place": (Relation(letter, "=", first), Relation(first, "=", letter))},
-            judged_by={"initial": initial},
-        ),
+    conserved = _energy_kept(
+        energy, q, first, initial, acceleration, f"{energy.key}_kept" if key is None else f"{key}_energy"
     )
 
     def by_motion(found: Expr) -> tuple[Any, Any]:
@@ -118,6 +100,33 @@ def speed_from_energy(
         routes={"motion": by_motion},
         key=key or f"{letter.name}_dot_squared",
         facts=[ByEnergy(letter, first, initial, acceleration)],
+    )
+
+
+def _energy_kept(energy: Quantity, q: Coordinate, first: Expr, initial: Expr, acceleration: Expr, key: str) -> Quantity:
+    """The energy keeps the value that it has at the start."""
+    value, letter, speed = explicit(energy.value), q.symbol, q.rate
+    at_start = tidied(value.xreplace({letter: first, speed: initial}))
+
+    def keeps(found: Relation) -> tuple[Any, Any]:
+        """It holds at the start, and its rate vanishes along the motion; the right side is a constant."""
+        there = found.residual.xreplace({letter: first, speed: initial})
+        changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
+        return ImmutableDenseMatrix([there, changing, found.left]), ImmutableDenseMatrix([ZERO, ZERO, value])
+
+    return establish(
+        "energy_integral.energy_kept",
+        None,
+        lambda e: Relation(e, "=", at_start),
+        {"energy": energy},
+        lines=Lines(put_in=Level.BRIEF, law=Level.FULL, result=False, arranged=explicit),
+        routes={"motion": keeps},
+        outcome="from_rest" if initial == 0 else "moving",
+        key=key,
+        telling=Telling(
+            formulas={"place": (Relation(letter, "=", first), Relation(first, "=", letter))},
+            judged_by={"initial": initial},
+        ),
     )
 
 

@@ -10,7 +10,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Poly, Pow, Rational, Symbol, factor_list, gcd, sqrt
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    Symbol,
+    factor_list,
+    gcd,
+    resultant,
+    sqrt,
+)
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, scalar
@@ -81,8 +96,8 @@ def roots(
     symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
     Second route: put back into the equation; by Vieta the sum and the product of all roots are those that the
     coefficients give.
-    Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind the
-    first), none (no root is real), none_positive.
+    Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),
+    none (no root is real), none_positive.
     Errors: it is no polynomial in the letter, or has a factor of a degree above two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
@@ -92,11 +107,11 @@ def roots(
     every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]
     real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
     if not real:
-        return (_no_root(equation, unknown, every, "none", keys),)
+        return (_no_root(equation, unknown, every, False, keys),)
     positive = unknown.is_positive
     kept = [root for root in real if _sign(root) not in ((-1, 0) if positive else ())]
     if not kept:
-        return (_no_root(equation, unknown, real, "none_positive", keys),)
+        return (_no_root(equation, unknown, real, True, keys),)
     kept = _ascending(kept)
     names = list(keys or _names(unknown, len(kept)))
     if len(names) != len(kept):
@@ -181,37 +196,33 @@ def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootO
 
 
 def _no_root(
-    equation: Quantity, unknown: Expr, every: Sequence[RootOf], outcome: str, keys: Sequence[str] | None
+    equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, keys: Sequence[str] | None
 ) -> Quantity:
     """The discriminant is negative; or the root that could be positive is not."""
-    if outcome == "none":
-        quantity = every[0].discriminant
-        result = Relation(quantity, "<", ZERO)
-        otherwise = _by_resultant(every[0])
+    last = _ascending(list(every))[-1]
+    mark = "=" if real and is_zero(last.value) else "<"
+    if real:
+        decides, otherwise = last.formula, last.value
     else:
-        quantity = _greatest(every).value
-        result = Relation(quantity, "=" if is_zero(quantity) else "<", ZERO)
-        otherwise = _greatest(every).formula
+        a, b, c = every[0].coefficients
+        decides, otherwise = Terms(b**2, -FOUR * a * c), _by_resultant(every[0])
     return establish(
         "roots.roots_absent",
         None,
-        lambda *_: result,
+        lambda *_: Relation(decides, mark, ZERO),
         {"equation": equation, "unknown": unknown},
-        lines=Lines(put_in=None, result=False),
+        lines=Lines(put_in=None),
         routes={"otherwise": lambda found: (found.residual, otherwise)},
-        outcome="none" if outcome == "none" else "none_positive",
+        outcome="none_positive" if real else "none",
         key=(keys or [f"no_{letter_of(unknown).name}"])[0],
     )
 
 
 def _by_resultant(root: RootOf) -> Expr:
-    """The discriminant from the root itself: a^2 times the square of the difference of the two roots."""
+    """The discriminant by the resultant of the quadratic factor and its derivative, which is -a D."""
     a, b, c = root.coefficients
-    return (b / a) ** 2 * a**2 - FOUR * (c / a) * a**2
-
-
-def _greatest(real: Sequence[RootOf]) -> RootOf:
-    return _ascending(list(real))[-1]
+    x = Dummy("x")
+    return -resultant(a * x**2 + b * x + c, 2 * a * x + b, x) / a
 
 
 def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Poly:
@@ -230,8 +241,6 @@ def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Pol
 
 def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[Poly, int]]:
     """The factors that contain the unknown, with their multiplicities."""
-    if polynomial.degree() <= 2 and not _has_zero_root(polynomial):
-        return _not_doubled(polynomial)
     x = polynomial.gen
     _, parts = factor_list(polynomial.as_expr(), x) if _is_plain(polynomial) else (1, [(polynomial.as_expr(), 1)])
     found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
@@ -244,10 +253,6 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
 
 def _is_plain(polynomial: Poly) -> bool:
     return bool(polynomial.as_expr().count_ops() < 800)
-
-
-def _has_zero_root(polynomial: Poly) -> bool:
-    return bool(is_zero(polynomial.all_coeffs()[-1]))
 
 
 def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:

@@ -97,7 +97,6 @@ def _solution(
         )
 
     known = coordinates_of(*given)
-    outcome = "alone" if len(wanted) == 1 else "several" if i == 0 else "following"
     return establish(
         "solving.solved_for",
         unknown,
@@ -110,7 +109,7 @@ def _solution(
             means={} if isinstance(unknown, Symbol) else meaning(unknown, values[i]),
         ),
         routes={"put_back": put_back, "elimination": lambda found: (found, values[i])},
-        outcome=outcome,
+        outcome=_which(len(wanted), i),
         key=key,
         kind=kind_of_unknown(unknown, known),
         telling=Telling(
@@ -122,6 +121,12 @@ def _solution(
         ),
         scope=Scope(differ=EVERYTHING),
     )
+
+
+def _which(count: int, i: int) -> str:
+    if count == 1:
+        return "alone"
+    return "several" if i == 0 else "following"
 
 
 def _written(matrix: Matrix) -> Expr:

@@ -31,7 +31,8 @@ def _one_of(alone: bool, first: bool) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         count = sum(role.startswith("equation_") for role in facts.inputs)
-        return (count == 1) == alone and bool(alone or (facts.inputs["place"] == 0) == first)
+        place = 0 if facts.inputs["place"] == 0 else 1
+        return (count == 1) == alone and (alone or (place == 0) == first)
 
     return is_so
 

@@ -1,0 +1,54 @@
+"""The first terms of expressions where a letter is small, large, or near a value."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Expr, Integer, Rational, cos, exp, log, oo, sin, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expansion import Expansion, NoExpansion, expanded, in_ascending_powers, tidied_terms
+from derive.algebra.expressions import explicit
+
+x, a, b = symbols("x a b", positive=True)
+
+
+def terms(f: Expr, to: Expr, power: int | None) -> Expr:
+    return tidied_terms(expanded(f, x, to, None if power is None else Rational(power)), x, to)
+
+
+@pytest.mark.parametrize(
+    ("f", "to", "power", "expected"),
+    [
+        (sin(x), Integer(0), 3, x - x**3 / 6),
+        (1 - cos(x), Integer(0), None, x**2 / 2),
+        (1 / (a + x), Integer(0), 2, 1 / a - x / a**2 + x**2 / a**3),
+        (cos(x) / sin(x), Integer(0), 1, 1 / x - x / 3),
+        (sqrt(x**2 + a**2), oo, 1, x + a**2 / (2 * x)),
+        (sqrt(x), Integer(0), None, sqrt(x)),
+        (exp(x) / (x - a), a, None, exp(a) / (x - a)),
+        ((a * x + b) / (b * x + a), oo, None, a / b),
+        (1 / x, -oo, None, 1 / x),
+        (Integer(0) * x, Integer(0), None, Integer(0)),
+    ],
+)
+def test_the_terms_are_those_of_the_tables(f: Expr, to: Expr, power: int | None, expected: Expr) -> None:
+    """Abramowitz, Stegun, 3.6, 4.2 and 4.3."""
+    assert equal(terms(f, to, power), expected)
+    assert equal(in_ascending_powers(expanded(f, x, to, None if power is None else Rational(power)), x, to), expected)
+
+
+@pytest.mark.parametrize("f", [log(x), exp(1 / x), exp(-1 / x), x**a])
+def test_what_has_no_powers_has_no_expansion(f: Expr) -> None:
+    with pytest.raises(NoExpansion):
+        expanded(f, x, Integer(0), Rational(2))
+
+
+def test_an_order_below_the_leading_term_is_none() -> None:
+    with pytest.raises(NoExpansion):
+        expanded(x**3, x, Integer(0), Rational(2))
+
+
+def test_the_node_stands_for_its_terms_and_has_the_dimension_of_the_whole() -> None:
+    node = Expansion(sin(x), x, Integer(0), Integer(3))
+    assert equal(explicit(node), x - x**3 / 6)
+    assert node.dimension(lambda part: part) == sin(x)
