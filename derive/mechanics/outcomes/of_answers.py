@@ -47,7 +47,7 @@ def _slope_there(facts: Judged) -> Any:
 
 
 def _single(facts: Judged) -> bool:
-    return _polynomial(facts).degree() == 1
+    return bool(_polynomial(facts).degree() == 1)
 
 
 def _double(facts: Judged) -> bool:
