@@ -66,7 +66,7 @@ def steady_amplitude(
         key=key,
         kind=q.kind,
         telling=Telling(
-            formulas={"motion": (Factors(size, cos(angle - lag)), size * cos(angle - lag))},
+            formulas={"motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag))},
             judged_by={"loss": loss},
         ),
     )

@@ -346,6 +346,7 @@ def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: s
     """e^(-b t/2a) (C cos + D sin): the exponential that both have in common in front."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(lecture_form(C) * (e / common) for C, e in zip(values, basis, strict=True)))
+    inside = min((factor_terms(inside.expand()), inside), key=lambda form: int(form.count_ops()))
     return Mul(common, inside, evaluate=False) if common != 1 and inside.is_Add else common * inside
 
 

@@ -149,7 +149,7 @@ class Notation:
         return row(*items)
 
     def _product(self, expr: Expr) -> Layout:
-        above, below = fraction(roots_together(expr), exact=True)  # e^(-t) stays above
+        above, below = fraction(roots_together(expr), exact=expr.has(exp))  # e^(-t) stays above
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)
