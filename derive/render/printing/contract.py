@@ -17,13 +17,15 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from sympy import MatrixBase, Symbol
+from sympy import Integer, MatrixBase, Symbol
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.direction import Direction
+from derive.algebra.expansion import Expansion
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
+from derive.algebra.swing import SwingTime
 from derive.course.parts import points_text
 from derive.page.document import Illustration
 from derive.render.formats import Solution
@@ -170,8 +172,20 @@ def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
     if isinstance(form.expr, ex.Truncated):
         _, x, place, order = form.expr.args
         return {"variable": named.text(x), "place": named.text(place), "order": int(order)}
+    if form.because == "series" and i:
+        return _of_expansion(named, i)
     if isinstance(form.expr, ex.Relation) and i and form.because not in NUMBERS:
         return {"factor": named.text_of_value(named.factor(i)), "nonzero": [named.text(each) for each in form.nonzero]}
+    return {}
+
+
+def _of_expansion(named: StepNames, i: int) -> dict[str, Any]:
+    """In what an expansion is one, where it is about, and its order: in 1/x where x grows without bound."""
+    for node in named.step.chain[i - 1].expr.atoms(Expansion, SwingTime):
+        x, place = (node.args[1], node.args[2]) if isinstance(node, Expansion) else (node.args[2], Integer(0))
+        order = node.args[3]
+        told = int(order) if order.is_Integer else str(order)
+        return {"variable": named.text(x), "place": named.text(place), "order": told}
     return {}
 
 
