@@ -21,6 +21,7 @@ from derive.mechanics.equations.forced import *
 from derive.mechanics.equations.inequalities import *
 from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.linear_motion import *
+from derive.mechanics.equations.linearised import *
 from derive.mechanics.equations.oscillations import *
 from derive.mechanics.equations.quadratics import *
 from derive.mechanics.equations.roots import *

@@ -17,7 +17,7 @@ from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Quantity, compared_with
 
-__all__ = ["frequency", "frequency_squared", "linearised"]
+__all__ = ["frequency", "frequency_squared"]
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.numbers import Exp1, Pi
 
 from derive.algebra import expressions as ex
+from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expansion import Expansion
 from derive.algebra.rounding import Rounded, decimal_text
@@ -225,7 +226,7 @@ class Notation:
     # --- names and functions ---
 
     def _vector_or_tensor(self, expr: MatrixSymbol) -> Layout:
-        style = "vector" if expr.shape == (3, 1) else "tensor"
+        style = "vector" if expr.shape[1] == 1 else "tensor"
         plain = layout_of_name(expr.name)
         return Name(plain.base, plain.subscript, plain.dots, style)
 
@@ -422,4 +423,6 @@ class Notation:
         (SwingTime, lambda self, expr: self._swing(expr)),
         (ex.Truncated | Expansion, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
+        (Determinant, lambda self, expr: Applied("det", self._matrix(expr.args[0]))),
+        (Amplitudes, lambda self, expr: self.layout(present(expr.column))),
     )

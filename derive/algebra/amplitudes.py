@@ -1,0 +1,70 @@
+"""Nodes for equations in several unknowns: a column of amplitudes, and the determinant that must vanish.
+
+Amplitudes of one mode may be lengths and angles side by side, so that neither node asks for entries of one dimension.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer
+from sympy.matrices import MatrixBase
+from sympy.polys.matrices import DomainMatrix
+
+from derive.algebra.dimensions import Dimension, product
+from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, explicit
+
+
+class Amplitudes(MatrixNode):
+    """A column, one entry for each coordinate. Only the ratios of its entries mean anything."""
+
+    @property
+    def shape(self) -> tuple[Any, Any]:
+        return Integer(len(self.args)), Integer(1)
+
+    @property
+    def column(self) -> MatrixBase:
+        return ImmutableDenseMatrix(len(self.args), 1, list(self.args))
+
+    def _evaluated(self, *entries: Expr) -> MatrixBase:
+        return ImmutableDenseMatrix(len(entries), 1, list(entries))
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        for entry in self.args:
+            of(entry)
+        return None
+
+    def lowered(self, text: TextOf) -> str:
+        return f"Matrix([{', '.join(text(entry) for entry in self.args)}])"
+
+
+class Determinant(ScalarNode):
+    """The determinant of a square matrix of explicit entries."""
+
+    def doit(self, **hints: Any) -> Expr:
+        return determinant_of(explicit(self.args[0]))
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        """That of a product of entries, one of each row: all such products that do not vanish have the same."""
+        matrix = self.args[0]
+        for entry in matrix:
+            of(entry)
+        columns = _places(matrix, 0, ())
+        return product(of(matrix[i, j]) for i, j in enumerate(columns)) if columns else None
+
+    def lowered(self, text: TextOf) -> str:
+        return f"{text(self.args[0])}.det()"
+
+
+def determinant_of(matrix: MatrixBase) -> Expr:
+    """Worked out in the ring of the letters of its entries, where nothing is divided; multiplied out."""
+    domain = DomainMatrix.from_Matrix(matrix)
+    return domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
+
+
+def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:
+    """A column for each row such that no entry there vanishes."""
+    if row == matrix.shape[0]:
+        return taken
+    free = (j for j in range(matrix.shape[1]) if j not in taken and matrix[row, j] != 0)
+    return next((found for j in free if (found := _places(matrix, row + 1, (*taken, j)))), ())

@@ -1,0 +1,227 @@
+"""The eigenvalue problem K a = lambda M a, solved exactly: the roots of det(K - lambda M) = 0 and their columns.
+
+The matrices are freed of their common factors first, so that mostly numbers are left. Columns are worked out with lambda
+a letter, modulo the irreducible factor that it is a root of: whether a pivot vanishes is then decided exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Poly, chebyshevt, ilcm, pi, prime, sin, sqrt
+from sympy.matrices import MatrixBase
+from sympy.polys.constructor import construct_domain
+from sympy.polys.polyerrors import PolynomialError
+from sympy.polys.polytools import invert
+
+from derive.algebra.amplitudes import determinant_of
+from derive.algebra.tidy import common_factor, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.steps.step import is_zero
+
+LARGEST, LETTERS = 12, 40  # coordinates; coordinates times letters of the matrices
+FINEST = 60  # parts of a right angle or two that a frequency of a chain is looked for in
+
+
+@dataclass(frozen=True)
+class Root:
+    """A root lambda of det(K - lambda M), as often as it is one, and as many columns, orthogonal with M between them."""
+
+    value: Expr
+    columns: tuple[MatrixBase, ...]
+    sign: int | None
+
+    @property
+    def multiplicity(self) -> int:
+        return len(self.columns)
+
+
+@dataclass(frozen=True)
+class Pencil:
+    """K - lambda M, of symmetric matrices."""
+
+    stiffness: MatrixBase
+    mass: MatrixBase
+
+    @cached_property
+    def scale(self) -> Expr:
+        """What lambda is counted in, so that as few letters as possible are left: k/m."""
+        return common_factor(list(self.stiffness)) / common_factor(list(self.mass))
+
+    @cached_property
+    def _reduced(self) -> tuple[MatrixBase, MatrixBase]:
+        parts = (each / common_factor(list(each)) for each in (self.stiffness, self.mass))
+        stiffness, mass = (ImmutableDenseMatrix(part.applyfunc(tidied)) for part in parts)
+        return stiffness, mass
+
+    @cached_property
+    def factors(self) -> tuple[tuple[Poly, int], ...]:
+        """The irreducible factors of the determinant as a polynomial in lambda/scale, with their powers."""
+        stiffness, mass = self._reduced
+        size = stiffness.shape[0]
+        if size > LARGEST or size > 3 and size * len((stiffness + mass).free_symbols) > LETTERS:
+            message = f"the frequencies of {size} coordinates with so many letters are too much to be worked out"
+            raise Rejected(Complaint("too-large", message, help="give equal masses and springs one letter"))
+        whole = determinant_of(stiffness - _LAMBDA * mass)
+        try:
+            found = Poly(whole, _LAMBDA).factor_list()[1]
+        except PolynomialError:
+            found = []
+        if sum(part.degree() * times for part, times in found) != size:
+            raise Rejected(Complaint("no-closed-form", "the determinant is no polynomial that could be factored"))
+        return tuple((part, times) for part, times in found)
+
+    def factored(self, unknown: Expr) -> Expr:
+        """The determinant but for a constant factor, in factors, with lambda put in."""
+        parts = []
+        for part, times in self.factors:
+            value = tidied(part.as_expr().xreplace({_LAMBDA: unknown / self.scale}))
+            above = value.as_numer_denom()[0]
+            parts.append((_leading_positive(above, unknown)) ** times)
+        return Mul(*parts)
+
+    @cached_property
+    def roots(self) -> tuple[Root, ...]:
+        """From the least to the greatest, where the letters have middling values."""
+        found = [
+            self._root(part, value, times) for part, times in self.factors for value in _roots_of(part)
+        ]
+        return tuple(sorted(found, key=lambda root: _size(root.value)))
+
+    def _root(self, part: Poly, value: Expr, times: int) -> Root:
+        stiffness, mass = self._reduced
+        columns = [
+            ImmutableDenseMatrix(column.applyfunc(lambda e: tidied(e.as_expr().xreplace({_LAMBDA: value}))))
+            for column in _null_columns(stiffness - _LAMBDA * mass, part)
+        ]
+        if len(columns) != times:
+            raise Rejected(Complaint("no-closed-form", "a repeated frequency has fewer shapes than it should"))
+        exact = tidied(self.scale * value)
+        return Root(exact, tuple(_presentable(c) for c in _orthogonal(columns, mass)), self._sign(exact))
+
+    def _sign(self, value: Expr) -> int | None:
+        """Of a root: by itself; else positive where both matrices are positive, by their leading minors."""
+        if is_zero(value):
+            return 0
+        own = 1 if value.is_positive else -1 if value.is_negative else sign_by_factors(value)
+        return own if own is not None else 1 if self._is_positive else None
+
+    @cached_property
+    def _is_positive(self) -> bool:
+        matrices = (self.stiffness, self.mass)
+        minors = (determinant_of(each[:n, :n]) for each in matrices for n in range(1, each.shape[0] + 1))
+        return all(sign_by_factors(tidied(minor)) == 1 for minor in minors)
+
+
+_LAMBDA = Dummy("lambda")
+
+
+def _leading_positive(value: Expr, unknown: Expr) -> Expr:
+    """Without a minus sign before the highest power, where that is known."""
+    letters = unknown.free_symbols
+    leading = value.as_poly(*letters)
+    return -value if leading is not None and leading.LC().could_extract_minus_sign() else value
+
+
+def _roots_of(part: Poly) -> list[Expr]:
+    """Of an irreducible polynomial: linear, quadratic, or that of a uniform chain."""
+    if part.degree() == 1:
+        a, b = part.all_coeffs()
+        return [tidied(-b / a)]
+    if part.degree() == 2:
+        a, b, c = part.all_coeffs()
+        root = sqrt(tidied(b**2 - 4 * a * c))
+        return [tidied((-b - root) / (2 * a)), tidied((-b + root) / (2 * a))]
+    found = _of_chain(part)
+    if found is None:
+        message = f"the squares of {part.degree()} frequencies are the roots of a polynomial that does not factor"
+        raise Rejected(Complaint("no-closed-form", message, help="give equal masses and springs one letter"))
+    return found
+
+
+def _of_chain(part: Poly) -> list[Expr] | None:
+    """4 sin^2(a pi/2b) for all roots: then the polynomial divides T_b(1 - lambda/2) -+ 1, with Chebyshev's T_b."""
+    if not part.get_domain().is_ZZ and not part.get_domain().is_QQ:
+        return None
+    for b in range(part.degree() + 1, FINEST):
+        whole = chebyshevt(b, 1 - _LAMBDA / 2)
+        for parity, sign in ((0, 1), (1, -1)):
+            if not Poly(whole - sign, _LAMBDA).rem(part).is_zero:
+                continue
+            angles = [a * pi / (2 * b) for a in range(b + 1) if a % 2 == parity]
+            values = [4 * sin(angle) ** 2 for angle in angles]
+            found = [value for value in values if abs(part.eval(value.evalf(30))) < 1e-20]
+            return found if len(found) == part.degree() else None
+    return None
+
+
+def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:
+    """A basis of what the matrix takes to zero, where lambda is a root of the irreducible polynomial."""
+    size = matrix.shape[0]
+
+    def reduced(entry: Expr) -> Poly:
+        return Poly(entry, _LAMBDA, domain=field).rem(modulus)
+
+    polynomials = [part, *(Poly(entry, _LAMBDA) for entry in matrix)]
+    field, _ = construct_domain([c for each in polynomials for c in each.all_coeffs()], field=True)
+    modulus = Poly(part.as_expr(), _LAMBDA, domain=field)
+    rows = [[reduced(matrix[i, j]) for j in range(size)] for i in range(size)]
+    pivots: list[int] = []
+    for j in range(size):
+        at = len(pivots)
+        chosen = next((i for i in range(at, size) if not _is_nothing(rows[i][j])), None)
+        if chosen is None:
+            continue
+        rows[at], rows[chosen] = rows[chosen], rows[at]
+        inverse = invert(rows[at][j], modulus)
+        rows[at] = [(entry * inverse).rem(modulus) for entry in rows[at]]
+        for i in range(size):
+            if i != at and not _is_nothing(rows[i][j]):
+                factor = rows[i][j]
+                rows[i] = [(a - factor * b).rem(modulus) for a, b in zip(rows[i], rows[at], strict=True)]
+        pivots.append(j)
+    free = [j for j in range(size) if j not in pivots]
+    columns = []
+    for j in free:
+        entries = [Poly(1 if i == j else 0, _LAMBDA, domain=field) for i in range(size)]
+        for row, pivot in enumerate(pivots):
+            entries[pivot] = -rows[row][j]
+        columns.append(_first_is_one(entries, modulus))
+    return columns
+
+
+def _is_nothing(entry: Poly) -> bool:
+    return bool(entry.is_zero) or all(is_zero(c) for c in entry.all_coeffs())
+
+
+def _first_is_one(entries: list[Poly], modulus: Poly) -> MatrixBase:
+    first = next(entry for entry in entries if not _is_nothing(entry))
+    inverse = invert(first, modulus)
+    return ImmutableDenseMatrix([(entry * inverse).rem(modulus).as_expr() for entry in entries])
+
+
+def _orthogonal(columns: Iterable[MatrixBase], mass: MatrixBase) -> list[MatrixBase]:
+    """Gram and Schmidt's way, with M between the columns."""
+    found: list[MatrixBase] = []
+    for column in columns:
+        for other in found:
+            share = (other.T * mass * column)[0] / (other.T * mass * other)[0]
+            column = ImmutableDenseMatrix((column - share * other).applyfunc(tidied))
+        found.append(column)
+    return found
+
+
+def _presentable(column: MatrixBase) -> MatrixBase:
+    """(2, 3) for (1, 3/2), where all entries are rational numbers."""
+    if not all(entry.is_Rational for entry in column):
+        return column
+    return ImmutableDenseMatrix(column * ilcm(1, *(entry.q for entry in column)))
+
+
+def _size(value: Expr) -> tuple[float, str]:
+    letters = sorted(value.free_symbols, key=str)
+    number = value.subs({s: Integer(prime(n + 20)) / prime(20) for n, s in enumerate(letters)}).evalf()
+    return (float(number) if number.is_real else 0.0), str(value)

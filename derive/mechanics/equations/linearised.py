@@ -1,0 +1,201 @@
+"""Equations of motion to first order about a state of rest, in any number of coordinates.
+
+M eta_ddot + G eta_dot + K eta = 0, with eta the displacements. The matrices are read off the equations of motion; the
+second route has them from the kinetic energy of mass points and from the virtual work of the forces, to second order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy.matrices import MatrixBase
+
+from derive.algebra.collect import spread
+from derive.algebra.expressions import TIME, Relation, explicit, rate, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations import oscillations
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.systems.dalembert import Matter
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Fact, Quantity, compared_with, is_zero
+
+__all__ = ["linearised"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Rest(Fact):
+    """A state of rest: the values of the coordinates, and where it exists; a coordinate left out may have any value."""
+
+    missing = "is not a state of rest"
+    values: Mapping[Symbol, Expr]
+    exists: Relation | None = None
+
+
+@dataclass(frozen=True)
+class Linear(Fact):
+    """Linear equations M eta_ddot + G eta_dot + K eta = 0 together: the matrices and the displacements."""
+
+    missing = "is not an equation of motion to first order"
+    mass: MatrixBase
+    turning: MatrixBase
+    stiffness: MatrixBase
+    displacements: tuple[Coordinate, ...]
+
+
+def linearised(
+    motion: Quantity | Sequence[Quantity], at: Quantity | Mapping[Any, Expr] | Expr | None = None, key: str = "linearised"
+) -> Any:
+    """Equations of motion to first order in the displacements from rest, M eta_ddot + G eta_dot + K eta = 0.
+
+    motion   the equations, as `equations_of_motion` yields them; or one, of one coordinate
+    at       the state of rest: as `equilibria` yields it, or `{theta: 0, phi: pi}`; all coordinates 0 unless given
+    Keys: linearised_ and the name of the coordinate. Where a coordinate is not 0 at rest its displacement is called eta.
+    Second route: M from the kinetic energy of the mass points, K from the virtual work of the forces, to second order.
+    Outcomes: generic, displaced (some coordinate is not 0 at rest).
+    Errors: a force is left at that place; a value is missing; the equations hold the time.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
+    """
+    if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
+        return oscillations.linearised(motion, at, key)
+    equations = (motion,) if isinstance(motion, Quantity) else tuple(motion)
+    moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
+    place = _place_of(equations, moving, at)
+    _check_rest(equations, moving, place)
+    eta = _displacements(moving, place)
+    linear = Linear(*(_coefficients(equations, moving, place, order) for order in (2, 1, 0)), eta)
+    rests = [at] if isinstance(at, Quantity) else []
+    return tuple(_one(equations, i, moving, place, linear, rests, key) for i in range(len(equations)))
+
+
+def _one(
+    equations: Sequence[Quantity],
+    i: int,
+    moving: list[Coordinate],
+    place: Mapping[Symbol, Expr],
+    linear: Linear,
+    rests: Sequence[Quantity],
+    key: str,
+) -> Quantity:
+    """The linear equation that belongs to one coordinate."""
+    eta = linear.displacements
+    ordered = [
+        (matrix, [rate(s.symbol, n) if n else s.symbol for s in eta])
+        for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
+    ]
+    terms = [spread(matrix[i, j]) * s for matrix, letters in ordered for j, s in enumerate(letters)]
+    left = Add(*(term for term in terms if term != 0), evaluate=False)
+    displaced = eta != tuple(moving)
+    counted = {
+        f"from_{s.symbol.name}": (
+            Relation(q.symbol, "=", place[q.symbol] + s.symbol),
+            Relation(s.symbol, "=", q.symbol - place[q.symbol]),
+        )
+        for q, s in zip(moving, eta, strict=True)
+        if q != s
+    }
+    return establish(
+        "linearised.equation",
+        None,
+        lambda *_: Relation(left, "=", 0),
+        {},
+        lines=Lines(put_in=None, arranged=explicit),
+        routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
+        outcome="displaced" if displaced else "generic",
+        telling=Telling(
+            points_to={"motion": equations[i]},
+            judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta)},
+            formulas=counted,
+        ),
+        key=f"{key}_{moving[i].symbol.name}",
+        parents=[*equations, *rests],
+        facts=[linear, OfCoordinate(eta[i])],
+        scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
+    )
+
+
+def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
+    """Values by the coordinates' letters, of a state of rest or as a script writes them."""
+    if isinstance(at, Quantity):
+        return dict(at.needed(Rest).values)
+    return {q.symbol if isinstance(q, Coordinate) else q: Integer(0) + value for q, value in at.items()}
+
+
+def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:
+    """A value for each coordinate; one that no equation holds itself may have any, and is counted from there."""
+    known = dict.fromkeys((q.symbol for q in moving), ZERO) if at is None else place_given(at)
+    strange = [s for s in known if s not in {q.symbol for q in moving}]
+    if strange:
+        message = f"`linearised`: these equations have no coordinate {strange[0]}"
+        raise Rejected(Complaint("wrong-argument", message))
+    left = [explicit(equation.value).residual for equation in equations]
+    for q in moving:
+        if q.symbol not in known and any(value.has(q.symbol) for value in left):
+            message = f"`linearised`: nothing says what {q.symbol.name} is at rest"
+            raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{q.symbol.name}: 0`"))
+    return {q.symbol: known.get(q.symbol, ZERO) for q in moving}
+
+
+def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> Expr:
+    still = {letter: ZERO for q in moving for letter in (q.rate, q.acceleration)}
+    return tidied(value.xreplace(still).subs(place, simultaneous=True))
+
+
+def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
+    """Without rates and accelerations nothing is left of the equations there, at any time."""
+    where = ", ".join(f"{s} = {value}" for s, value in place.items())
+    for equation in equations:
+        value = explicit(equation.value).residual
+        if value.has(TIME):
+            message = f"`{equation.key}` holds the time itself, so that it has no constant coefficients"
+            raise Rejected(Complaint("changes", message))
+        left = _at_rest(value, moving, place)
+        if not is_zero(left):
+            message = f"`{equation.key}` is not in equilibrium at {where}: {left} is left for 0"
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+
+
+def _coefficients(
+    equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr], order: int
+) -> MatrixBase:
+    """What stands at rest before the accelerations, the rates, or the coordinates, of each equation."""
+
+    def entry(i: int, j: int) -> Expr:
+        q = moving[int(j)].symbol
+        left = explicit(equations[int(i)].value).residual
+        return _at_rest(diff(left, rate(q, order) if order else q), moving, place)
+
+    return ImmutableDenseMatrix(len(equations), len(moving), entry)
+
+
+def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> tuple[Coordinate, ...]:
+    """The coordinate itself where it is 0 at rest, else eta; eta_1, eta_2, ... where there are several."""
+    away = [q for q in moving if place[q.symbol] != 0]
+    names = {q: "eta" if len(away) == 1 else f"eta_{n + 1}" for n, q in enumerate(away)}
+    return tuple(Coordinate(scalar(names[q]), q.kind) if q in names else q for q in moving)
+
+
+def _of_second_order(
+    equations: Sequence[Quantity],
+    i: int,
+    moving: Sequence[Coordinate],
+    place: Mapping[Symbol, Expr],
+    eta: Sequence[Coordinate],
+) -> Relation:
+    """The same from mass points and forces: T and the forces along the coordinates, differentiated at rest."""
+    matter = equations[i].needed(Matter)
+    kinetic, q = matter.kinetic_energy(), moving[i]
+    force = matter.force_along(q.symbol)
+    terms = []
+    for other, s in zip(moving, eta, strict=True):
+        mass = diff(kinetic, q.rate, other.rate)
+        turning = diff(kinetic, q.rate, other.symbol) - diff(kinetic, q.symbol, other.rate) - diff(force, other.rate)
+        stiffness = -diff(force, other.symbol) - diff(kinetic, q.symbol, other.symbol)
+        for value, letter in ((mass, s.acceleration), (turning, s.rate), (stiffness, s.symbol)):
+            terms.append(_at_rest(value, moving, place) * letter)
+    return Relation(Add(*terms), "=", 0)

@@ -1,0 +1,263 @@
+"""Normal modes: motions in which all coordinates swing with one frequency, their frequencies and their shapes.
+
+Linear equations M eta_ddot + K eta = 0 have solutions eta = a cos(omega t) where det(K - omega^2 M) = 0. A root that is
+zero belongs to a free motion, a negative one to a displacement that grows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixSymbol, Symbol, cos, diff, exp, pi, sin, sqrt
+from sympy.matrices import MatrixBase
+
+from derive.algebra.amplitudes import Amplitudes, Determinant
+from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.characteristic import Pencil
+from derive.mechanics.equations.characteristic import Root as RootOfPencil
+from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.systems.coordinates import Coordinate, T
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
+
+__all__ = ["beats", "normal_modes", "period"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Mode(Fact):
+    """The frequency, or the rate of growth, of a mode: its root lambda = omega^2 with its sign, and its columns."""
+
+    missing = "is not the frequency of a normal mode"
+    root: RootOfPencil
+
+
+def normal_modes(linear: Sequence[Quantity], symbol: str = "omega", key: str = "mode") -> tuple[Quantity, ...]:
+    """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
+
+    linear   the equations, as `linearised` yields them
+    Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes, of
+    which only the ratios mean anything.
+    Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
+    the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
+    Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
+    the letters), each also as repeated; of shapes: in_phase, opposite, one_at_rest, alone, generic, uniform, departing,
+    any_of_several.
+    Errors: there are terms with rates; the roots have no closed form; too many letters.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
+    """
+    together = linear[0].needed(Linear)
+    _check_whole(linear, together)
+    pencil = Pencil(together.stiffness, together.mass)
+    letter = scalar(symbol)
+    if letter in (together.stiffness + together.mass).free_symbols:
+        message = f"`normal_modes` would call the frequency {symbol}, but {symbol} stands for something that is given"
+        raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
+    characteristic = _characteristic(linear, together, pencil, letter)
+    frequencies = [
+        _frequency(characteristic, together, pencil, n, symbol if len(linear) > 1 else f"{symbol}_0", len(linear))
+        for n in range(len(pencil.roots))
+    ]
+    shapes: list[Quantity] = []
+    for found in frequencies if len(linear) > 1 else []:
+        for column in found.needed(Mode).root.columns:
+            shapes.append(_shape(linear, together, found, column, shapes, key))
+    return (*frequencies, *shapes)
+
+
+def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
+    if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
+        message = "`normal_modes` needs all the equations that `linearised` yields together"
+        raise Rejected(Complaint("wrong-argument", message))
+    if not is_zero(together.turning):
+        held = next(s for s in together.displacements if any(each.value.left.has(s.rate) for each in linear))
+        message = f"`normal_modes` needs equations without rates, but there is a term with the rate of {held.symbol}"
+        raise Rejected(Complaint("wrong-argument", message))
+    if together.stiffness != together.stiffness.T or together.mass != together.mass.T:
+        raise Rejected(Complaint("wrong-argument", "`normal_modes` needs forces that have a potential energy"))
+    for matrix, role in ((together.mass, "mass"), (together.stiffness, "stiffness")):
+        for entry in matrix:
+            require_constant("normal_modes", role, entry)
+
+
+def _characteristic(
+    linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol
+) -> Quantity:
+    """det(K - omega^2 M) = 0."""
+    matrix = ImmutableDenseMatrix((together.stiffness - letter**2 * together.mass).applyfunc(_by_powers(letter)))
+    whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
+
+    def by_trial(found: Relation) -> tuple[Relation, Relation]:
+        """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
+        amplitudes = [Symbol(f"a_{n}", real=True) for n in range(len(linear))]
+        swing = cos(letter * T)
+        left = [_with_motion(each, together, [a * swing for a in amplitudes]) / swing for each in linear]
+        rows = [[diff(value.expand(), a) for a in amplitudes] for value in left]
+        method = "laplace" if len(rows) < 4 else "bareiss"
+        return found, Relation(ImmutableDenseMatrix(rows).det(method=method).expand(), "=", 0)
+
+    return establish(
+        "modes.characteristic",
+        None,
+        lambda *_: Relation(whole, "=", 0),
+        {"omega": letter},
+        lines=Lines(put_in=None, arranged=lambda _: Relation(pencil.factored(letter**2), "=", 0)),
+        routes={"trial": by_trial},
+        outcome="several" if len(linear) > 1 else "one",
+        key="characteristic_equation",
+        parents=linear,
+        scope=Scope(coordinates={letter: "angular speed"}),
+    )
+
+
+def _by_powers(letter: Symbol) -> Any:
+    """2 m g l - 2 m l^2 omega^2, in this order and with its factors in front."""
+    return lambda entry: tidied(entry)
+
+
+def _with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
+    """The left side of a linear equation with a motion eta(t) put in."""
+    put_in: dict[Any, Expr] = {}
+    for s, eta in zip(together.displacements, motion, strict=True):
+        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
+    return explicit(equation.value).residual.xreplace(put_in)
+
+
+_OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
+
+
+def _frequency(
+    characteristic: Quantity, together: Linear, pencil: Pencil, n: int, symbol: str, size: int
+) -> Quantity:
+    """One frequency, or rate of growth."""
+    root = pencil.roots[n]
+    number = f"_{n + 1}" if size > 1 else ""
+    name = f"kappa{number}" if root.sign == -1 else f"{symbol}{number}"
+    letter = characteristic.step.coordinates[-1][0]
+    turned = -1 if root.sign == -1 else 1
+
+    def put_back(found: Expr) -> tuple[Expr, Expr]:
+        return characteristic.value.left.xreplace({letter**2: turned * found**2}).subs(letter**2, turned * found**2), ZERO
+
+    def rayleigh(found: Expr) -> tuple[Expr, Expr]:
+        column = root.columns[0]
+        stiffness, mass = ((column.T * each * column)[0] for each in (together.stiffness, together.mass))
+        return turned * found**2 * mass, stiffness
+
+    def trace(found: Expr) -> tuple[Expr, Expr]:
+        others = Add(*(r.value * r.multiplicity for i, r in enumerate(pencil.roots) if i != n))
+        return turned * found**2 * root.multiplicity + others, _trace(together)
+
+    outcome = _OF_SIGN[root.sign] + ("_repeated" if root.multiplicity > 1 else "")
+    return establish(
+        "modes.frequency",
+        scalar(name),
+        lambda *_: _root_of(turned * root.value),
+        {},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"put_back": put_back, "rayleigh": rayleigh, "trace": trace},
+        outcome=outcome,
+        telling=Telling(
+            points_to={"characteristic": characteristic},
+            judged_by={"stiffness": together.stiffness, "mass": together.mass},
+        ),
+        key=f"frequency{number}",
+        kind="angular speed",
+        parents=[characteristic],
+        facts=[Mode(root)],
+    )
+
+
+def _trace(together: Linear) -> Expr:
+    """Of M^-1 K, as the sum of K_ij times the cofactor of M_ij, over det M."""
+    size = together.mass.shape[0]
+    mass = together.mass
+    cofactors = (together.stiffness[i, j] * mass.cofactor(i, j) for i in range(size) for j in range(size))
+    return tidied(Add(*cofactors) / mass.det())
+
+
+def _root_of(square: Expr) -> Expr:
+    """sqrt(k/m) under one root; a rational root is drawn, and so is that of a sine."""
+    drawn = tidied(sqrt(square))
+    if drawn == 0 or square.has(sin) or not drawn.has(sqrt(square)) and not _is_irrational(drawn):
+        return drawn
+    return Root(square)
+
+
+def _is_irrational(value: Expr) -> bool:
+    return any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(type(sqrt(T))))
+
+
+def _shape(
+    linear: Sequence[Quantity],
+    together: Linear,
+    frequency: Quantity,
+    column: MatrixBase,
+    before: Sequence[Quantity],
+    key: str,
+) -> Quantity:
+    """The amplitudes of one mode."""
+    root = frequency.needed(Mode).root
+    n = len(before) + 1
+    squared = root.value
+
+    def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
+        """The motion put into the linear equations, at any time."""
+        w = Symbol("w", positive=True)
+        course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
+        turned = -squared if root.sign == -1 else squared
+        left = [_with_motion(each, together, [a * course for a in found]) / course for each in linear]
+        values = [value.expand().subs(w**2, turned) if root.sign != 0 else value for value in left]
+        return ImmutableDenseMatrix([tidied(v) for v in values]), ImmutableDenseMatrix([ZERO] * len(values))
+
+    def across(found: MatrixBase) -> tuple[Expr, Expr]:
+        marks = [Symbol(f"u_{i}", real=True) for i in range(len(before))]
+        products = [(other.value.T * together.mass * found)[0] for other in before]
+        return Add(*(mark * product for mark, product in zip(marks, products, strict=True))), ZERO
+
+    return establish(
+        "modes.shape",
+        MatrixSymbol(f"{_letter_of_shapes(column)}_{n}", len(column), 1),
+        lambda _: Amplitudes(*column),
+        {"frequency": frequency},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"motion": moving, "orthogonal": across},
+        outcome=_shape_outcome(root, column, together.displacements),
+        telling=Telling(
+            points_to={"linear": linear[0]},
+            formulas={},
+            judged_by={"squared": squared, "multiplicity": Integer(root.multiplicity)},
+        ),
+        key=f"{key}_{n}",
+        parents=[*linear, *before],
+    )
+
+
+def _letter_of_shapes(column: MatrixBase) -> str:
+    taken = {s.name.partition("_")[0] for s in column.free_symbols}
+    return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
+
+
+def _shape_outcome(root: RootOfPencil, column: MatrixBase, displacements: Sequence[Coordinate]) -> str:
+    if root.multiplicity > 1:
+        return "any_of_several"
+    if root.sign == 0:
+        return "uniform"
+    if root.sign == -1:
+        return "departing"
+    if len(column) != 2:
+        return "generic"
+    return _pair(*column)
+
+
+def _pair(first: Expr, second: Expr) -> str:
+    if is_zero(first) or is_zero(second):
+        return "alone"
+    ratio = tidied(second / first)
+    return "in_phase" if ratio.is_positive else "opposite" if ratio.is_negative else "generic"
