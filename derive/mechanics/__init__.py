@@ -22,6 +22,7 @@ from derive.mechanics.equations.inequalities import *
 from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.linear_motion import *
 from derive.mechanics.equations.linearised import *
+from derive.mechanics.equations.modes import *
 from derive.mechanics.equations.oscillations import *
 from derive.mechanics.equations.quadratics import *
 from derive.mechanics.equations.roots import *

@@ -10,11 +10,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Poly, chebyshevt, ilcm, pi, prime, sin, sqrt
+from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Poly, chebyshevt, cos, ilcm, pi, prime, sin, sqrt
 from sympy.matrices import MatrixBase
 from sympy.polys.constructor import construct_domain
 from sympy.polys.polyerrors import PolynomialError
 from sympy.polys.polytools import invert
+from sympy.simplify.fu import TR8
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.tidy import common_factor, tidied
@@ -79,8 +80,8 @@ class Pencil:
         parts = []
         for part, times in self.factors:
             value = tidied(part.as_expr().xreplace({_LAMBDA: unknown / self.scale}))
-            above = value.as_numer_denom()[0]
-            parts.append((_leading_positive(above, unknown)) ** times)
+            above = value.as_numer_denom()[0].as_independent(*unknown.free_symbols, as_Add=False)[1]
+            parts.append(_leading_positive(above, unknown) ** times)
         return Mul(*parts)
 
     @cached_property
@@ -94,7 +95,7 @@ class Pencil:
     def _root(self, part: Poly, value: Expr, times: int) -> Root:
         stiffness, mass = self._reduced
         columns = [
-            ImmutableDenseMatrix(column.applyfunc(lambda e: tidied(e.as_expr().xreplace({_LAMBDA: value}))))
+            ImmutableDenseMatrix(column.applyfunc(lambda entry: _entry_at(entry, value)))
             for column in _null_columns(stiffness - _LAMBDA * mass, part)
         ]
         if len(columns) != times:
@@ -156,6 +157,14 @@ def _of_chain(part: Poly) -> list[Expr] | None:
             found = [value for value in values if abs(part.eval(value.evalf(30))) < 1e-20]
             return found if len(found) == part.degree() else None
     return None
+
+
+def _entry_at(entry: Expr, value: Expr) -> Expr:
+    """An entry with lambda put in; of a chain, 4 sin^2 u, with multiples of the angle in place of powers."""
+    if not value.has(sin):
+        return tidied(entry.xreplace({_LAMBDA: value}))
+    angle = next(iter(value.atoms(sin))).args[0]
+    return TR8(entry.xreplace({_LAMBDA: 2 - 2 * cos(2 * angle)}).expand()).expand()
 
 
 def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:

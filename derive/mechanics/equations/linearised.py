@@ -90,23 +90,19 @@ def _one(
     ]
     terms = [spread(matrix[i, j]) * s for matrix, letters in ordered for j, s in enumerate(letters)]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
-    displaced = eta != tuple(moving)
+    away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     counted = {
-        f"from_{s.symbol.name}": (
-            Relation(q.symbol, "=", place[q.symbol] + s.symbol),
-            Relation(s.symbol, "=", q.symbol - place[q.symbol]),
-        )
-        for q, s in zip(moving, eta, strict=True)
-        if q != s
+        f"counted_{n}": (Relation(q, "=", place[q] + s), Relation(s, "=", q - place[q]))
+        for n, (q, s) in enumerate(away, 1)
     }
     return establish(
         "linearised.equation",
         None,
         lambda *_: Relation(left, "=", 0),
         {},
-        lines=Lines(put_in=None, arranged=explicit),
+        lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
-        outcome="displaced" if displaced else "generic",
+        outcome="displaced" if away else "generic",
         telling=Telling(
             points_to={"motion": equations[i]},
             judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta)},

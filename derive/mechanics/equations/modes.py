@@ -47,8 +47,9 @@ def normal_modes(linear: Sequence[Quantity], symbol: str = "omega", key: str = "
     Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
     the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
-    the letters), each also as repeated; of shapes: in_phase, opposite, one_at_rest, alone, generic, uniform, departing,
-    any_of_several.
+    the letters); where two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
+    conditional_repeated; of shapes: in_phase, opposite, alone (the other is at rest), generic, uniform (free motion),
+    departing (growing), any_of_several (repeated); of the determinant: several, one (coordinate).
     Errors: there are terms with rates; the roots have no closed form; too many letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
@@ -90,7 +91,7 @@ def _characteristic(
     linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol
 ) -> Quantity:
     """det(K - omega^2 M) = 0."""
-    matrix = ImmutableDenseMatrix((together.stiffness - letter**2 * together.mass).applyfunc(_by_powers(letter)))
+    matrix = ImmutableDenseMatrix((together.stiffness - letter**2 * together.mass).applyfunc(tidied))
     whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
@@ -114,11 +115,6 @@ def _characteristic(
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
-
-
-def _by_powers(letter: Symbol) -> Any:
-    """2 m g l - 2 m l^2 omega^2, in this order and with its factors in front."""
-    return lambda entry: tidied(entry)
 
 
 def _with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
@@ -231,8 +227,7 @@ def _shape(
         outcome=_shape_outcome(root, column, together.displacements),
         telling=Telling(
             points_to={"linear": linear[0]},
-            formulas={},
-            judged_by={"squared": squared, "multiplicity": Integer(root.multiplicity)},
+            judged_by={"squared": squared, "stiffness": together.stiffness, "mass": together.mass},
         ),
         key=f"{key}_{n}",
         parents=[*linear, *before],
@@ -261,3 +256,65 @@ def _pair(first: Expr, second: Expr) -> str:
         return "alone"
     ratio = tidied(second / first)
     return "in_phase" if ratio.is_positive else "opposite" if ratio.is_negative else "generic"
+
+
+def period(of: Quantity, symbol: str = "tau", key: str = "period") -> Quantity:
+    """Period of an oscillation, tau = 2 pi/omega.
+
+    of   its angular frequency, 1/s
+    Second route: after that time, and not after half of it, cos(omega t) and its rate are what they were.
+    Errors: this is no angular frequency of an oscillation.
+    Source: Taylor, *Classical Mechanics*, section 5.2.
+    """
+    require_kind("period", "of", of, "angular speed")
+    mode = of.fact(Mode)
+    if of.step.outcome in {"growing", "free", "unstable", "neutral"} or mode is not None and mode.root.sign in (-1, 0):
+        raise Rejected(Complaint("no-oscillation", f"`{of.key}` is not the frequency of an oscillation"))
+
+    def same_again(found: Expr) -> tuple[Expr, Expr]:
+        """Once round, counted by what a turn adds to the phase: cos and sin of it, and cos of its half."""
+        turn = tidied(of.value * found)
+        u, v = (Symbol(name, real=True) for name in ("u", "v"))
+        return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
+
+    return establish(
+        "modes.period",
+        scalar(symbol),
+        lambda omega: Ratio(2 * pi, omega),
+        {"frequency": of},
+        lines=Lines(put_in=None, arranged=explicit),
+        routes={"once_round": same_again},
+        key=key,
+        kind="time",
+    )
+
+
+def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
+    """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
+
+    slow, fast   the angular frequencies of two modes, 1/s
+    cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2), whose size rises and
+    falls with the difference.
+    Second route: the two swings added are that product, at any time.
+    Errors: the first is faster, or the two are the same; one is no frequency of an oscillation.
+    Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
+    """
+    for role, each in (("slow", slow), ("fast", fast)):
+        require_kind("beats", role, each, "angular speed")
+    if slow.value == 0 or is_zero(fast.value - slow.value):
+        raise Rejected(Complaint("no-beats", f"`{slow.key}` and `{fast.key}` do not beat", help="give two frequencies"))
+
+    def product(found: Expr) -> tuple[Expr, Expr]:
+        middle = (slow.value + fast.value) / 2
+        return cos(slow.value * T) + cos(fast.value * T), 2 * cos(found * T / 2) * cos(middle * T)
+
+    return establish(
+        "modes.beats",
+        scalar(symbol),
+        lambda one, other: Terms(other, -one),
+        {"slow": slow, "fast": fast},
+        lines=Lines(put_in=Level.STANDARD, arranged=explicit),
+        routes={"product": product},
+        key=key,
+        kind="angular speed",
+    )

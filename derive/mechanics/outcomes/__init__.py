@@ -7,3 +7,6 @@ of a body by its particles, the shape of a potential by its derivatives. `establ
 from derive.mechanics.outcomes import of_answers, of_bodies, of_conditions, of_motion, of_rotation
 
 __all__ = ["of_answers", "of_bodies", "of_conditions", "of_motion", "of_rotation"]
+from derive.mechanics.outcomes import of_bodies, of_conditions, of_modes, of_motion, of_rotation
+
+__all__ = ["of_bodies", "of_conditions", "of_modes", "of_motion", "of_rotation"]

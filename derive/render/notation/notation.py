@@ -424,5 +424,5 @@ class Notation:
         (ex.Truncated | Expansion, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
         (Determinant, lambda self, expr: Applied("det", self._matrix(expr.args[0]))),
-        (Amplitudes, lambda self, expr: self.layout(present(expr.column))),
+        (Amplitudes, lambda self, expr: self._matrix(expr.column)),
     )

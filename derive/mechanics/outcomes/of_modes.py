@@ -1,0 +1,125 @@
+"""What must be true for each word that chooses a sentence about linear equations and their modes.
+
+Frequencies are judged in numbers: with some positive numbers for the letters, det(K - lambda M) is a polynomial in one
+unknown, and it is asked whether it vanishes at the square of what was found, and whether its slope does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sympy import Abs, Dummy, Expr, Integer, Poly, Rational, prime
+
+from derive.algebra.amplitudes import determinant_of
+from derive.mechanics.outcomes.signs import always_sign
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.step import is_zero
+
+LITTLE = Rational(1, 10**15)
+
+
+def _numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
+    """Positive numbers for the letters, from one scale to another."""
+    letters = sorted((facts.inputs["stiffness"] + facts.inputs["mass"]).free_symbols, key=str)
+    for shift in range(5):
+        yield {s: Rational(prime(4 + (5 * i + 3 * shift) % 17), 3 + (i + shift) % 4) for i, s in enumerate(letters)}
+
+
+def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
+    """det(K - lambda M) with numbers for the letters."""
+    unknown = Dummy("lambda")
+    return Poly(determinant_of((facts.inputs["stiffness"] - unknown * facts.inputs["mass"]).xreplace(numbers)), unknown)
+
+
+def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
+    value = polynomial.eval(place.evalf(40))
+    size = sum((Abs(c * place.evalf(40) ** n) for (n,), c in polynomial.terms()), Integer(0))
+    return bool(Abs(value) <= LITTLE * size)
+
+
+def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
+    """Whether det(K - lambda M) vanishes there; once, or as often as its slope does too."""
+    for numbers in _numbers(facts):
+        polynomial, place = _polynomial(facts, numbers), square.xreplace(numbers)
+        several = _vanishes_at(polynomial.diff(), place)
+        if not _vanishes_at(polynomial, place) or times is not None and several != (times > 1):
+            return False
+    return True
+
+
+def _sign_everywhere(value: Expr, facts: Judged) -> int | None:
+    """The sign at all points that were tried, if it is one."""
+    signs = set()
+    for numbers in _numbers(facts):
+        there = value.xreplace(numbers).evalf(30)
+        signs.add(0 if is_zero(value) else 1 if there.is_positive else -1 if there.is_negative else None)
+    return signs.pop() if len(signs) == 1 else None
+
+
+def _frequency(sign: int | None, repeated: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        square = -(facts.result**2) if sign == -1 else facts.result**2
+        decided = sign is None or _sign_everywhere(square, facts) == sign
+        return decided and _is_root(square, facts, 2 if repeated else 1)
+
+    return is_so
+
+
+def _of_pair(same: bool) -> Predicate:
+    def is_so(facts: Judged) -> bool:
+        if len(facts.result) != 2:
+            return False
+        product = facts.result[0] * facts.result[1]
+        return _sign_everywhere(product, facts) == (1 if same else -1) and _oscillates(facts)
+
+    return is_so
+
+
+def _alone(facts: Judged) -> bool:
+    moving = [entry for entry in facts.result if not is_zero(entry)]
+    return len(facts.result) == 2 and len(moving) == 1
+
+
+def _oscillates(facts: Judged) -> bool:
+    return not is_zero(facts.inputs["squared"]) and always_sign(-1, lambda f: f.inputs["squared"])(facts) is False
+
+
+def _repeated(facts: Judged) -> bool:
+    return _is_root(facts.inputs["squared"], facts, 2)
+
+
+def _degree(wanted: int | None) -> Predicate:
+    """One coordinate has one squared frequency, several have as many."""
+
+    def is_so(facts: Judged) -> bool:
+        degree = Poly(facts.result.left, facts.inputs["omega"]).degree()
+        return bool(degree == 2 if wanted == 1 else degree > 2)
+
+    return is_so
+
+
+def _displaced(facts: Judged) -> bool:
+    return any(not is_zero(value) for value in facts.inputs["place"])
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "linearised.equation": {"generic": lambda facts: not _displaced(facts), "displaced": _displaced},
+    "modes.characteristic": {"one": _degree(1), "several": _degree(None)},
+    "modes.frequency": {
+        f"{word}{suffix}": _frequency(sign, repeated)
+        for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))
+        for suffix, repeated in (("", False), ("_repeated", True))
+    },
+    "modes.shape": {
+        "in_phase": _of_pair(same=True),
+        "opposite": _of_pair(same=False),
+        "alone": _alone,
+        "generic": lambda facts: _oscillates(facts) and not _repeated(facts),
+        "uniform": lambda facts: is_zero(facts.inputs["squared"]),
+        "departing": always_sign(-1, lambda facts: facts.inputs["squared"]),
+        "any_of_several": _repeated,
+    },
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)
