@@ -15,6 +15,7 @@ from derive.mechanics.bodies.thin_bodies import *
 from derive.mechanics.equations.conditions import *
 from derive.mechanics.equations.conservation import *
 from derive.mechanics.equations.energy_integral import *
+from derive.mechanics.equations.equilibria import *
 from derive.mechanics.equations.euler_equations import *
 from derive.mechanics.equations.extrema import *
 from derive.mechanics.equations.forced import *
@@ -22,6 +23,7 @@ from derive.mechanics.equations.inequalities import *
 from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.linear_motion import *
 from derive.mechanics.equations.linearised import *
+from derive.mechanics.equations.minima import *
 from derive.mechanics.equations.modes import *
 from derive.mechanics.equations.oscillations import *
 from derive.mechanics.equations.quadratics import *

@@ -104,7 +104,7 @@ def _one(
         routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
         outcome="displaced" if away else "generic",
         telling=Telling(
-            points_to={"motion": equations[i]},
+            points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
             judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta)},
             formulas=counted,
         ),

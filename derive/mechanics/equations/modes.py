@@ -62,7 +62,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str = "omega", key: str = "
         raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
     characteristic = _characteristic(linear, together, pencil, letter)
     frequencies = [
-        _frequency(characteristic, together, pencil, n, symbol if len(linear) > 1 else f"{symbol}_0", len(linear))
+        _frequency(characteristic, together, pencil, n, symbol if len(linear) > 1 else f"{symbol}_0")
         for n in range(len(pencil.roots))
     ]
     shapes: list[Quantity] = []
@@ -129,9 +129,10 @@ _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
 def _frequency(
-    characteristic: Quantity, together: Linear, pencil: Pencil, n: int, symbol: str, size: int
+    characteristic: Quantity, together: Linear, pencil: Pencil, n: int, symbol: str
 ) -> Quantity:
     """One frequency, or rate of growth."""
+    size, linear = len(together.displacements), characteristic.parents[0]
     root = pencil.roots[n]
     number = f"_{n + 1}" if size > 1 else ""
     name = f"kappa{number}" if root.sign == -1 else f"{symbol}{number}"
@@ -160,7 +161,7 @@ def _frequency(
         routes={"put_back": put_back, "rayleigh": rayleigh, "trace": trace},
         outcome=outcome,
         telling=Telling(
-            points_to={"characteristic": characteristic},
+            points_to={"characteristic": characteristic, **({"linear": linear} if size == 1 else {})},
             judged_by={"stiffness": together.stiffness, "mass": together.mass},
         ),
         key=f"frequency{number}",

@@ -8,5 +8,6 @@ from derive.mechanics.outcomes import of_answers, of_bodies, of_conditions, of_m
 
 __all__ = ["of_answers", "of_bodies", "of_conditions", "of_motion", "of_rotation"]
 from derive.mechanics.outcomes import of_bodies, of_conditions, of_modes, of_motion, of_rotation
+from derive.mechanics.outcomes import of_bodies, of_conditions, of_equilibria, of_modes, of_motion, of_rotation
 
-__all__ = ["of_bodies", "of_conditions", "of_modes", "of_motion", "of_rotation"]
+__all__ = ["of_bodies", "of_conditions", "of_equilibria", "of_modes", "of_motion", "of_rotation"]

@@ -1,0 +1,341 @@
+"""States of rest: all places at which no force is left, with the conditions under which they exist.
+
+The forces are those of a potential energy, or of a Lagrangian in which the coordinates do not move: there -L is the
+potential energy that they see, V. Two coordinates or more are solved one after the other, or together where the forces
+are linear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lambdify
+from sympy.matrices import MatrixBase
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.amplitudes import Amplitudes
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, explicit, rate, scalar
+from derive.algebra.samples import points
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.linearised import Rest
+from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
+from derive.mechanics.systems.coordinates import Coordinate
+from derive.mechanics.systems.dalembert import Matter
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.step import Fact, Form, Quantity, compared_with, is_zero, require_kind
+
+__all__ = ["equilibria", "potential_at_rest"]
+
+ZERO = Integer(0)
+MOST = 32  # states of rest
+STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters, for counting zeros
+
+
+@dataclass(frozen=True)
+class RestOf(Fact):
+    """The potential energy that a state of rest belongs to, and the coordinates that it was sought in."""
+
+    missing = "is not a state of rest that was found"
+    potential: Quantity
+    coordinates: tuple[Symbol, ...]
+
+
+def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
+    """Potential energy that a system at rest sees, V = -L without the rates: U, less what the given motion has of T.
+
+    of   the Lagrangian, J
+    Second route: the work of the forces and of the inertia of the mass points at rest, -dV for any displacement.
+    Errors: the Lagrangian holds the time itself.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
+    """
+    require_kind("potential_at_rest", "of", of, "energy")
+    if explicit(of.value).has(TIME):
+        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+    moving = list(of.coordinates)
+    still = {rate(q, n): ZERO for q in moving for n in (1, 2)}
+    matter = of.needed(Matter)
+
+    def work(found: Expr) -> tuple[Expr, Expr]:
+        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        lost = (-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True))
+        done = (_force_at_rest(matter, q, still) * mark for q, mark in zip(moving, marks, strict=True))
+        return Add(*lost), Add(*done)
+
+    return establish(
+        "equilibria.potential_at_rest",
+        scalar(symbol),
+        lambda L: Factors(Integer(-1), L),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, motion=still),
+        routes={"work": work},
+        key=key,
+        kind="energy",
+        facts=[Matter(matter.points, matter.loads, matter.coordinates)],
+    )
+
+
+def _force_at_rest(matter: Matter, q: Symbol, still: Mapping[Symbol, Expr]) -> Expr:
+    return explicit(matter.force_along(q) - matter.inertia_along(q)).xreplace(dict(still))
+
+
+def potential_of(of: Quantity) -> Quantity:
+    """The potential energy itself, or that which a Lagrangian gives a system at rest."""
+    moving = {rate(q) for q in of.coordinates}
+    return potential_at_rest(of) if explicit(of.value).free_symbols & moving else of
+
+
+def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
+    """All states of rest, dU/dq = 0 for every coordinate, with the conditions under which they exist.
+
+    of            a potential energy or an effective one, or a Lagrangian, J
+    coordinates   those in which rest is sought; all that it depends on unless given
+    Angles are between -pi and pi; what is a distance is positive. A coordinate that no force depends on is left open.
+    Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... the states.
+    Second route: the virtual work of forces and inertia at that place; of one coordinate also all zeros of the force
+    are counted in numbers, for some letters.
+    Outcomes: always, where (it exists under a condition), only (there is no other); of the condition: generic, zero (no
+    force along that coordinate).
+    Errors: a zero of the force has no closed form; there is no state of rest; it holds the time.
+    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
+    """
+    require_kind("equilibria", "of", of, "energy")
+    if explicit(of.value).has(TIME):
+        raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
+    potential = potential_of(of)
+    sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
+    missing = [q.name for q in sought if not explicit(potential.value).has(q)]
+    if missing or not sought:
+        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: there is rest anywhere"
+        raise Rejected(Complaint("wrong-argument", message))
+    forces = {q: _factored(tidied(diff(explicit(potential.value), q))) for q in sought}
+    others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
+    if others:
+        message = f"`equilibria`: the forces also depend on {others[0].name}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"name it among the coordinates: {others[0].name}"))
+    states = _states(of, forces)
+    conditions = [_condition(potential, q, forces[q]) for q in sought]
+    names = _names(potential, sought, len(states))
+    return tuple(
+        _rest(potential, conditions, sought, state, names, n, states) for n, state in enumerate(states)
+    )
+
+
+@dataclass(frozen=True)
+class State:
+    """Values of coordinates at rest; those that are left out may be any."""
+
+    values: Mapping[Symbol, Expr]
+    exists: Relation | None = None
+
+
+def _factored(force: Expr) -> Expr:
+    try:
+        return min((factor(force), force), key=lambda form: int(form.count_ops()))
+    except PolynomialError:
+        return force
+
+
+def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
+    try:
+        found = _solved(list(forces.values()), list(forces), State({}))
+    except Unsolved as fault:
+        message = f"the states of rest of `{of.key}` have no closed form: where {fault.factor} vanishes is not known"
+        help_line = "give a state of rest that you know where it is needed, `at={theta: 0}`"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
+    if not found:
+        raise Rejected(Complaint("no-equilibrium", f"`{of.key}` has no state of rest: its force vanishes nowhere"))
+    if len(found) > MOST:
+        raise Rejected(Complaint("too-large", f"`{of.key}` has more than {MOST} states of rest"))
+    return found
+
+
+def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
+    """The states that all forces allow, one force after another; nothing where they contradict each other."""
+    left = [force for force in (tidied(f) for f in forces) if not is_zero(force)]
+    if any(not force.has(*unknown) for force in left):
+        return []
+    if not left:
+        return [state]
+    together = _linear(left, unknown, state)
+    if together is not None:
+        return [together]
+    for force in left:
+        branches = [(f, [q for q in unknown if f.has(q)]) for f in factors_of_any(force, unknown)]
+        if all(len(held) == 1 for _, held in branches):
+            found: dict[Any, State] = {}
+            for part, (q,) in branches:
+                for zero in zeros_of(part, q):
+                    for each in _with_zero(left, force, unknown, state, q, zero):
+                        found.setdefault(frozenset(each.values.items()), each)
+            return sorted(found.values(), key=lambda s: s.exists is not None)
+    raise Unsolved(left[0])
+
+
+def factors_of_any(force: Expr, unknown: Sequence[Symbol]) -> list[Expr]:
+    """The factors of a force that hold some of the coordinates."""
+    held = [q for q in unknown if force.has(q)]
+    if len(held) == 1:
+        return list(factors_of(force, held[0]))
+    above = _factored(force).as_numer_denom()[0]
+    return [f.as_base_exp()[0] for f in Mul.make_args(above) if f.has(*unknown)]
+
+
+def _with_zero(
+    forces: Sequence[Expr], solved: Expr, unknown: list[Symbol], state: State, q: Symbol, zero: Zero
+) -> list[State]:
+    if state.exists is not None and zero.exists is not None and state.exists != zero.exists:
+        raise Unsolved(solved)
+    rest = [force.subs(q, zero.value) for force in forces if force is not solved]
+    known = State({**state.values, q: zero.value}, zero.exists or state.exists)
+    return _solved(rest, [other for other in unknown if other != q], known)
+
+
+def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
+    """The one solution of linear equations; none where they are not linear, or may have no or many solutions."""
+    held = [q for q in unknown if any(force.has(q) for force in forces)]
+    if len(held) < 2 or len(held) != len(forces):
+        return None
+    matrix = ImmutableDenseMatrix([[diff(force, q) for q in held] for force in forces])
+    if matrix.has(*held) or sign_by_factors(tidied(matrix.det(method="berkowitz"))) in (None, 0):
+        return None
+    at_zero = ImmutableDenseMatrix([-force.xreplace(dict.fromkeys(held, ZERO)) for force in forces])
+    values = matrix.adjugate() * at_zero / matrix.det(method="berkowitz")
+    return State({**state.values, **{q: tidied(v) for q, v in zip(held, values, strict=True)}}, state.exists)
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+
+def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
+    """dU/dq = 0, in factors."""
+    return establish(
+        "equilibria.condition",
+        None,
+        lambda U: Relation(Partial(U, q), "=", 0),
+        {"potential": potential},
+        lines=Lines(put_in=None, arranged=lambda _: Relation(force, "=", 0)),
+        routes={"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))},
+        outcome="zero" if force == 0 else "generic",
+        telling=Telling(judged_by={"coordinate": q}),
+        key=f"condition_{q.name}",
+    )
+
+
+def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
+    """dU/dq by the virtual work of what made U, else as the first order of U in a small displacement."""
+    matter = potential.fact(Matter)
+    if matter is not None and (matter.loads or matter.points):
+        still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
+        return -_force_at_rest(matter, q, still)
+    return expanded(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)
+
+
+def expanded(value: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
+    """The coefficient of u^n where each coordinate is at its place and u times its direction away."""
+    u = Symbol("u_small", real=True)
+    moved = value.subs({q: at + u * direction[q] for q, at in place.items()}, simultaneous=True)
+    return moved.series(u, 0, order + 1).removeO().expand().coeff(u, order)
+
+
+def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
+    """theta_0, or theta_1, theta_2, ... where there are several; dashed where these letters are given."""
+    taken = {s.name for s in explicit(potential.value).free_symbols}
+
+    def letters(q: Symbol) -> list[Symbol]:
+        base = q.name if count < 2 or f"{q.name}_1" not in taken else f"{q.name}_eq"
+        return [scalar(f"{base}_{n}") for n in (range(1, count + 1) if count > 1 else [0])]
+
+    return {q: letters(q) for q in sought}
+
+
+def _rest(
+    potential: Quantity,
+    conditions: Sequence[Quantity],
+    sought: Sequence[Symbol],
+    state: State,
+    names: Mapping[Symbol, list[Symbol]],
+    n: int,
+    states: Sequence[State],
+) -> Quantity:
+    """One state of rest."""
+    held = [q for q in sought if q in state.values]
+    values = [state.values[q] for q in held]
+    single = len(held) == 1
+    symbol: Any = names[held[0]][n] if single else ImmutableDenseMatrix([names[q][n] for q in held])
+    told = {}
+    if state.exists is not None:
+        told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.mark, -state.exists.left))
+
+    def no_force(_: Any) -> tuple[Expr, Expr]:
+        marks = [Symbol(f"u_{i}", real=True) for i in range(len(sought))]
+        left = [slope_otherwise(potential, q).subs(dict(state.values), simultaneous=True) for q in sought]
+        return Add(*(tidied(force) * mark for force, mark in zip(left, marks, strict=True))), ZERO
+
+    def counted(found: Any) -> Verdict:
+        return _counted(potential, sought[0], [each.values[sought[0]] for each in states], found)
+
+    outcome = "where" if state.exists is not None else "only" if len(states) == 1 else "always"
+    return establish(
+        "equilibria.rest",
+        symbol,
+        lambda *_: values[0] if single else Amplitudes(*values),
+        {f"condition_{i}": condition for i, condition in enumerate(conditions)},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"no_force": no_force, **({"counted": counted} if len(sought) == 1 else {})},
+        outcome=outcome,
+        telling=Telling(formulas=told, judged_by={"count": Integer(len(states))}),
+        key=f"rest_{n + 1}" if len(states) > 1 else "rest",
+        kind=dict(potential.coordinates)[held[0]] if single else None,
+        facts=[Rest(dict(state.values), state.exists), RestOf(potential, tuple(sought))],
+        parents=[potential],
+    )
+
+
+def _counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found: Expr) -> Verdict:
+    """Whether the force changes its sign as often as there are values, for some numbers in place of the letters."""
+    import math
+
+    force = diff(explicit(potential.value), q)
+    letters = {s for s in force.free_symbols if s != q}
+    angle = potential.coordinates.get(q) == "angle"
+    drawn = points(letters, 4099)
+    for _, point in zip(range(TRIALS), drawn, strict=False):
+        there = [value.xreplace(point).evalf() for value in (*values, found)]
+        *numbers, own = [float(value) if value.is_real else None for value in there]
+        expected = sorted(number for number in numbers if number is not None)
+        curve = lambdify([q], force.xreplace(point), "math")
+        scale = max([abs(x) for x in expected if x] or [1.0])
+        grid = _grid(angle, bool(q.is_positive), scale)
+        signs = [s for s in (_sign(curve, x) for x in grid) if s]
+        changes = sum(1 for one, other in zip(signs, signs[1:], strict=False) if one != other)
+        if angle and signs[0] != signs[-1] and changes != len(expected):
+            changes += 1
+        if changes != len(expected) or own is not None and own not in expected:
+            where = tuple((str(s), str(x)) for s, x in point.items())
+            return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
+        if any(not math.isfinite(x) for x in expected):
+            return Verdict(Grade.REFUTED, "a value is not finite")
+    return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
+
+
+def _grid(angle: bool, positive: bool, scale: float) -> list[float]:
+    """Once round, from no likely zero; else from one end to the other, finest where zeros are expected."""
+    import math
+
+    if angle:
+        return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
+    ends = [(i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)]
+    return [scale * math.tan(u) for u in ends]
+
+
+def _sign(curve: Any, x: float) -> int:
+    try:
+        value = curve(x)
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return 0
+    return 0 if isinstance(value, complex) or value == 0 else 1 if value > 0 else -1

@@ -1,0 +1,279 @@
+"""Stability of a state of rest: whether the potential energy has a minimum there, and for which values of the letters.
+
+Of one coordinate the curvature decides, on its border the next order that does not vanish; of several the leading minors
+of the second derivatives (Sylvester).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, sqrt
+from sympy.matrices import MatrixBase
+
+from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
+from derive.algebra.collect import spread
+from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.equilibria import expanded, potential_of, slope_otherwise
+from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.linearised import Rest, place_given
+from derive.mechanics.equations.zeros import positive
+from derive.mechanics.systems.dalembert import Matter
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Level, Quantity, is_zero, require_kind
+
+__all__ = ["stability"]
+
+HIGHEST = 8  # the order to which a border is looked at
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where stability is asked for: a potential energy, the coordinates that it depends on, their values."""
+
+    potential: Quantity
+    coordinates: tuple[Symbol, ...]
+    values: Mapping[Symbol, Expr]
+    exists: Relation | None
+    rest: Quantity | None
+
+    @property
+    def energy(self) -> Expr:
+        return explicit(self.potential.value)
+
+    def second(self, one: Symbol, other: Symbol) -> Expr:
+        return tidied(diff(self.energy, one, other).subs(dict(self.values), simultaneous=True))
+
+
+def stability(of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | None = None, key: str | None = None) -> Quantity:
+    """Stability of a state of rest, by U''(q_0) > 0, or by the leading minors of the second derivatives of U.
+
+    of       the potential energy, an effective one, or the Lagrangian that the rest is one of, J
+    at       the state of rest: as `equilibria` yields it, or `{theta: 0}`
+    letter   the letter that a condition is solved for; unless given it is one that occurs as a square alone, if any
+    Second route: the force on a small displacement, by virtual work where there are places and forces; of several
+    coordinates the energy of a small displacement in an arbitrary direction.
+    Outcomes: stable, unstable, depends (on the sign of what is told), depends_stable_on_border,
+    depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
+    level (several coordinates: to second order the energy does not change in one direction, and nowhere falls).
+    Errors: a force is left there; coordinates are missing.
+    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
+    """
+    require_kind("stability", "of", of, "energy")
+    place = _place(of, at)
+    named = key or ("stability" if place.rest is None else place.rest.key.replace("rest", "stability"))
+    if len(place.coordinates) > 1:
+        return _of_several(place, named)
+    return _of_one(place, letter, named)
+
+
+def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
+    known = place_given(at)
+    rest = at if isinstance(at, Quantity) else None
+    potential = next((p for p in rest.parents if p.step.kind == "energy"), of) if rest is not None else potential_of(of)
+    if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
+        raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
+    held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
+    missing = [q for q in held if q not in known and any(diff(explicit(potential.value), q).has(s) for s in held)]
+    missing = [q for q in missing if not is_zero(diff(explicit(potential.value), q).subs(known))]
+    if missing:
+        message = f"`stability`: nothing says what {missing[0].name} is at rest"
+        raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0].name}: 0`"))
+    values = {q: value for q, value in known.items() if q in held}
+    place = Place(potential, tuple(values), values, rest.needed(Rest).exists if rest else None, rest)
+    _check_level(place)
+    return place
+
+
+def _check_level(place: Place) -> None:
+    if not place.coordinates:
+        raise Rejected(Complaint("wrong-argument", f"`{place.potential.key}` depends on none of these coordinates"))
+    for q, value in place.values.items():
+        require_constant("stability", "value", value)
+        force = tidied(diff(place.energy, q).subs(dict(place.values), simultaneous=True))
+        if not is_zero(force):
+            where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
+            message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+
+
+# --- one coordinate --------------------------------------------------------------------------------------------------
+
+
+def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
+    (q,), potential = place.coordinates, place.potential
+    value = place.second(q, q)
+    outcome, condition, border = _judged(place, value, letter)
+    told: dict[str, tuple[Any, Any]] = {}
+    if condition is not None:
+        told["condition"] = (condition, Relation(value, ">", 0))
+    if place.exists is not None:
+        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
+    if border is not None:
+        told["border"] = (Relation(condition.left, "=", condition.right), Relation(condition.right, "=", condition.left))
+    order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
+    if outcome.endswith("order") or border is not None:
+        energy = place.energy.subs(border.left, border.right) if border is not None else place.energy
+        there = tidied(diff(energy, q, order).subs(q, place.values[q]))
+        told["higher"] = (there, _coefficient(energy, q, place.values[q], order))
+    return establish(
+        "minima.stability",
+        At(Slope(potential.symbol, q, Integer(2)), q, place.values[q] if place.rest is None else place.rest.symbol),
+        lambda U, at: At(Slope(U, q, Integer(2)), q, at),
+        {"potential": potential, "at": place.rest if place.rest is not None else place.values[q]},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: value),
+        routes={"small_force": lambda found: (found, _small_force(place, q))},
+        outcome=outcome,
+        telling=Telling(
+            formulas=told,
+            judged_by={
+                "coordinates": place.coordinates,
+                "place": tuple(place.values.values()),
+                "potential_here": place.energy,
+                **({"at_border": border} if border is not None else {}),
+            },
+        ),
+        key=key,
+        parents=[potential],
+    )
+
+
+def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
+    """The word, the condition and the border: a letter and what it is there."""
+    if is_zero(value):
+        return _by_higher_order(place, place.energy), None, None
+    sign = sign_where(value, place.exists)
+    if sign is not None:
+        return ("stable" if sign > 0 else "unstable"), None, None
+    condition = positive(value, *([letter] if isinstance(letter, Symbol) else []))
+    border = _border(condition)
+    if border is None:
+        return "depends", condition, None
+    there = _by_higher_order(place, place.energy.subs(border.left, border.right))
+    words = {"stable_by_higher_order": "depends_stable_on_border", "unstable_by_higher_order": "depends_unstable_on_border"}
+    return words.get(there, "depends"), condition, border if there in words else None
+
+
+def sign_where(value: Expr, exists: Relation | None) -> int | None:
+    """The sign of a value, where a condition of existence holds: a letter of it a little beyond its border."""
+    own = sign_by_factors(value)
+    border = _border(exists) if own is None and exists is not None else None
+    if border is None or exists is None:
+        return own
+    beyond = Symbol("u_beyond", positive=True)
+    more = exists.mark == ">"
+    size = border.right * (sqrt(1 + beyond) if exists.left.is_Pow else 1 + beyond) ** (1 if more else -1)
+    return sign_by_factors(tidied(value.subs(border.left, size)))
+
+
+def _border(condition: Relation) -> Relation | None:
+    """The letter of a condition and its value on the border."""
+    left, right = condition.sides
+    if isinstance(left, Symbol):
+        return Relation(left, "=", right)
+    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
+        return Relation(left.base, "=", sqrt(right))
+    for one, other in ((left, right), (right, left)):
+        for s in sorted(one.free_symbols - other.free_symbols, key=str):
+            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
+                return Relation(s, "=", tidied(other * s / one))
+    return None
+
+
+def _order(energy: Expr, place: Place) -> int:
+    """The first order beyond the first that does not vanish there; 0 if there is none."""
+    (q,) = place.coordinates
+    at = place.values[q]
+    return next((n for n in range(2, HIGHEST + 1) if not is_zero(diff(energy, q, n).subs(q, at))), 0)
+
+
+def _by_higher_order(place: Place, energy: Expr) -> str:
+    (q,) = place.coordinates
+    order = _order(energy, place)
+    if order == 0:
+        return "flat"
+    sign = sign_by_factors(tidied(diff(energy, q, order).subs(q, place.values[q])))
+    if order % 2 or sign == -1:
+        return "unstable_by_higher_order"
+    return "stable_by_higher_order" if sign == 1 else "flat"
+
+
+def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
+    from sympy import factorial
+
+    return factorial(order) * expanded(energy, {q: at}, {q: Integer(1)}, order)
+
+
+def _small_force(place: Place, q: Symbol) -> Expr:
+    """What a unit of displacement adds to the force that drives back."""
+    matter = place.potential.fact(Matter)
+    if matter is not None and (matter.loads or matter.points):
+        u = Symbol("u_small", real=True)
+        moved = {s: at + (u if s == q else 0) for s, at in place.values.items()}
+        return diff(slope_otherwise(place.potential, q).subs(moved, simultaneous=True), u).subs(u, 0)
+    return _coefficient(place.energy, q, place.values[q], 2)
+
+
+# --- several ---------------------------------------------------------------------------------------------------------
+
+
+def _of_several(place: Place, key: str) -> Quantity:
+    """The leading minors of the second derivatives, all positive at a minimum."""
+    moving = place.coordinates
+    matrix = ImmutableDenseMatrix([[place.second(p, q) for q in moving] for p in moving])
+    minors = [_minor(matrix, n) for n in range(1, len(moving) + 1)]
+    values = [tidied(explicit(minor)) for minor in minors]
+    letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
+    told: dict[str, tuple[Any, Any]] = {}
+    if place.exists is not None:
+        told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
+
+    def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
+        """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
+        marks = {q: Symbol(f"u_{q.name}", real=True) for q in moving}
+        energy = expanded(place.energy, place.values, marks, 2).expand()
+        second = ImmutableDenseMatrix([[diff(energy, marks[p], marks[q]) for q in moving] for p in moving])
+        return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
+
+    return establish(
+        "minima.stability_of_several",
+        letters,
+        lambda *_: Amplitudes(*minors),
+        {"potential": place.potential, "at": place.rest or Integer(0)},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: ImmutableDenseMatrix(values)),
+        routes={"any_direction": in_any_direction},
+        outcome=_of_minors(matrix, values),
+        telling=Telling(
+            formulas=told,
+            judged_by={
+                "coordinates": moving,
+                "place": tuple(place.values.values()),
+                "potential_here": place.energy,
+            },
+        ),
+        key=key,
+        parents=[place.potential],
+    )
+
+
+def _minor(matrix: MatrixBase, n: int) -> Expr:
+    return matrix[0, 0] if n == 1 else Determinant(ImmutableDenseMatrix(matrix[:n, :n]))
+
+
+def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
+    signs = [sign_by_factors(value) for value in minors]
+    if all(sign == 1 for sign in signs):
+        return "stable"
+    size = matrix.shape[0]
+    pairs = [(i, j) for i in range(size) for j in range(i + 1, size)]
+    falling = [matrix[i, i] for i in range(size)]
+    falling += [determinant_of(ImmutableDenseMatrix(matrix.extract([i, j], [i, j]))) for i, j in pairs]
+    if any(sign_by_factors(tidied(value)) == -1 for value in falling):
+        return "unstable"
+    return "level" if signs[-1] == 0 and None not in signs and -1 not in signs else "depends"

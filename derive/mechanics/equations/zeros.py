@@ -1,0 +1,292 @@
+"""All real zeros of a force, in closed form: by its factors, each of which is solved or the whole refused.
+
+A product vanishes where a factor does, and nowhere else; each factor is solved completely: a polynomial in the cosine
+or in the sine, a cos q + b sin q, a polynomial, a square root less a constant. So what is found are all zeros.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from sympy import (
+    Add,
+    Expr,
+    Integer,
+    Mul,
+    Pow,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    expand,
+    expand_trig,
+    factor_list,
+    igcd,
+    pi,
+    sin,
+    sqrt,
+    tan,
+    together,
+)
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.collect import spread
+from derive.algebra.expressions import Relation
+from derive.algebra.tidy import tidied
+from derive.mechanics.equations.inequalities import sign_by_factors
+
+HIGHEST = 6  # power of a coordinate
+ONE = Integer(1)
+
+
+class Unsolved(Exception):
+    """A factor whose zeros have no closed form, or none that is known here."""
+
+    def __init__(self, factor: Expr):
+        self.factor = factor
+        super().__init__(str(factor))
+
+
+@dataclass(frozen=True)
+class Zero:
+    """A value of the coordinate, and the condition under which it is one, if there is any."""
+
+    value: Expr
+    exists: Relation | None = None
+
+
+def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
+    """All real zeros, those of an angle from -pi (without it) to pi; positive ones where q is positive."""
+    found: dict[Expr, Zero] = {}
+    for factor in factors_of(force, q):
+        for zero in _of_factor(factor, q):
+            found.setdefault(tidied(zero.value), zero)
+    return sorted(found.values(), key=_order)
+
+
+def _order(zero: Zero) -> tuple[bool, int, str]:
+    """Those that always are first, 0 before all, pi before fractions of it."""
+    value = zero.value
+    rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
+    return zero.exists is not None, rank, str(value)
+
+
+def factors_of(force: Expr, q: Symbol) -> Iterator[Expr]:
+    """The factors that hold the coordinate, of what stands above the fraction."""
+    value = together(force.rewrite(cos) if force.has(tan) else force).as_numer_denom()[0]
+    value = _in_sine_and_cosine(value, q)
+    try:
+        _, factors = factor_list(value)
+    except PolynomialError:
+        factors = [(f.as_base_exp()[0], 1) for f in Mul.make_args(value)]
+    for factor, _ in factors:
+        if factor.has(q):
+            yield factor
+
+
+def _in_sine_and_cosine(value: Expr, q: Symbol) -> Expr:
+    """In sin q and cos q, or in those of a part of q; with cos^2 in place of sin^2."""
+    angles = {f.args[0] for f in value.atoms(sin, cos) if f.has(q)}
+    if not angles:
+        return expand(value)
+    u = _part(angles, q)
+    s, c = sin(u), cos(u)
+    spread_out = expand(expand_trig(value))
+    polynomial = spread_out.as_poly(s, c)
+    if polynomial is None:
+        raise Unsolved(value)
+    both: Expr = Integer(0)
+    for (n, m), coefficient in polynomial.terms():
+        both += coefficient * c**m * (s if n % 2 else ONE) * expand((1 - c**2) ** (n // 2))
+    by_cosine = expand(both)
+    forms = [spread_out, by_cosine]
+    return max(forms, key=lambda form: len(_factors_or_none(form)))
+
+
+def _factors_or_none(value: Expr) -> list[Expr]:
+    try:
+        return [f for f, _ in factor_list(value)[1]]
+    except PolynomialError:
+        return []
+
+
+def _part(angles: set[Expr], q: Symbol) -> Expr:
+    """The largest part of q of which all angles are multiples, but for constants added."""
+    numbers = [angle.coeff(q) for angle in (expand(angle) for angle in angles)]
+    if not all(number.is_Rational and number != 0 for number in numbers):
+        raise Unsolved(next(iter(angles)))
+    denominator = 1
+    for number in numbers:
+        denominator = denominator * number.q // igcd(denominator, number.q)
+    return q / denominator
+
+
+def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
+    functions = {f for f in factor.atoms(sin, cos) if f.has(q)}
+    if not functions:
+        return _of_lengths(factor, q)
+    angles = {f.args[0] for f in functions}
+    if len(angles) > 1 or factor.xreplace({f: ONE for f in functions}).has(q):
+        raise Unsolved(factor)
+    u = angles.pop()
+    parts = int(1 / u.coeff(q)) if u.coeff(q) else 1
+    return [Zero(parts * z.value, z.exists) for z in _of_angle(factor, u) if _is_one_turn(parts * z.value, parts)]
+
+
+def _is_one_turn(value: Expr, parts: int) -> bool:
+    """Of an angle that was found from a part of it, what is within one turn."""
+    return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
+
+
+def _of_angle(factor: Expr, u: Expr) -> list[Zero]:
+    s, c = sin(u), cos(u)
+    polynomial = factor.as_poly(s, c)
+    if polynomial is None:
+        raise Unsolved(factor)
+    if not factor.has(s):
+        return [zero for value in _roots(factor, c) for zero in _with_cosine(value)]
+    if not factor.has(c):
+        return [zero for value in _roots(factor, s) for zero in _with_sine(value)]
+    terms = dict(polynomial.terms())
+    if set(terms) == {(1, 0), (0, 1)}:
+        place = atan(tidied(-terms[0, 1] / terms[1, 0]))
+        return [Zero(place), Zero(place + pi if sign_by_factors(place) == -1 else place - pi)]
+    raise Unsolved(factor)
+
+
+def _with_cosine(value: Expr) -> list[Zero]:
+    if value in (1, -1):
+        return [Zero(acos(value))]
+    exists, never = _within_one(value)
+    return [] if never else [Zero(acos(value), exists), Zero(-acos(value), exists)]
+
+
+def _with_sine(value: Expr) -> list[Zero]:
+    if value in (1, -1):
+        return [Zero(asin(value))]
+    exists, never = _within_one(value)
+    if never:
+        return []
+    other = pi - asin(value) if sign_by_factors(value) != -1 else -pi - asin(value)
+    return [Zero(asin(value), exists), Zero(other, exists)]
+
+
+def _within_one(value: Expr) -> tuple[Relation | None, bool]:
+    """The condition for -1 < v < 1, if it needs one; and whether it can never be."""
+    sign = sign_by_factors(value)
+    room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
+    known = sign_by_factors(room)
+    if known is not None:
+        return None, known != 1
+    return positive(room), False
+
+
+def positive(value: Expr, letter: Symbol | None = None) -> Relation:
+    """The condition v > 0, without factors that are positive, solved for a letter if it occurs in a square alone.
+
+    What is added stands on one side, what is subtracted on the other: R omega^2 > g.
+    """
+    core = Mul(*(f for f in Mul.make_args(tidied(value)) if not f.is_positive)).as_numer_denom()[0]
+    core = expand(core)
+    chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
+    if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
+        return solved
+    terms = Add.make_args(core)
+    below = [-t for t in terms if t.could_extract_minus_sign()]
+    above = [t for t in terms if not t.could_extract_minus_sign()]
+    if len(below) == 1 and len(above) == 1 or not below:
+        return Relation(spread(Add(*above)), ">", spread(Add(*below)))
+    return Relation(tidied(core), ">", 0)
+
+
+def _solved(core: Expr, letter: Symbol) -> Relation | None:
+    polynomial = core.as_poly(letter)
+    if polynomial is None or len(polynomial.terms()) != 2 or polynomial.terms()[1][0] != (0,):
+        return None
+    ((power,), leading), (_, rest) = polynomial.terms()
+    sign = sign_by_factors(leading)
+    if sign is None or power % 2 == 0 and power != 2:
+        return None
+    return Relation(letter**power, ">" if sign == 1 else "<", spread(tidied(-rest / leading)))
+
+
+def _roots(factor: Expr, x: Expr) -> list[Expr]:
+    """Of a polynomial of the first or second degree in x."""
+    polynomial = factor.as_poly(x)
+    if polynomial is None or polynomial.degree() > 2:
+        raise Unsolved(factor)
+    if polynomial.degree() == 1:
+        a, b = polynomial.all_coeffs()
+        return [tidied(-b / a)]
+    a, b, c = polynomial.all_coeffs()
+    inside = tidied(b**2 - 4 * a * c)
+    sign = sign_by_factors(inside)
+    if sign is None:
+        raise Unsolved(factor)
+    if sign == -1:
+        return []
+    return [tidied((-b + turn * sqrt(inside)) / (2 * a)) for turn in ((1, -1) if sign else (1,))]
+
+
+def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
+    """Of a polynomial in q, or of sqrt(P(q)) less a constant."""
+    roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
+    if roots:
+        return _of_root(factor, roots, q)
+    polynomial = factor.as_poly(q)
+    if polynomial is None or polynomial.degree() > HIGHEST:
+        raise Unsolved(factor)
+    terms = polynomial.terms()
+    if polynomial.degree() > 2 and len(terms) == 2 and terms[1][0] == (0,):
+        values = _of_power(int(terms[0][0][0]), tidied(-terms[1][1] / terms[0][1]), factor)
+    else:
+        values = _roots(factor, q)
+    return [zero for value in values for zero in _allowed(value, q)]
+
+
+def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
+    """The real roots of q^n = v."""
+    sign = sign_by_factors(value)
+    if sign is None:
+        raise Unsolved(factor)
+    if n % 2:
+        return [sign * (sign * value) ** Rational(1, n)]
+    return [] if sign < 0 else [value ** Rational(1, n), -(value ** Rational(1, n))]
+
+
+def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
+    """A sqrt(P) + B = 0 with A and B constant: P = (B/A)^2, where -B/A is not negative."""
+    root = roots[0]
+    linear = factor.as_poly(root)
+    if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:
+        raise Unsolved(factor)
+    a, b = linear.all_coeffs()
+    if a.has(q) or b.has(q):
+        raise Unsolved(factor)
+    size = tidied(-b / a)
+    sign = sign_by_factors(size)
+    if sign is None:
+        raise Unsolved(factor)
+    if sign == -1:
+        return []
+    inside = expand(root.base - size**2).as_poly(q)
+    if inside is None or inside.degree() != 2 or inside.coeff_monomial(q) != 0:
+        raise Unsolved(factor)
+    square = tidied(-inside.coeff_monomial(1) / inside.LC())
+    sign = sign_by_factors(square)
+    if sign == -1:
+        return []
+    exists = positive(square) if sign is None else None
+    both = [Zero(sqrt(square), exists), Zero(-sqrt(square), exists)]
+    return both[:1] if q.is_positive or sign == 0 else both
+
+
+def _allowed(value: Expr, q: Symbol) -> list[Zero]:
+    """A distance is positive."""
+    if not q.is_positive:
+        return [Zero(value)]
+    sign = sign_by_factors(value)
+    return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]

@@ -1,0 +1,183 @@
+"""What must be true for each word that chooses a sentence about states of rest and their stability.
+
+It is judged in numbers: with numbers for the letters a value is real or it is not, and a curvature has a sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from sympy import Dummy, Expr, Rational, diff, im, prime, re
+from sympy.matrices import MatrixBase
+
+from derive.algebra.expressions import Relation, explicit
+from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.step import is_zero
+
+SHIFTS = 24
+LITTLE = Rational(1, 10**12)
+
+
+def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
+    """Numbers for the letters, one large where another is small, of all the orders that they may have."""
+    ordered = sorted(letters, key=str)
+    for shift in range(SHIFTS):
+        yield {s: Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i, s in enumerate(ordered)}
+
+
+def _entries(value: Any) -> list[Expr]:
+    return list(value) if isinstance(value, MatrixBase) else [value]
+
+
+def _is_real(value: Any, point: dict[Any, Expr]) -> bool:
+    return all(abs(im(entry.xreplace(point).evalf(30))) < LITTLE for entry in _entries(value))
+
+
+def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
+    difference = explicit(condition.left - condition.right).xreplace(point).evalf(30)
+    return bool(difference > 0) == (condition.mark == ">")
+
+
+def _letters(facts: Judged) -> set[Any]:
+    found = set().union(*(entry.free_symbols for entry in _entries(facts.result)))
+    exists = facts.inputs.get("exists")
+    return found | (set(exists.free_symbols) if exists is not None else set())
+
+
+def _anywhere(facts: Judged) -> bool:
+    """It is real whatever the numbers, and no condition is told."""
+    return "exists" not in facts.inputs and all(_is_real(facts.result, n) for n in _numbers(_letters(facts)))
+
+
+def _several(facts: Judged) -> bool:
+    return bool(facts.inputs["count"] > 1)
+
+
+def _under_its_condition(facts: Judged) -> bool:
+    """It is real just where the condition holds, which some of the numbers fulfil and some do not."""
+    if "exists" not in facts.inputs:
+        return False
+    tried = [(_holds(facts.inputs["exists"], n), _is_real(facts.result, n)) for n in _numbers(_letters(facts))]
+    return all(holds == real for holds, real in tried) and {holds for holds, _ in tried} == {True, False}
+
+
+# --- stability ---
+
+
+def _signs(facts: Judged) -> set[int]:
+    """Of the second order of the potential energy, in all directions that are tried, where the state exists."""
+    exists = facts.inputs.get("exists")
+    found = set()
+    for numbers in _numbers(_letters(facts) | facts.inputs["potential_here"].free_symbols - set(_moving(facts))):
+        if exists is not None and not _holds(exists, numbers):
+            continue
+        found.add(_second_order(facts, numbers))
+    return found
+
+
+def _moving(facts: Judged) -> tuple[Any, ...]:
+    return tuple(facts.inputs["coordinates"])
+
+
+def _second_order(facts: Judged, numbers: dict[Any, Expr]) -> int:
+    """1 where the energy rises to second order in all directions, -1 where it falls in one, 0 where it is level in one.
+
+    By a small way in the directions of the coordinates, of their sums and differences, and by the eigenvalues.
+    """
+    moving, value = _moving(facts), facts.inputs["potential_here"].xreplace(numbers)
+    u, w = Dummy("u"), Dummy("w")
+    place = [p.xreplace(numbers) for p in facts.inputs["place"]]
+    worst = 1
+    for i in range(len(moving)):
+        for j in range(i, len(moving)):
+            at = dict(zip(moving, place, strict=True))
+            at[moving[i]] += u
+            at[moving[j]] += w
+            curve = value.subs(at, simultaneous=True)
+            first, mixed, second = (
+                re(diff(curve, x, y).subs({u: 0, w: 0}).evalf(30)) for x, y in ((u, u), (u, w), (w, w))
+            )
+            least = first if i == j else (first + second) / 2 - (((first - second) / 2) ** 2 + mixed**2) ** Rational(1, 2)
+            size = abs(first) + abs(second) + abs(mixed) + LITTLE
+            sign = 0 if abs(least) < LITTLE * size else 1 if least > 0 else -1
+            worst = min(worst, sign)
+    return worst
+
+
+def _always(sign: int) -> Predicate:
+    return lambda facts: _signs(facts) == {sign}
+
+
+def _higher(kind: str) -> Predicate:
+    """To second order it is level; the first derivative that is not zero tells what it is."""
+
+    def is_so(facts: Judged) -> bool:
+        if not all(is_zero(entry) for entry in _entries(facts.result)):
+            return False
+        return len(_moving(facts)) == 1 and kind_of_order(facts.inputs["potential_here"], facts) == kind
+
+    return is_so
+
+
+def kind_of_order(value: Expr, facts: Judged) -> str:
+    (q,), (place,) = _moving(facts), facts.inputs["place"]
+    for order in range(2, 9):
+        there = diff(value, q, order).subs(q, place)
+        if not is_zero(there):
+            signs = {1 if there.xreplace(n).evalf(20) > 0 else -1 for n in _numbers(there.free_symbols)}
+            if order % 2 or signs == {-1}:
+                return "unstable"
+            return "stable" if signs == {1} else "open"
+    return "flat"
+
+
+def _depends(border: str | None) -> Predicate:
+    """The sign is not one for all numbers; the condition that is told holds just where it is positive."""
+
+    def is_so(facts: Judged) -> bool:
+        condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
+        letters = _letters(facts) | facts.inputs["potential_here"].free_symbols - set(_moving(facts))
+        tried = [(_holds(condition, n), _second_order(facts, n)) for n in _numbers(letters)]
+        fits = all(holds == (sign == 1) for holds, sign in tried if sign) and len({holds for holds, _ in tried}) == 2
+        if border is None or not fits:
+            return fits and where is None
+        there = facts.inputs["potential_here"].subs(where.left, where.right)
+        return kind_of_order(there, facts) == border
+
+    return is_so
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "equilibria.condition": {"generic": lambda facts: lasts(_residual(facts)), "zero": lambda f: vanishes(_residual(f))},
+    "equilibria.rest": {
+        "only": lambda facts: _anywhere(facts) and not _several(facts),
+        "always": lambda facts: _anywhere(facts) and _several(facts),
+        "where": _under_its_condition,
+    },
+    "minima.stability": {
+        "stable": _always(1),
+        "unstable": _always(-1),
+        "stable_by_higher_order": _higher("stable"),
+        "unstable_by_higher_order": _higher("unstable"),
+        "flat": _higher("flat"),
+        "depends": _depends(None),
+        "depends_stable_on_border": _depends("stable"),
+        "depends_unstable_on_border": _depends("unstable"),
+    },
+    "minima.stability_of_several": {
+        "stable": _always(1),
+        "unstable": _always(-1),
+        "level": _always(0),
+        "depends": lambda facts: len(_signs(facts)) > 1,
+    },
+}
+
+
+def _residual(facts: Judged) -> Judged:
+    return Judged(facts.result.residual)
+
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)
