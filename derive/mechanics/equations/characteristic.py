@@ -1,7 +1,7 @@
 """The eigenvalue problem K a = lambda M a, solved exactly: the roots of det(K - lambda M) = 0 and their columns.
 
-The matrices are freed of their common factors first, so that mostly numbers are left. Columns are worked out with lambda
-a letter, modulo the irreducible factor that it is a root of: whether a pivot vanishes is then decided exactly.
+The matrices are freed of their common factors first, so that mostly numbers are left. Columns are worked out with
+lambda a letter, modulo the irreducible factor that it is a root of: whether a pivot vanishes is then decided exactly.
 """
 
 from __future__ import annotations
@@ -18,9 +18,11 @@ from sympy.polys.polytools import invert
 from sympy.simplify.fu import TR8
 
 from derive.algebra.amplitudes import determinant_of
+from derive.algebra.expressions import Relation
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.zeros import sign_where
 from derive.steps.step import is_zero
 
 LARGEST, LETTERS = 12, 40  # coordinates; coordinates times letters of the matrices
@@ -29,7 +31,7 @@ FINEST = 60  # parts of a right angle or two that a frequency of a chain is look
 
 @dataclass(frozen=True)
 class Root:
-    """A root lambda of det(K - lambda M), as often as it is one, and as many columns, orthogonal with M between them."""
+    """A root lambda of det(K - lambda M): its columns, orthogonal with M between them, and its sign where known."""
 
     value: Expr
     columns: tuple[MatrixBase, ...]
@@ -42,10 +44,11 @@ class Root:
 
 @dataclass(frozen=True)
 class Pencil:
-    """K - lambda M, of symmetric matrices."""
+    """K - lambda M, of symmetric matrices, where a condition holds."""
 
     stiffness: MatrixBase
     mass: MatrixBase
+    exists: Relation | None = None
 
     @cached_property
     def scale(self) -> Expr:
@@ -87,9 +90,7 @@ class Pencil:
     @cached_property
     def roots(self) -> tuple[Root, ...]:
         """From the least to the greatest, where the letters have middling values."""
-        found = [
-            self._root(part, value, times) for part, times in self.factors for value in _roots_of(part)
-        ]
+        found = [self._root(part, value, times) for part, times in self.factors for value in _roots_of(part)]
         return tuple(sorted(found, key=lambda root: _size(root.value)))
 
     def _root(self, part: Poly, value: Expr, times: int) -> Root:
@@ -107,7 +108,7 @@ class Pencil:
         """Of a root: by itself; else positive where both matrices are positive, by their leading minors."""
         if is_zero(value):
             return 0
-        own = 1 if value.is_positive else -1 if value.is_negative else sign_by_factors(value)
+        own = 1 if value.is_positive else -1 if value.is_negative else sign_where(value, self.exists)
         return own if own is not None else 1 if self._is_positive else None
 
     @cached_property

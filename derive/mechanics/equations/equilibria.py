@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lambdify
-from sympy.matrices import MatrixBase
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
@@ -27,7 +27,7 @@ from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_o
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.step import Fact, Form, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Quantity, compared_with, is_zero, require_kind
 
 __all__ = ["equilibria", "potential_at_rest"]
 
@@ -48,7 +48,7 @@ class RestOf(Fact):
 def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
     """Potential energy that a system at rest sees, V = -L without the rates: U, less what the given motion has of T.
 
-    of   the Lagrangian, J
+    of   the Lagrangian, J; an energy without rates is its own answer
     Second route: the work of the forces and of the inertia of the mass points at rest, -dV for any displacement.
     Errors: the Lagrangian holds the time itself.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
@@ -57,6 +57,8 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     if explicit(of.value).has(TIME):
         raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
     moving = list(of.coordinates)
+    if not explicit(of.value).free_symbols & {rate(q) for q in moving}:
+        return of
     still = {rate(q, n): ZERO for q in moving for n in (1, 2)}
     matter = of.needed(Matter)
 
@@ -83,12 +85,6 @@ def _force_at_rest(matter: Matter, q: Symbol, still: Mapping[Symbol, Expr]) -> E
     return explicit(matter.force_along(q) - matter.inertia_along(q)).xreplace(dict(still))
 
 
-def potential_of(of: Quantity) -> Quantity:
-    """The potential energy itself, or that which a Lagrangian gives a system at rest."""
-    moving = {rate(q) for q in of.coordinates}
-    return potential_at_rest(of) if explicit(of.value).free_symbols & moving else of
-
-
 def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     """All states of rest, dU/dq = 0 for every coordinate, with the conditions under which they exist.
 
@@ -102,11 +98,12 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     force along that coordinate).
     Errors: a zero of the force has no closed form; there is no state of rest; it holds the time.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
+    Source: that of `equilibria`.
     """
     require_kind("equilibria", "of", of, "energy")
     if explicit(of.value).has(TIME):
         raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
-    potential = potential_of(of)
+    potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
@@ -120,9 +117,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     states = _states(of, forces)
     conditions = [_condition(potential, q, forces[q]) for q in sought]
     names = _names(potential, sought, len(states))
-    return tuple(
-        _rest(potential, conditions, sought, state, names, n, states) for n, state in enumerate(states)
-    )
+    return tuple(_rest(potential, conditions, sought, state, names, n, states) for n, state in enumerate(states))
 
 
 @dataclass(frozen=True)
@@ -212,7 +207,11 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
 
 
 def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
-    """dU/dq = 0, in factors."""
+    """dU/dq = 0, in factors.
+
+    Outcomes: generic, zero.
+    Source: that of `equilibria`.
+    """
     return establish(
         "equilibria.condition",
         None,
@@ -262,7 +261,11 @@ def _rest(
     n: int,
     states: Sequence[State],
 ) -> Quantity:
-    """One state of rest."""
+    """One state of rest.
+
+    Outcomes: always, where, only.
+    Source: that of `equilibria`.
+    """
     held = [q for q in sought if q in state.values]
     values = [state.values[q] for q in held]
     single = len(held) == 1
@@ -312,9 +315,7 @@ def _counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found: Expr
         scale = max([abs(x) for x in expected if x] or [1.0])
         grid = _grid(angle, bool(q.is_positive), scale)
         signs = [s for s in (_sign(curve, x) for x in grid) if s]
-        changes = sum(1 for one, other in zip(signs, signs[1:], strict=False) if one != other)
-        if angle and signs[0] != signs[-1] and changes != len(expected):
-            changes += 1
+        changes = sum(1 for one, other in pairwise(signs) if one != other)
         if changes != len(expected) or own is not None and own not in expected:
             where = tuple((str(s), str(x)) for s, x in point.items())
             return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
@@ -329,7 +330,9 @@ def _grid(angle: bool, positive: bool, scale: float) -> list[float]:
 
     if angle:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
-    ends = [(i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)]
+    ends = [
+        (i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)
+    ]
     return [scale * math.tan(u) for u in ends]
 
 

@@ -39,27 +39,33 @@ class Rest(Fact):
 
 @dataclass(frozen=True)
 class Linear(Fact):
-    """Linear equations M eta_ddot + G eta_dot + K eta = 0 together: the matrices and the displacements."""
+    """Linear equations M eta_ddot + G eta_dot + K eta = 0 together: the matrices, the displacements, and where
+    the state of rest exists."""
 
     missing = "is not an equation of motion to first order"
     mass: MatrixBase
     turning: MatrixBase
     stiffness: MatrixBase
     displacements: tuple[Coordinate, ...]
+    exists: Relation | None = None
 
 
 def linearised(
-    motion: Quantity | Sequence[Quantity], at: Quantity | Mapping[Any, Expr] | Expr | None = None, key: str = "linearised"
-) -> Any:
+    motion: Quantity | Sequence[Quantity],
+    at: Quantity | Mapping[Any, Expr] | Expr | None = None,
+    key: str = "linearised",
+) -> Quantity | tuple[Quantity, ...]:
     """Equations of motion to first order in the displacements from rest, M eta_ddot + G eta_dot + K eta = 0.
 
     motion   the equations, as `equations_of_motion` yields them; or one, of one coordinate
     at       the state of rest: as `equilibria` yields it, or `{theta: 0, phi: pi}`; all coordinates 0 unless given
-    Keys: linearised_ and the name of the coordinate. Where a coordinate is not 0 at rest its displacement is called eta.
+    key      what the keys begin with: linearised_theta, one for each coordinate
+    Where a coordinate is not 0 at rest its displacement is called eta; eta_1, eta_2, ... where there are several.
     Second route: M from the kinetic energy of the mass points, K from the virtual work of the forces, to second order.
     Outcomes: generic, displaced (some coordinate is not 0 at rest).
     Errors: a force is left at that place; a value is missing; the equations hold the time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
+    Source: that of `linearised`.
     """
     if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
         return oscillations.linearised(motion, at, key)
@@ -68,7 +74,9 @@ def linearised(
     place = _place_of(equations, moving, at)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
-    linear = Linear(*(_coefficients(equations, moving, place, order) for order in (2, 1, 0)), eta)
+    exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
+    mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
+    linear = Linear(mass, turning, stiffness, eta, exists)
     rests = [at] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i in range(len(equations)))
 
@@ -82,7 +90,11 @@ def _one(
     rests: Sequence[Quantity],
     key: str,
 ) -> Quantity:
-    """The linear equation that belongs to one coordinate."""
+    """The linear equation that belongs to one coordinate.
+
+    Outcomes: generic, displaced.
+    Source: that of `linearised`.
+    """
     eta = linear.displacements
     ordered = [
         (matrix, [rate(s.symbol, n) if n else s.symbol for s in eta])

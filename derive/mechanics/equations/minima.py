@@ -1,7 +1,7 @@
 """Stability of a state of rest: whether the potential energy has a minimum there, and for which values of the letters.
 
-Of one coordinate the curvature decides, on its border the next order that does not vanish; of several the leading minors
-of the second derivatives (Sylvester).
+Of one coordinate the curvature decides, on its border the next order that does not vanish; of several the leading
+minors of the second derivatives (Sylvester).
 """
 
 from __future__ import annotations
@@ -10,22 +10,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
-from derive.algebra.collect import spread
-from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
+from derive.algebra.expressions import At, Relation, Slope, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.equilibria import expanded, potential_of, slope_otherwise
+from derive.mechanics.equations.equilibria import expanded, potential_at_rest, slope_otherwise
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
-from derive.mechanics.equations.zeros import positive
+from derive.mechanics.equations.zeros import border_of, positive, sign_where
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Level, Quantity, is_zero, require_kind
+from derive.steps.step import Form, Level, Quantity, is_zero, require_kind
 
 __all__ = ["stability"]
 
@@ -51,7 +50,9 @@ class Place:
         return tidied(diff(self.energy, one, other).subs(dict(self.values), simultaneous=True))
 
 
-def stability(of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | None = None, key: str | None = None) -> Quantity:
+def stability(
+    of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | None = None, key: str | None = None
+) -> Quantity:
     """Stability of a state of rest, by U''(q_0) > 0, or by the leading minors of the second derivatives of U.
 
     of       the potential energy, an effective one, or the Lagrangian that the rest is one of, J
@@ -64,6 +65,7 @@ def stability(of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | No
     level (several coordinates: to second order the energy does not change in one direction, and nowhere falls).
     Errors: a force is left there; coordinates are missing.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
+    Source: that of `stability`.
     """
     require_kind("stability", "of", of, "energy")
     place = _place(of, at)
@@ -76,7 +78,9 @@ def stability(of: Quantity, at: Quantity | Mapping[Any, Expr], letter: Expr | No
 def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     known = place_given(at)
     rest = at if isinstance(at, Quantity) else None
-    potential = next((p for p in rest.parents if p.step.kind == "energy"), of) if rest is not None else potential_of(of)
+    potential = (
+        next((p for p in rest.parents if p.step.kind == "energy"), of) if rest is not None else potential_at_rest(of)
+    )
     if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
         raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
     held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
@@ -107,6 +111,12 @@ def _check_level(place: Place) -> None:
 
 
 def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
+    """The curvature of the potential energy.
+
+    Outcomes: stable, unstable, depends, depends_stable_on_border, depends_unstable_on_border, stable_by_higher_order,
+    unstable_by_higher_order, flat.
+    Source: that of `stability`.
+    """
     (q,), potential = place.coordinates, place.potential
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
@@ -115,8 +125,11 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         told["condition"] = (condition, Relation(value, ">", 0))
     if place.exists is not None:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
-    if border is not None:
-        told["border"] = (Relation(condition.left, "=", condition.right), Relation(condition.right, "=", condition.left))
+    if border is not None and condition is not None:
+        told["border"] = (
+            Relation(condition.left, "=", condition.right),
+            Relation(condition.right, "=", condition.left),
+        )
     order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
     if outcome.endswith("order") or border is not None:
         energy = place.energy.subs(border.left, border.right) if border is not None else place.energy
@@ -152,38 +165,15 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
     if sign is not None:
         return ("stable" if sign > 0 else "unstable"), None, None
     condition = positive(value, *([letter] if isinstance(letter, Symbol) else []))
-    border = _border(condition)
+    border = border_of(condition)
     if border is None:
         return "depends", condition, None
     there = _by_higher_order(place, place.energy.subs(border.left, border.right))
-    words = {"stable_by_higher_order": "depends_stable_on_border", "unstable_by_higher_order": "depends_unstable_on_border"}
+    words = {
+        "stable_by_higher_order": "depends_stable_on_border",
+        "unstable_by_higher_order": "depends_unstable_on_border",
+    }
     return words.get(there, "depends"), condition, border if there in words else None
-
-
-def sign_where(value: Expr, exists: Relation | None) -> int | None:
-    """The sign of a value, where a condition of existence holds: a letter of it a little beyond its border."""
-    own = sign_by_factors(value)
-    border = _border(exists) if own is None and exists is not None else None
-    if border is None or exists is None:
-        return own
-    beyond = Symbol("u_beyond", positive=True)
-    more = exists.mark == ">"
-    size = border.right * (sqrt(1 + beyond) if exists.left.is_Pow else 1 + beyond) ** (1 if more else -1)
-    return sign_by_factors(tidied(value.subs(border.left, size)))
-
-
-def _border(condition: Relation) -> Relation | None:
-    """The letter of a condition and its value on the border."""
-    left, right = condition.sides
-    if isinstance(left, Symbol):
-        return Relation(left, "=", right)
-    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
-        return Relation(left.base, "=", sqrt(right))
-    for one, other in ((left, right), (right, left)):
-        for s in sorted(one.free_symbols - other.free_symbols, key=str):
-            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
-                return Relation(s, "=", tidied(other * s / one))
-    return None
 
 
 def _order(energy: Expr, place: Place) -> int:
@@ -224,7 +214,11 @@ def _small_force(place: Place, q: Symbol) -> Expr:
 
 
 def _of_several(place: Place, key: str) -> Quantity:
-    """The leading minors of the second derivatives, all positive at a minimum."""
+    """The leading minors of the second derivatives, all positive at a minimum.
+
+    Outcomes: stable, unstable, level, depends.
+    Source: that of `stability`.
+    """
     moving = place.coordinates
     matrix = ImmutableDenseMatrix([[place.second(p, q) for q in moving] for p in moving])
     minors = [_minor(matrix, n) for n in range(1, len(moving) + 1)]
@@ -246,7 +240,13 @@ def _of_several(place: Place, key: str) -> Quantity:
         letters,
         lambda *_: Amplitudes(*minors),
         {"potential": place.potential, "at": place.rest or Integer(0)},
-        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: ImmutableDenseMatrix(values)),
+        lines=Lines(
+            put_in=None,
+            law=Level.FULL,
+            after=[Form(Amplitudes(*values), "result")],
+            result=False,
+            arranged=lambda _: ImmutableDenseMatrix(values),
+        ),
         routes={"any_direction": in_any_direction},
         outcome=_of_minors(matrix, values),
         telling=Telling(

@@ -6,15 +6,16 @@ zero belongs to a free motion, a negative one to a displacement that grows.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixSymbol, Symbol, cos, diff, exp, pi, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixSymbol, Pow, Symbol, cos, diff, exp, pi, sin, sqrt
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant
-from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar
+from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.expressions import Ratio, Relation, Root, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import Pencil
@@ -38,12 +39,13 @@ class Mode(Fact):
     root: RootOfPencil
 
 
-def normal_modes(linear: Sequence[Quantity], symbol: str = "omega", key: str = "mode") -> tuple[Quantity, ...]:
+def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str = "") -> tuple[Quantity, ...]:
     """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
 
     linear   the equations, as `linearised` yields them
+    key      what the keys begin with, where there are modes of something else on the page; then give a `symbol` too
     Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes, of
-    which only the ratios mean anything.
+    which only the ratios mean anything. Of one coordinate there is `frequency` alone, omega_0.
     Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
     the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
@@ -52,23 +54,23 @@ def normal_modes(linear: Sequence[Quantity], symbol: str = "omega", key: str = "
     departing (growing), any_of_several (repeated); of the determinant: several, one (coordinate).
     Errors: there are terms with rates; the roots have no closed form; too many letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
+    Source: that of `normal_modes`.
     """
     together = linear[0].needed(Linear)
     _check_whole(linear, together)
-    pencil = Pencil(together.stiffness, together.mass)
-    letter = scalar(symbol)
-    if letter in (together.stiffness + together.mass).free_symbols:
-        message = f"`normal_modes` would call the frequency {symbol}, but {symbol} stands for something that is given"
+    pencil = Pencil(together.stiffness, together.mass, together.exists)
+    letter = scalar(symbol if symbol and len(linear) > 1 else "omega")
+    if letter.name in {s.name for s in together.stiffness.free_symbols | together.mass.free_symbols}:
+        message = f"`normal_modes` would call the frequency {letter}, but {letter} stands for something that is given"
         raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
-    characteristic = _characteristic(linear, together, pencil, letter)
-    frequencies = [
-        _frequency(characteristic, together, pencil, n, symbol if len(linear) > 1 else f"{symbol}_0")
-        for n in range(len(pencil.roots))
-    ]
+    before = f"{key}_" if key else ""
+    characteristic = _characteristic(linear, together, pencil, letter, before)
+    name = letter.name if len(linear) > 1 else symbol or f"{letter.name}_0"
+    frequencies = [_frequency(characteristic, together, pencil, n, name, before) for n in range(len(pencil.roots))]
     shapes: list[Quantity] = []
     for found in frequencies if len(linear) > 1 else []:
         for column in found.needed(Mode).root.columns:
-            shapes.append(_shape(linear, together, found, column, shapes, key))
+            shapes.append(_shape(linear, together, found, column, shapes, before))
     return (*frequencies, *shapes)
 
 
@@ -88,9 +90,13 @@ def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
 
 
 def _characteristic(
-    linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol
+    linear: Sequence[Quantity], together: Linear, pencil: Pencil, letter: Symbol, start: str
 ) -> Quantity:
-    """det(K - omega^2 M) = 0."""
+    """det(K - omega^2 M) = 0.
+
+    Outcomes: several, one.
+    Source: that of `normal_modes`.
+    """
     matrix = ImmutableDenseMatrix((together.stiffness - letter**2 * together.mass).applyfunc(tidied))
     whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
 
@@ -111,7 +117,7 @@ def _characteristic(
         lines=Lines(put_in=None, arranged=lambda _: Relation(pencil.factored(letter**2), "=", 0)),
         routes={"trial": by_trial},
         outcome="several" if len(linear) > 1 else "one",
-        key="characteristic_equation",
+        key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
@@ -128,10 +134,13 @@ def _with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -
 _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
 
 
-def _frequency(
-    characteristic: Quantity, together: Linear, pencil: Pencil, n: int, symbol: str
-) -> Quantity:
-    """One frequency, or rate of growth."""
+def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: int, symbol: str, start: str) -> Quantity:
+    """One frequency, or rate of growth.
+
+    Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
+    conditional_repeated.
+    Source: that of `normal_modes`.
+    """
     size, linear = len(together.displacements), characteristic.parents[0]
     root = pencil.roots[n]
     number = f"_{n + 1}" if size > 1 else ""
@@ -140,7 +149,9 @@ def _frequency(
     turned = -1 if root.sign == -1 else 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
-        return characteristic.value.left.xreplace({letter**2: turned * found**2}).subs(letter**2, turned * found**2), ZERO
+        return characteristic.value.left.xreplace({letter**2: turned * found**2}).subs(
+            letter**2, turned * found**2
+        ), ZERO
 
     def rayleigh(found: Expr) -> tuple[Expr, Expr]:
         column = root.columns[0]
@@ -162,13 +173,18 @@ def _frequency(
         outcome=outcome,
         telling=Telling(
             points_to={"characteristic": characteristic, **({"linear": linear} if size == 1 else {})},
-            judged_by={"stiffness": together.stiffness, "mass": together.mass},
+            judged_by=_judged_by(together),
         ),
-        key=f"frequency{number}",
+        key=f"{start}frequency{number}",
         kind="angular speed",
         parents=[characteristic],
         facts=[Mode(root)],
     )
+
+
+def _judged_by(together: Linear) -> dict[str, Any]:
+    exists = {"exists": together.exists} if together.exists is not None else {}
+    return {"stiffness": together.stiffness, "mass": together.mass, **exists}
 
 
 def _trace(together: Linear) -> Expr:
@@ -184,11 +200,11 @@ def _root_of(square: Expr) -> Expr:
     drawn = tidied(sqrt(square))
     if drawn == 0 or square.has(sin) or not drawn.has(sqrt(square)) and not _is_irrational(drawn):
         return drawn
-    return Root(square)
+    return Root(square if _is_irrational(square) else spread_or_by_terms(square))
 
 
 def _is_irrational(value: Expr) -> bool:
-    return any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(type(sqrt(T))))
+    return any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(Pow))
 
 
 def _shape(
@@ -197,9 +213,13 @@ def _shape(
     frequency: Quantity,
     column: MatrixBase,
     before: Sequence[Quantity],
-    key: str,
+    start: str,
 ) -> Quantity:
-    """The amplitudes of one mode."""
+    """The amplitudes of one mode.
+
+    Outcomes: in_phase, opposite, alone, generic, uniform, departing, any_of_several.
+    Source: that of `normal_modes`.
+    """
     root = frequency.needed(Mode).root
     n = len(before) + 1
     squared = root.value
@@ -228,9 +248,9 @@ def _shape(
         outcome=_shape_outcome(root, column, together.displacements),
         telling=Telling(
             points_to={"linear": linear[0]},
-            judged_by={"squared": squared, "stiffness": together.stiffness, "mass": together.mass},
+            judged_by={"squared": squared, **_judged_by(together)},
         ),
-        key=f"{key}_{n}",
+        key=f"{start}mode_{n}",
         parents=[*linear, *before],
     )
 

@@ -129,7 +129,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
     if not functions:
         return _of_lengths(factor, q)
     angles = {f.args[0] for f in functions}
-    if len(angles) > 1 or factor.xreplace({f: ONE for f in functions}).has(q):
+    if len(angles) > 1 or factor.xreplace(dict.fromkeys(functions, ONE)).has(q):
         raise Unsolved(factor)
     u = angles.pop()
     parts = int(1 / u.coeff(q)) if u.coeff(q) else 1
@@ -290,3 +290,29 @@ def _allowed(value: Expr, q: Symbol) -> list[Zero]:
         return [Zero(value)]
     sign = sign_by_factors(value)
     return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]
+
+
+def sign_where(value: Expr, exists: Relation | None) -> int | None:
+    """The sign of a value, where a condition of existence holds: a letter of it a little beyond its border."""
+    own = sign_by_factors(value)
+    border = border_of(exists) if own is None and exists is not None else None
+    if border is None or exists is None:
+        return own
+    beyond = Symbol("u_beyond", positive=True)
+    more = exists.mark == ">"
+    size = border.right * (sqrt(1 + beyond) if exists.left.is_Pow else 1 + beyond) ** (1 if more else -1)
+    return sign_by_factors(tidied(value.subs(border.left, size)))
+
+
+def border_of(condition: Relation) -> Relation | None:
+    """The letter of a condition and its value on the border."""
+    left, right = condition.sides
+    if isinstance(left, Symbol):
+        return Relation(left, "=", right)
+    if isinstance(left, Pow) and left.exp == 2 and isinstance(left.base, Symbol) and right.is_positive:
+        return Relation(left.base, "=", sqrt(right))
+    for one, other in ((left, right), (right, left)):
+        for s in sorted(one.free_symbols - other.free_symbols, key=str):
+            if s.is_positive and one.as_poly(s) is not None and (one / s).cancel().has(s) is False:
+                return Relation(s, "=", tidied(other * s / one))
+    return None

@@ -5,10 +5,12 @@ It is judged in numbers: with numbers for the letters a value is real or it is n
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations_with_replacement
 from typing import Any
 
-from sympy import Dummy, Expr, Rational, diff, im, prime, re
+from mpmath import mp
+from sympy import Expr, Rational, diff, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
@@ -66,43 +68,55 @@ def _under_its_condition(facts: Judged) -> bool:
 # --- stability ---
 
 
-def _signs(facts: Judged) -> set[int]:
-    """Of the second order of the potential energy, in all directions that are tried, where the state exists."""
-    exists = facts.inputs.get("exists")
-    found = set()
-    for numbers in _numbers(_letters(facts) | facts.inputs["potential_here"].free_symbols - set(_moving(facts))):
-        if exists is not None and not _holds(exists, numbers):
-            continue
-        found.add(_second_order(facts, numbers))
-    return found
-
-
 def _moving(facts: Judged) -> tuple[Any, ...]:
     return tuple(facts.inputs["coordinates"])
 
 
-def _second_order(facts: Judged, numbers: dict[Any, Expr]) -> int:
-    """1 where the energy rises to second order in all directions, -1 where it falls in one, 0 where it is level in one.
+def _letters_here(facts: Judged) -> list[Any]:
+    of_energy = facts.inputs["potential_here"].free_symbols | set().union(
+        *(value.free_symbols for value in facts.inputs["place"])
+    )
+    return sorted((_letters(facts) | of_energy) - set(_moving(facts)), key=str)
 
-    By a small way in the directions of the coordinates, of their sums and differences, and by the eigenvalues.
+
+def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
+    """Some numbers for the letters, where the state exists, and how the energy changes there to second order."""
+    exists, letters, moving = facts.inputs.get("exists"), _letters_here(facts), _moving(facts)
+    points = [n for n in _numbers(set(letters)) if exists is None or _holds(exists, n)]
+    energy = lambdify([*letters, *moving], facts.inputs["potential_here"], "mpmath")
+    place = lambdify(letters, list(facts.inputs["place"]), "mpmath")
+    with mp.workdps(50):
+        found = []
+        for numbers in points:
+            known = [mp.mpf(int(numbers[s].p)) / int(numbers[s].q) for s in letters]
+            found.append((numbers, _second_order(lambda *at, known=known: energy(*known, *at), place(*known))))
+    return found
+
+
+def _signs(facts: Judged) -> set[int]:
+    return {sign for _, sign in _signs_by_numbers(facts)}
+
+
+def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
+    """1 where the energy rises in all directions of two coordinates, -1 where it falls in one, 0 where it is level.
+
+    Nothing is differentiated: the energy is compared a little to all sides.
     """
-    moving, value = _moving(facts), facts.inputs["potential_here"].xreplace(numbers)
-    u, w = Dummy("u"), Dummy("w")
-    place = [p.xreplace(numbers) for p in facts.inputs["place"]]
-    worst = 1
-    for i in range(len(moving)):
-        for j in range(i, len(moving)):
-            at = dict(zip(moving, place, strict=True))
-            at[moving[i]] += u
-            at[moving[j]] += w
-            curve = value.subs(at, simultaneous=True)
-            first, mixed, second = (
-                re(diff(curve, x, y).subs({u: 0, w: 0}).evalf(30)) for x, y in ((u, u), (u, w), (w, w))
-            )
-            least = first if i == j else (first + second) / 2 - (((first - second) / 2) ** 2 + mixed**2) ** Rational(1, 2)
-            size = abs(first) + abs(second) + abs(mixed) + LITTLE
-            sign = 0 if abs(least) < LITTLE * size else 1 if least > 0 else -1
-            worst = min(worst, sign)
+    step = mp.mpf(10) ** -12
+
+    def gained(*ways: int) -> Any:
+        moved = [x + step * way for x, way in zip(place, ways, strict=True)]
+        return (energy(*moved) - energy(*place)) / step**2
+
+    size, worst = len(place), 1
+    for i, j in combinations_with_replacement(range(size), 2):
+        one, other = ([int(k == n) for k in range(size)] for n in (i, j))
+        first, second = (gained(*way) + gained(*(-w for w in way)) for way in (one, other))
+        both = [a + b for a, b in zip(one, other, strict=True)]
+        mixed = (gained(*both) + gained(*(-w for w in both)) - first - second) / 2
+        least = first if i == j else (first + second) / 2 - mp.sqrt((first - second) ** 2 / 4 + mixed**2)
+        scale = abs(first) + abs(second) + abs(mixed) + abs(energy(*place)) + mp.mpf(10) ** -6
+        worst = min(worst, 0 if abs(least) < scale * mp.mpf(10) ** -8 else 1 if least > 0 else -1)
     return worst
 
 
@@ -138,11 +152,10 @@ def _depends(border: str | None) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         condition, where = facts.inputs["condition"], facts.inputs.get("at_border")
-        letters = _letters(facts) | facts.inputs["potential_here"].free_symbols - set(_moving(facts))
-        tried = [(_holds(condition, n), _second_order(facts, n)) for n in _numbers(letters)]
+        tried = [(_holds(condition, numbers), sign) for numbers, sign in _signs_by_numbers(facts)]
         fits = all(holds == (sign == 1) for holds, sign in tried if sign) and len({holds for holds, _ in tried}) == 2
-        if border is None or not fits:
-            return fits and where is None
+        if border is None or where is None or not fits:
+            return fits and where is None and border is None
         there = facts.inputs["potential_here"].subs(where.left, where.right)
         return kind_of_order(there, facts) == border
 
@@ -150,7 +163,10 @@ def _depends(border: str | None) -> Predicate:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "equilibria.condition": {"generic": lambda facts: lasts(_residual(facts)), "zero": lambda f: vanishes(_residual(f))},
+    "equilibria.condition": {
+        "generic": lambda facts: lasts(_residual(facts)),
+        "zero": lambda f: vanishes(_residual(f)),
+    },
     "equilibria.rest": {
         "only": lambda facts: _anywhere(facts) and not _several(facts),
         "always": lambda facts: _anywhere(facts) and _several(facts),

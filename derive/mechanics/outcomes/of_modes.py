@@ -7,8 +7,9 @@ unknown, and it is asked whether it vanishes at the square of what was found, an
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
-from sympy import Abs, Dummy, Expr, Integer, Poly, Rational, prime
+from sympy import Abs, Dummy, Expr, I, Integer, Poly, Rational, prime
 
 from derive.algebra.amplitudes import determinant_of
 from derive.mechanics.outcomes.signs import always_sign
@@ -20,9 +21,24 @@ LITTLE = Rational(1, 10**15)
 
 def _numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
     """Positive numbers for the letters, from one scale to another."""
-    letters = sorted((facts.inputs["stiffness"] + facts.inputs["mass"]).free_symbols, key=str)
-    for shift in range(5):
-        yield {s: Rational(prime(4 + (5 * i + 3 * shift) % 17), 3 + (i + shift) % 4) for i, s in enumerate(letters)}
+    letters = sorted(facts.inputs["stiffness"].free_symbols | facts.inputs["mass"].free_symbols, key=str)
+    drawn = (
+        {
+            s: Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4)
+            for i, s in enumerate(letters)
+        }
+        for shift in range(40)
+    )
+    yield from islice((numbers for numbers in drawn if _exists(facts, numbers)), 5)
+
+
+def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
+    """Whether these numbers fulfil the condition under which there is the state of rest."""
+    condition = facts.inputs.get("exists")
+    if condition is None:
+        return True
+    difference = condition.residual.xreplace(numbers)
+    return bool(difference > 0 if condition.mark == ">" else difference < 0)
 
 
 def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
@@ -60,9 +76,15 @@ def _frequency(sign: int | None, repeated: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         square = -(facts.result**2) if sign == -1 else facts.result**2
         decided = sign is None or _sign_everywhere(square, facts) == sign
-        return decided and _is_root(square, facts, 2 if repeated else 1)
+        return decided and _is_not_negative(facts) and _is_root(square, facts, 2 if repeated else 1)
 
     return is_so
+
+
+def _is_not_negative(facts: Judged) -> bool:
+    """Of the two roots of a square the frequency is that which is not negative, wherever it is real."""
+    there = [facts.result.xreplace(numbers).evalf(30) for numbers in _numbers(facts)]
+    return not any(value.is_negative or (value / I).is_negative for value in there)
 
 
 def _of_pair(same: bool) -> Predicate:

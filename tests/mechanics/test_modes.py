@@ -1,0 +1,308 @@
+"""Linear equations of motion and normal modes of several coordinates, as the textbooks have them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from sympy import Expr, ImmutableDenseMatrix, Rational, cos, pi, sin, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import TIME as t
+from derive.algebra.expressions import Relation, explicit
+from derive.errors import Rejected, Unverified
+from derive.mechanics import (
+    Particle,
+    System,
+    Y,
+    Z,
+    beats,
+    coordinate,
+    equations_of_motion,
+    equilibria,
+    lagrangian,
+    linearised,
+    normal_modes,
+    period,
+    point,
+    space,
+    spring,
+    weight,
+)
+from derive.mechanics.equations import characteristic, modes
+from derive.mechanics.equations.characteristic import Pencil
+from derive.steps.record import recorded
+from derive.steps.step import Quantity
+
+m, M, g, l, k, c, R, w = symbols("m M g l k c R omega", positive=True)
+m1, m2, l1, l2 = symbols("m_1 m_2 l_1 l_2", positive=True)
+
+
+@pytest.fixture(autouse=True)
+def run() -> Iterator[None]:
+    with recorded():
+        yield
+
+
+def motion(*parts: Any) -> tuple[Quantity, ...]:
+    return equations_of_motion(lagrangian(System(*parts)))
+
+
+def double(*sizes: Expr) -> tuple[tuple[Quantity, ...], Any, Any]:
+    """The double pendulum, its masses and lengths; and its angles."""
+    first, second, upper, lower = sizes or (m, m, l, l)
+    theta, phi = coordinate("theta"), coordinate("phi")
+    top = point(upper * sin(theta), -upper * cos(theta))
+    bottom = top + point(lower * sin(phi), -lower * cos(phi))
+    return motion(Particle(first, top), Particle(second, bottom), weight(g)), theta, phi
+
+
+def chain(masses: list[Expr], constants: list[Expr], walls: bool = True) -> tuple[Quantity, ...]:
+    """Masses in a row, joined by springs, the outer ones to walls if there are any."""
+    at = [point(n * l + coordinate(f"x_{n}", "length"), 0) for n in range(1, len(masses) + 1)]
+    ends = [point(0, 0), *at, point((len(masses) + 1) * l, 0)] if walls else at
+    springs = (spring(each, a, b, l) for each, (a, b) in zip(constants, pairwise(ends), strict=True))
+    return motion(*(Particle(each, p) for each, p in zip(masses, at, strict=True)), *springs)
+
+
+def squares(found: tuple[Quantity, ...]) -> list[Expr]:
+    return [q.value**2 for q in found if q.key.startswith("frequency")]
+
+
+def shapes(found: tuple[Quantity, ...]) -> list[list[Expr]]:
+    return [list(q.value) for q in found if q.key.startswith("mode")]
+
+
+def same(found: list[Expr], *expected: Expr) -> bool:
+    return len(found) == len(expected) and all(equal(a, b) for a, b in zip(found, expected, strict=True))
+
+
+def outcomes(found: tuple[Quantity, ...]) -> list[str]:
+    return [q.step.outcome for q in found]
+
+
+def test_the_double_pendulum_of_equal_lengths_and_masses() -> None:
+    """Taylor, section 11.4: omega^2 = (2 -+ sqrt 2) g/l, shapes (1, +-sqrt 2)."""
+    equations, theta, phi = double()
+    found = normal_modes(linearised(equations, at={theta: 0, phi: 0}))
+    assert same(squares(found), (2 - sqrt(2)) * g / l, (2 + sqrt(2)) * g / l)
+    assert shapes(found) == [[1, sqrt(2)], [1, -sqrt(2)]]
+    assert outcomes(found) == ["oscillating", "oscillating", "in_phase", "opposite"]
+    assert [str(q.symbol) for q in found] == ["omega_1", "omega_2", "a_1", "a_2"]
+    assert all(e.grade == "proved" for q in found for e in q.step.evidence)
+
+
+def test_the_double_pendulum_in_letters_has_the_sum_and_product_of_its_squares() -> None:
+    """From det(K - lambda M) = 0 by hand: (m1 + m2) g (l1 + l2)/(m1 l1 l2) and (m1 + m2) g^2/(m1 l1 l2)."""
+    equations, theta, phi = double(m1, m2, l1, l2)
+    lower, upper = squares(normal_modes(linearised(equations, at={theta: 0, phi: 0})))
+    assert equal(lower + upper, (m1 + m2) * g * (l1 + l2) / (m1 * l1 * l2))
+    assert equal((lower * upper).expand(), (m1 + m2) * g**2 / (m1 * l1 * l2))
+
+
+def test_equations_to_first_order_about_the_lowest_place() -> None:
+    equations, theta, phi = double(m1, m2, l1, l2)
+    first, second = (q.value for q in linearised(equations, at={theta: 0, phi: 0}))
+    upper = (m1 + m2) * l1**2 * theta.acceleration + m2 * l1 * l2 * phi.acceleration + (m1 + m2) * g * l1 * theta.symbol
+    assert equal(first, Relation(upper, "=", 0))
+    lower = l2 * phi.acceleration + l1 * theta.acceleration + g * phi.symbol
+    assert equal(second, Relation(lower, "=", 0))
+
+
+def test_the_double_pendulum_with_its_lower_end_up_falls_over() -> None:
+    """K = m g l diag(2, -1), M = m l^2 ((2, -1), (-1, 1)): lambda^2 = 2 (g/l)^2, one root of each sign."""
+    equations, theta, phi = double()
+    found = normal_modes(linearised(equations, at={theta: 0, phi: pi}))
+    assert outcomes(found)[:3] == ["growing", "oscillating", "departing"]
+    assert same(squares(found), sqrt(2) * g / l, sqrt(2) * g / l)
+    assert str(found[0].symbol) == "kappa_1"
+
+
+def test_two_masses_between_three_springs() -> None:
+    """Taylor, section 11.2."""
+    found = normal_modes(linearised(chain([m, m], [k, k, k])))
+    assert same(squares(found), k / m, 3 * k / m)
+    assert shapes(found) == [[1, 1], [1, -1]]
+
+
+def test_three_masses_between_four_springs() -> None:
+    found = normal_modes(linearised(chain([m] * 3, [k] * 4)))
+    assert same(squares(found), (2 - sqrt(2)) * k / m, 2 * k / m, (2 + sqrt(2)) * k / m)
+    assert shapes(found) == [[1, sqrt(2), 1], [1, 0, -1], [1, -sqrt(2), 1]]
+
+
+def test_a_linear_molecule_moves_freely_as_a_whole() -> None:
+    """Goldstein, section 6.4: 0, k/m, (k/m)(1 + 2m/M); shapes (1, 1, 1), (1, 0, -1), (1, -2m/M, 1)."""
+    found = normal_modes(linearised(chain([m, M, m], [k, k], walls=False)))
+    assert same(squares(found), 0 * k, k / m, k / m * (1 + 2 * m / M))
+    assert shapes(found) == [[1, 1, 1], [1, 0, -1], [1, -2 * m / M, 1]]
+    assert outcomes(found) == ["free", "oscillating", "oscillating", "uniform", "generic", "generic"]
+
+
+@pytest.mark.parametrize("size", [6, 8])
+def test_the_frequencies_of_a_uniform_chain(size: int) -> None:
+    """Fetter, Walecka, section 24: lambda = 4 (k/m) sin^2(n pi/2(N + 1))."""
+    stiffness = ImmutableDenseMatrix(size, size, lambda i, j: k * (2 if i == j else -int(abs(i - j) == 1)))
+    found = Pencil(stiffness, m * ImmutableDenseMatrix.eye(size)).roots
+    for n, root in enumerate(found, 1):
+        exact = 4 * k / m * sin(n * pi / (2 * (size + 1))) ** 2
+        assert equal(root.value, exact)
+        residual = (stiffness - exact * m * ImmutableDenseMatrix.eye(size)) * root.columns[0]
+        assert all(abs(entry.subs({k: 1, m: 1}).evalf(20)) < Rational(1, 10**15) for entry in residual)
+
+
+def test_three_equal_masses_joined_in_a_triangle_have_a_repeated_frequency() -> None:
+    """K = k ((2, -1, -1), ...): 0, 3k/m, 3k/m, with shapes orthogonal to each other."""
+    stiffness = ImmutableDenseMatrix([[2 * k, -k, -k], [-k, 2 * k, -k], [-k, -k, 2 * k]])
+    free, pair = Pencil(stiffness, m * ImmutableDenseMatrix.eye(3)).roots
+    assert (free.value, pair.value, pair.multiplicity) == (0, 3 * k / m, 2)
+    assert (pair.columns[0].T * pair.columns[1])[0] == 0
+
+
+def test_two_masses_that_are_not_joined_have_one_frequency_twice() -> None:
+    at = [point(n * l + coordinate(f"x_{n}", "length"), 0) for n in (1, 3)]
+    springs = (spring(k, point(2 * n * l, 0), each, l) for n, each in enumerate(at))
+    found = normal_modes(linearised(motion(*(Particle(m, each) for each in at), *springs)))
+    assert outcomes(found) == ["oscillating_repeated", "any_of_several", "any_of_several"]
+    assert same(squares(found), k / m)
+
+
+def test_a_pendulum_on_a_cart_has_a_mode_that_is_no_oscillation() -> None:
+    """Morin, section 6.5: omega^2 = (M + m) g/(M l), and the whole moves along."""
+    x, theta = coordinate("x", "length"), coordinate("theta")
+    bob = point(x + l * sin(theta), -l * cos(theta))
+    found = normal_modes(linearised(motion(Particle(M, point(x, 0)), Particle(m, bob), weight(g)), at={theta: 0}))
+    assert same(squares(found), 0 * g, (M + m) * g / (M * l))
+    assert shapes(found)[0] == [1, 0]
+    assert same(shapes(found)[1], 1 + 0 * m, -(M + m) / (m * l))
+
+
+def test_weakly_coupled_oscillators_beat_with_the_difference() -> None:
+    """Taylor, section 11.3."""
+    slow, fast, *_ = normal_modes(linearised(chain([m, m], [k, c, k])))
+    found = beats(slow, fast)
+    assert equal(found.value, sqrt((k + 2 * c) / m) - sqrt(k / m))
+    assert equal(period(slow).value, 2 * pi * sqrt(m / k))
+
+
+def test_a_pendulum_and_its_period() -> None:
+    theta = coordinate("theta")
+    equations = motion(Particle(m, point(l * sin(theta), -l * cos(theta))), weight(g))
+    (omega,) = normal_modes(linearised(equations))
+    assert (str(omega.symbol), omega.key) == ("omega_0", "frequency")
+    assert equal(period(omega).value, 2 * pi * sqrt(l / g))
+    (growth,) = normal_modes(linearised(equations, at={theta: pi}, key="above"), symbol="nu", key="above")
+    assert (growth.step.outcome, str(growth.symbol)) == ("growing", "kappa")
+    with pytest.raises(Rejected, match="is not the frequency of an oscillation"):
+        period(growth)
+
+
+def test_a_bead_on_a_turning_hoop_swings_about_its_tilted_place() -> None:
+    """Taylor, example 7.7: Omega'^2 = omega^2 - (g/(omega R))^2."""
+    theta, W = coordinate("theta"), symbols("Omega", positive=True)
+    L = lagrangian(System(Particle(m, space.turned(Z, W * t).place(R * sin(theta), 0, -R * cos(theta))), weight(g)))
+    tilted = equilibria(L)[2]
+    (omega,) = normal_modes(linearised(equations_of_motion(L), at=tilted))
+    assert equal(omega.value**2, W**2 - (g / (W * R)) ** 2)
+    assert omega.step.outcome == "oscillating"
+
+
+def cart() -> tuple[tuple[Quantity, ...], Any, Any]:
+    x, theta = coordinate("x", "length"), coordinate("theta")
+    bob = point(x + l * sin(theta), -l * cos(theta))
+    return motion(Particle(M, point(x, 0)), Particle(m, bob), weight(g)), x, theta
+
+
+def turning() -> tuple[Quantity, ...]:
+    """A mass on springs in axes that turn: its equations have terms with rates."""
+    x, y = coordinate("x", "length"), coordinate("y", "length")
+    at = space.turned(Z, w * t).place(x, y, 0)
+    return motion(Particle(m, at), spring(k, 0 * Y.__class__((0, 0, 0)), at))
+
+
+def refused(case: str) -> Any:
+    if case == "no rest":
+        equations, theta, phi = double()
+        return linearised(equations, at={theta: 0, phi: pi / 2})
+    if case == "missing":
+        equations, theta, _ = double()
+        return linearised(equations, at={theta: 0})
+    if case == "stranger":
+        equations, theta, phi = double()
+        return linearised(equations, at={theta: 0, phi: 0, coordinate("psi"): 0})
+    if case == "one of two":
+        equations, *_ = double()
+        return normal_modes(linearised(equations)[:1])
+    if case == "taken":
+        return normal_modes(linearised(chain([w, w], [k, k, k])))
+    if case == "cubic":
+        return normal_modes(linearised(chain([m, m, m], [k, k, k, c])))
+    if case == "rates":
+        return normal_modes(linearised(turning()))
+    if case == "nonlinear":
+        return normal_modes(double()[0])
+    if case == "beats of one":
+        slow, *_ = normal_modes(linearised(chain([m, m], [k, c, k])))
+        return beats(slow, slow)
+    theta = coordinate("theta")
+    height = R * cos(w * t)
+    return linearised(motion(Particle(m, point(l * sin(theta), height - l * cos(theta))), weight(g)), at={theta: 0})
+
+
+@pytest.mark.parametrize(
+    ("case", "said"),
+    [
+        ("no rest", "is not in equilibrium at theta = 0, phi = pi/2: g\\*l\\*m is left for 0"),
+        ("missing", "nothing says what phi is at rest"),
+        ("stranger", "have no coordinate psi"),
+        ("one of two", "needs all the equations"),
+        ("taken", "omega stands for something that is given"),
+        ("cubic", "the squares of 3 frequencies are the roots of a polynomial that does not factor"),
+        ("rates", "needs equations without rates"),
+        ("nonlinear", "is not an equation of motion to first order"),
+        ("beats of one", "do not beat"),
+        ("driven", "holds the time itself"),
+    ],
+)
+def test_wrong_questions_about_modes_are_refused(case: str, said: str) -> None:
+    with pytest.raises(Rejected, match=said):
+        refused(case)
+
+
+WRONG: dict[str, tuple[Any, str, Callable[..., Any]]] = {
+    "a root too large": (modes, "_root_of", lambda square: 2 * sqrt(square)),
+    "a root of the other sign": (modes, "_root_of", lambda square: -sqrt(square)),
+    "another shape": (
+        characteristic,
+        "_presentable",
+        lambda column: ImmutableDenseMatrix([column[0], *(2 * e for e in column[1:])]),
+    ),
+    "another determinant": (Pencil, "factored", lambda self, unknown: unknown**2 - k * unknown / m),
+}
+
+
+@pytest.mark.parametrize("slip", WRONG)
+def test_a_wrong_law_of_modes_is_refused(slip: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    module, name, wrong = WRONG[slip]
+    monkeypatch.setattr(module, name, wrong)
+    with pytest.raises(Unverified):
+        normal_modes(linearised(chain([m, m], [k, k, k])))
+
+
+def test_a_wrong_linear_equation_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    from derive.mechanics.equations import linearised as module
+
+    right = module._coefficients
+    monkeypatch.setattr(module, "_coefficients", lambda *given: (1 + (given[-1] == 0)) * right(*given))
+    equations, theta, phi = double()
+    with pytest.raises(Unverified, match="second_order"):
+        linearised(equations, at={theta: 0, phi: 0})
+
+
+def test_what_is_displaced_is_counted_from_rest() -> None:
+    equations, theta, phi = double()
+    first, second = linearised(equations, at={theta: pi, phi: pi})
+    assert {str(s) for s in explicit(first.value).free_symbols} >= {"eta_1", "eta_1_ddot", "eta_2_ddot"}
+    assert dict(second.step.roles)["counted_1"] == Relation(theta.symbol, "=", pi + symbols("eta_1", real=True))
