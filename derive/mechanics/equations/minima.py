@@ -84,8 +84,8 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
         raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
     held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
-    missing = [q for q in held if q not in known and any(diff(explicit(potential.value), q).has(s) for s in held)]
-    missing = [q for q in missing if not is_zero(diff(explicit(potential.value), q).subs(known))]
+    slopes = {q: diff(explicit(potential.value), q).subs(known, simultaneous=True) for q in held}
+    missing = [q for q in held if q not in known and not all(is_zero(slope) for slope in slopes.values())]
     if missing:
         message = f"`stability`: nothing says what {missing[0].name} is at rest"
         raise Rejected(Complaint("wrong-argument", message, help=f"give it with the others, `{missing[0].name}: 0`"))
