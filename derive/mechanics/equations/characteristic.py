@@ -10,7 +10,30 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from sympy import Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Poly, chebyshevt, cos, ilcm, pi, prime, sin, sqrt
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    Symbol,
+    chebyshevt,
+    cos,
+    factor,
+    fraction,
+    gcd,
+    ilcm,
+    lcm,
+    pi,
+    prime,
+    sin,
+    sqrt,
+    together,
+)
 from sympy.matrices import MatrixBase
 from sympy.polys.constructor import construct_domain
 from sympy.polys.polyerrors import PolynomialError
@@ -84,7 +107,7 @@ class Pencil:
         for part, times in self.factors:
             value = tidied(part.as_expr().xreplace({_LAMBDA: unknown / self.scale}))
             above = value.as_numer_denom()[0].as_independent(*unknown.free_symbols, as_Add=False)[1]
-            parts.append(_leading_positive(above, unknown) ** times)
+            parts.append(_by_powers(_leading_positive(above, unknown), unknown) ** times)
         return Mul(*parts)
 
     @cached_property
@@ -128,6 +151,15 @@ def _leading_positive(value: Expr, unknown: Expr) -> Expr:
     return -value if leading is not None and leading.LC().could_extract_minus_sign() else value
 
 
+def _by_powers(value: Expr, unknown: Expr) -> Expr:
+    """Each power with one coefficient in factors before it."""
+    polynomial = value.as_poly(*unknown.free_symbols)
+    if polynomial is None:
+        return value
+    terms = [factor(c) * Mul(*(s**n for s, n in zip(polynomial.gens, ns, strict=True))) for ns, c in polynomial.terms()]
+    return min((Add(*terms), value), key=lambda form: int(form.count_ops()))
+
+
 def _roots_of(part: Poly) -> list[Expr]:
     """Of an irreducible polynomial: linear, quadratic, or that of a uniform chain."""
     if part.degree() == 1:
@@ -135,13 +167,27 @@ def _roots_of(part: Poly) -> list[Expr]:
         return [tidied(-b / a)]
     if part.degree() == 2:
         a, b, c = part.all_coeffs()
-        root = sqrt(tidied(b**2 - 4 * a * c))
-        return [tidied((-b - root) / (2 * a)), tidied((-b + root) / (2 * a))]
+        root = sqrt(_discriminant(a, b, c))
+        return [_sum_with_root(-b / (2 * a), turn / (2 * a), root) for turn in (-1, 1)]
     found = _of_chain(part)
     if found is None:
         message = f"the squares of {part.degree()} frequencies are the roots of a polynomial that does not factor"
         raise Rejected(Complaint("no-closed-form", message, help="give equal masses and springs one letter"))
     return found
+
+
+def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
+    """b^2 - 4 a c, tidy or with its two terms in factors, whichever is shorter."""
+    common = gcd(b**2, a * c)
+    apart = factor(common) * (factor(b**2 / common) - 4 * factor(a * c / common))
+    return min((tidied(b**2 - 4 * a * c), apart), key=lambda form: int(form.count_ops()))
+
+
+def _sum_with_root(plain: Expr, before: Expr, root: Expr) -> Expr:
+    """u + v sqrt(D), u and v in factors where that is shorter, over one denominator."""
+    below = lcm(*(fraction(together(part))[1] for part in (plain, before)))
+    apart = (factor(plain * below) + factor(before * below) * root) / factor(below)
+    return min((tidied(plain + before * root), apart), key=lambda form: int(form.count_ops()))
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
@@ -162,6 +208,12 @@ def _of_chain(part: Poly) -> list[Expr] | None:
 
 def _entry_at(entry: Expr, value: Expr) -> Expr:
     """An entry with lambda put in; of a chain, 4 sin^2 u, with multiples of the angle in place of powers."""
+    roots = [p for p in value.atoms(Pow) if p.exp == Rational(1, 2) and p.has(Symbol)]
+    if len(roots) == 1 and (split := value.as_poly(roots[0])) is not None and split.degree() == 1:
+        before, plain = split.all_coeffs()
+        inner = entry.as_poly(_LAMBDA)
+        slope, constant = inner.coeff_monomial(_LAMBDA), inner.coeff_monomial(1)
+        return _sum_with_root(constant + slope * plain, slope * before, roots[0])
     if not value.has(sin):
         return tidied(entry.xreplace({_LAMBDA: value}))
     angle = next(iter(value.atoms(sin))).args[0]
