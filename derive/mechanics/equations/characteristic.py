@@ -23,6 +23,7 @@ from sympy import (
     Symbol,
     chebyshevt,
     cos,
+    expand,
     factor,
     fraction,
     gcd,
@@ -38,7 +39,7 @@ from sympy.matrices import MatrixBase
 from sympy.polys.constructor import construct_domain
 from sympy.polys.polyerrors import PolynomialError
 from sympy.polys.polytools import invert
-from sympy.simplify.fu import TR8
+from sympy.simplify.fu import TR5, TR6, TR8
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import Relation
@@ -124,7 +125,7 @@ class Pencil:
         ]
         if len(columns) != times:
             raise Rejected(Complaint("no-closed-form", "a repeated frequency has fewer shapes than it should"))
-        exact = tidied(self.scale * value)
+        exact = _of_plain_sign(tidied(self.scale * value))
         return Root(exact, tuple(_presentable(c) for c in _orthogonal(columns, mass)), self._sign(exact))
 
     def _sign(self, value: Expr) -> int | None:
@@ -164,7 +165,7 @@ def _roots_of(part: Poly) -> list[Expr]:
     """Of an irreducible polynomial: linear, quadratic, or that of a uniform chain."""
     if part.degree() == 1:
         a, b = part.all_coeffs()
-        return [tidied(-b / a)]
+        return [_of_plain_sign(tidied(-b / a))]
     if part.degree() == 2:
         a, b, c = part.all_coeffs()
         root = sqrt(_discriminant(a, b, c))
@@ -174,6 +175,15 @@ def _roots_of(part: Poly) -> list[Expr]:
         message = f"the squares of {part.degree()} frequencies are the roots of a polynomial that does not factor"
         raise Rejected(Complaint("no-closed-form", message, help="give equal masses and springs one letter"))
     return found
+
+
+def _of_plain_sign(value: Expr) -> Expr:
+    """With sin^2 in place of cos^2, or the other way, where that shows a sign: M + m sin^2 a, not M + m - m cos^2 a."""
+    if not value.has(sin, cos) or sign_by_factors(value) is not None:
+        return value
+    above, below = fraction(together(value))
+    forms = [factor(expand(turned(expand(above)))) / factor(expand(turned(expand(below)))) for turned in (TR5, TR6)]
+    return next((form for form in forms if sign_by_factors(form) is not None), value)
 
 
 def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:

@@ -231,7 +231,7 @@ def _shape(
         turned = -squared if root.sign == -1 else squared
         left = [_with_motion(each, together, [a * course for a in found]) / course for each in linear]
         values = [value.expand().subs(w**2, turned) if root.sign != 0 else value for value in left]
-        return ImmutableDenseMatrix([tidied(v) for v in values]), ImmutableDenseMatrix([ZERO] * len(values))
+        return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 
     def across(found: MatrixBase) -> tuple[Expr, Expr]:
         marks = [Symbol(f"u_{i}", real=True) for i in range(len(before))]

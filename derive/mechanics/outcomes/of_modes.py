@@ -7,9 +7,10 @@ unknown, and it is asked whether it vanishes at the square of what was found, an
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from itertools import islice
 
-from sympy import Abs, Dummy, Expr, I, Integer, Poly, Rational, prime
+from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rational, prime
 
 from derive.algebra.amplitudes import determinant_of
 from derive.mechanics.outcomes.signs import always_sign
@@ -43,8 +44,14 @@ def _exists(facts: Judged, numbers: dict[Expr, Expr]) -> bool:
 
 def _polynomial(facts: Judged, numbers: dict[Expr, Expr]) -> Poly:
     """det(K - lambda M) with numbers for the letters."""
+    stiffness, mass = (ImmutableDenseMatrix(facts.inputs[role].xreplace(numbers)) for role in ("stiffness", "mass"))
+    return _determinant(stiffness, mass)
+
+
+@lru_cache(maxsize=64)  # each frequency and each shape of a system asks for the same few
+def _determinant(stiffness: ImmutableDenseMatrix, mass: ImmutableDenseMatrix) -> Poly:
     unknown = Dummy("lambda")
-    return Poly(determinant_of((facts.inputs["stiffness"] - unknown * facts.inputs["mass"]).xreplace(numbers)), unknown)
+    return Poly(determinant_of(stiffness - unknown * mass), unknown)
 
 
 def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
