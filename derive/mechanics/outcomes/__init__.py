@@ -4,10 +4,10 @@ Verbs choose the word; here it is judged, by other means where there are any: th
 of a body by its particles, the shape of a potential by its derivatives. `establish` refuses a word that is not true.
 """
 
-from derive.mechanics.outcomes import of_answers, of_bodies, of_conditions, of_motion, of_rotation
-
-__all__ = ["of_answers", "of_bodies", "of_conditions", "of_motion", "of_rotation"]
-from derive.mechanics.outcomes import of_bodies, of_conditions, of_modes, of_motion, of_rotation
-from derive.mechanics.outcomes import of_bodies, of_conditions, of_equilibria, of_modes, of_motion, of_rotation
-
-__all__ = ["of_bodies", "of_conditions", "of_equilibria", "of_modes", "of_motion", "of_rotation"]
+from derive.mechanics.outcomes import of_answers as of_answers
+from derive.mechanics.outcomes import of_bodies as of_bodies
+from derive.mechanics.outcomes import of_conditions as of_conditions
+from derive.mechanics.outcomes import of_equilibria as of_equilibria
+from derive.mechanics.outcomes import of_modes as of_modes
+from derive.mechanics.outcomes import of_motion as of_motion
+from derive.mechanics.outcomes import of_rotation as of_rotation
