@@ -47,6 +47,7 @@ from derive.algebra.node import (
     product_of_dimensions,
 )
 from derive.algebra.node import explicit as explicit
+from derive.algebra.poisson import PoissonBracket as PoissonBracket
 from derive.algebra.relation import Relation as Relation
 from derive.algebra.relation import sympify_number as sympify_number
 

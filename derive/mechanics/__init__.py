@@ -38,10 +38,13 @@ from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.vectors import *
+from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraints import *
 from derive.mechanics.systems.coordinates import *
 from derive.mechanics.systems.cyclic import *
+from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.lagrangian import *
+from derive.mechanics.systems.phase_space import *
 from derive.mechanics.systems.places import *
 from derive.mechanics.systems.rolling import *
 from derive.mechanics.systems.system import *

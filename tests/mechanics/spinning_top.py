@@ -39,7 +39,7 @@ def motion_of(verbs: Verbs) -> SimpleNamespace:
 def potential_of(verbs: Verbs) -> tuple[Any, Any]:
     all_of = motion_of(verbs)
     rate = verbs.upright_rate(verbs.conserved_momentum(all_of.L, all_of.angles.phi), all_of.tilt)
-    return all_of, verbs.effective_potential(rate, all_of.T, all_of.U)
+    return all_of, verbs.tilt_potential(rate, all_of.T, all_of.U)
 
 
 def curvature_here(verbs: Verbs) -> Any:

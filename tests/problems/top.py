@@ -14,7 +14,6 @@ from derive.mechanics import (
     conserved_momentum,
     constant_spin,
     curvature_at,
-    effective_potential,
     equation_of_motion,
     euler_angles,
     lagrangian,
@@ -27,6 +26,7 @@ from derive.mechanics import (
     steady_precession,
     steady_rates,
     tilt_equation,
+    tilt_potential,
     top_kinetic_energy,
     total_mass,
     transverse_moment,
@@ -68,7 +68,7 @@ def solve(
     slow, fast = steady_rates(rates, condition)
 
     upright = upright_rate(conserved_momentum(L, angles.phi), motion)  # phi is cyclic; upright p_phi = p_psi = I_z S
-    V = effective_potential(upright, T, U)
+    V = tilt_potential(upright, T, U)
     here = with_values(curvature_at(slope(V, 2)), *top.values, key="curvature_here")
     stable = positive_where(here, spin, key="upright_condition")
     border = leading_order(with_values(V, *top.values, key="potential_here"), where=boundary_case(stable))

@@ -46,6 +46,19 @@ class FromLagrangian(Fact):
     lagrangian: Quantity
 
 
+@dataclass(frozen=True)
+class Energies(Fact):
+    """The energies that a Lagrangian is the difference of."""
+
+    missing = "is not the Lagrangian that `lagrangian` yields"
+    kinetic: Quantity
+    potential: Quantity
+
+    @property
+    def whole(self) -> Expr:
+        return explicit(self.kinetic.value + self.potential.value)
+
+
 def plane_kinetic_energy(
     mass: Expr | Quantity,
     velocity: Sequence[Quantity],
@@ -222,8 +235,14 @@ def lagrangian(
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
         key=key,
         kind="energy",
-        facts=[matter],
+        facts=[matter, Energies(kinetic, potential)],
     )
+
+
+def coordinates_of(of: Quantity) -> list[Coordinate]:
+    """The coordinates whose motion a Lagrangian governs."""
+    matter = of.needed(Matter)
+    return [Coordinate(q, kind) for q, kind in of.coordinates.items() if q in matter.coordinates]
 
 
 def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_motion") -> Quantity:
@@ -275,8 +294,7 @@ def equations_of_motion(of: Quantity) -> tuple[Quantity, ...]:
     Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
-    known = [Coordinate(symbol, kind) for symbol, kind in of.coordinates.items()]
-    return tuple(equation_of_motion(of, q, key=f"motion_{q.symbol.name}") for q in known)
+    return tuple(equation_of_motion(of, q, key=f"motion_{q.symbol.name}") for q in coordinates_of(of))
 
 
 def _difference(first: Expr, second: Expr) -> Expr:

@@ -21,7 +21,7 @@ from derive.mechanics.tops.top import ConstantSpin, EulerAngles, HeavyTop, Top
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Quantity, Route
 
-__all__ = ["effective_potential", "sleeping_spin", "upright_rate"]
+__all__ = ["sleeping_spin", "tilt_potential", "upright_rate"]
 
 HALF = Rational(1, 2)
 
@@ -77,7 +77,7 @@ def _facts(quantity: Quantity) -> tuple[EulerAngles, Top, Expr]:
     return quantity.needed(EulerAngles), quantity.needed(HeavyTop).top, quantity.needed(ConstantSpin).rate
 
 
-def effective_potential(
+def tilt_potential(
     rate: Quantity, kinetic: Quantity, potential: Quantity, symbol: str = "V", key: str = "effective_potential"
 ) -> Quantity:
     """Potential energy that the tilt sees, V = (1/2) I_x phi_dot^2 sin^2 theta + U: E = (1/2) I_x theta_dot^2 + V

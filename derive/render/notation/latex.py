@@ -88,7 +88,7 @@ class _Printer:
             case RootSign(inside):
                 return rf"\sqrt{{{self.show(inside)}}}"
             case Fenced(inside, kind):
-                left, right = ("(", ")") if kind == "(" else ("|", "|")
+                left, right = {"(": ("(", ")"), "|": ("|", "|"), "{": (r"\{", r"\}")}[kind]
                 tall = _is_tall(inside, self.inline)
                 return self._fenced(left, self.show(inside), right, tall)
             case Bracketed(inside, lower, upper):
@@ -126,7 +126,7 @@ class _Printer:
     def _fenced(self, left: str, inside: str, right: str, tall: bool) -> str:
         if left == "|":
             return rf"\left|{inside}\right|" if tall else rf"\lvert {inside}\rvert "
-        return rf"{{\left({inside}\right)}}" if tall else f"({inside})"
+        return rf"{{\left{left}{inside}\right{right}}}" if tall else f"{left}{inside}{right}"
 
 
 def _separated(pieces: list[str]) -> list[str]:

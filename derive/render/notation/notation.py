@@ -418,6 +418,7 @@ class Notation:
         (Integral, _integral),
         (Identity, _identity),
         (ex.Partial, _partial),
+        (ex.PoissonBracket, lambda self, expr: Fenced(self.list_of(expr.args[:2]).inside, "{")),
         (ex.Slope, _slope),
         (ex.At, _at),
         (SwingTime, lambda self, expr: self._swing(expr)),

@@ -1,0 +1,75 @@
+"""What must be true for each word that chooses a sentence about momenta, energy functions, and what is conserved."""
+
+from __future__ import annotations
+
+from sympy import Add, Expr, diff
+
+from derive.algebra.expressions import bound, explicit, rate
+from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.mechanics.systems.coordinates import by_functions_of_time
+from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.lagrangian import Energies
+from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.step import Quantity, is_zero
+
+
+def _in_rates(facts: Judged) -> Expr:
+    """The result with the momenta of the mass points in the place of their letters."""
+    L: Quantity = facts.quantities["lagrangian"]
+    matter = L.needed(Matter)
+    letters = {q.name: q for q in matter.coordinates}
+    present = {s: s.name.removeprefix("p_") for s in facts.result.free_symbols if s.name.startswith("p_")}
+    momenta = {p: matter.momentum_along(letters[name]) for p, name in present.items() if name in letters}
+    return bound(explicit(facts.result), momenta)
+
+
+def _is_conserved(facts: Judged) -> bool:
+    """Its rate along the motion, the accelerations taken out by d'Alembert's principle, vanishes."""
+    matter = facts.quantities["lagrangian"].needed(Matter)
+    along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
+    return is_zero(by_functions_of_time(_in_rates(facts), matter.coordinates) - Add(*along))
+
+
+def _is_energy(facts: Judged) -> bool:
+    """Kinetic energy of the mass points, and the potential energy."""
+    L = facts.quantities["lagrangian"]
+    whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
+    return is_zero(_in_rates(facts) - whole)
+
+
+def _energy(conserved: bool, whole: bool) -> Predicate:
+    return lambda facts: (_is_conserved(facts), _is_energy(facts)) == (conserved, whole)
+
+
+_ENERGIES = {
+    "energy": _energy(True, True),
+    "conserved": _energy(True, False),
+    "changing_energy": _energy(False, True),
+    "changing": _energy(False, False),
+}
+
+
+def _not_in_hamiltonian(facts: Judged) -> bool:
+    return is_zero(diff(explicit(facts.inputs["hamiltonian"]), facts.inputs["coordinate"]))
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "canonical.conjugate_momentum": {"generic": lasts, "zero": vanishes},
+    "canonical.rate_by_momenta": {
+        "alone": lambda facts: len(facts.quantities) == 1,
+        "together": lambda facts: len(facts.quantities) > 1,
+    },
+    "canonical.hamiltonian": _ENERGIES,
+    "canonical.equation_of_momentum": {
+        "generic": lambda facts: not _not_in_hamiltonian(facts) and not is_zero(facts.result.right),
+        "cyclic": lambda facts: is_zero(facts.result.right),
+    },
+    "energy.energy_function": _ENERGIES,
+    "energy.energy_function_rate": {
+        "conserved": lambda facts: is_zero(facts.result.right),
+        "changes": lambda facts: not is_zero(facts.result.right),
+    },
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)

@@ -1,0 +1,188 @@
+"""The Hamiltonian and Hamilton's equations: the motion told by coordinates and momenta."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, diff
+
+from derive.algebra.collect import by_terms
+from derive.algebra.expressions import Factors, Partial, Relation, Terms, bound, explicit, rate, scalar
+from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time
+from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.energy import outcome_of_energy, told_of_excess
+from derive.mechanics.systems.lagrangian import Energies, coordinates_of
+from derive.mechanics.systems.phase_space import (
+    PhaseSpace,
+    beside_potential,
+    kind_of_momentum,
+    letter_of_momentum,
+    momenta,
+    part_of_degree,
+    rates_by_momenta,
+)
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Level, Quantity, lettered
+
+__all__ = ["hamilton_equations", "hamiltonian", "in_momenta"]
+
+
+def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Quantity:
+    """Hamiltonian, H(q, p, t) = sum of p q_dot - L with the rates written by the momenta.
+
+    of   the Lagrangian, J
+    The momenta and the rates that belong to them are steps of their own.
+    Second route: T_2 - T_0 + U of the mass points; and with the momenta of the mass points in it, dH/dp is q_dot and
+    -dH/dq is the sum of F . dr/dq and of m v . d(dr/dq)/dt.
+    Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
+    time), changing (neither).
+    Errors: the momenta do not determine the rates, or too many would have to be solved together.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    moving = coordinates_of(of)
+    energies, matter = of.needed(Energies), of.needed(Matter)
+    space = PhaseSpace(tuple(moving), of)
+    letters = {letter_of_momentum(q): kind_of_momentum(q.kind) or "number" for q in moving}
+    given = momenta(of)
+    rates = rates_by_momenta(of, given, letters, key)
+    put_in = {v.symbol: v.value for v in rates}
+    in_rates = space.by_matter()
+
+    def law(L: Expr, *both: Expr) -> Expr:
+        return Terms(*(Factors(p, v) for p, v in zip(both[: len(moving)], both[len(moving) :], strict=True)), -L)
+
+    def by_degree(found: Expr) -> tuple[Expr, Expr]:
+        kinetic, names = matter.kinetic_energy(), [q.rate for q in moving]
+        parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
+        return found, bound(parts, put_in) + energies.potential.value
+
+    def canonical(found: Expr) -> tuple[Any, Any]:
+        onwards = [bound(diff(found, p), in_rates) for _, p in space.pairs]
+        pushed = [bound(-diff(found, q), in_rates) for q, _ in space.pairs]
+        forces = [matter.force_along(q) + matter.turning_along(q) for q, _ in space.pairs]
+        return ImmutableDenseMatrix([*onwards, *pushed]), ImmutableDenseMatrix([*(q.rate for q in moving), *forces])
+
+    def written(value: Expr) -> Expr:
+        return beside_potential(value, of, list(letters))
+
+    h = explicit(sum((p.value * v for p, v in zip(given, put_in, strict=True)), -explicit(of.value)))
+    return establish(
+        "canonical.hamiltonian",
+        scalar(symbol),
+        law,
+        {
+            "lagrangian": replace(of, value=bound(explicit(of.value), put_in), parents=(of,)),
+            **{f"momentum_{p.key}": lettered(p) for p in given},
+            **{v.key: v for v in rates},
+        },
+        lines=Lines(put_in=Level.FULL, arranged=written),
+        routes={"by_degree": by_degree, "canonical": canonical},
+        outcome=outcome_of_energy(h, of),
+        telling=Telling(formulas=told_of_excess(h, of, [q.rate for q in moving]), points_to={"whole": of}),
+        key=key,
+        kind="energy",
+        facts=[space],
+        scope=Scope(coordinates=letters),
+    )
+
+
+def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
+    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq for each coordinate.
+
+    of   the Hamiltonian, J
+    Keys: canonical_ and the name of the coordinate, or of the momentum.
+    Second route: with the momenta of the mass points put in, the first is the rate itself, and the second is
+    d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
+    Outcomes: generic, cyclic (H does not contain q, so its momentum is constant).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    found: list[Quantity] = []
+    for q in of.needed(PhaseSpace).coordinates:
+        found += [_equation_of_rate(of, q), _equation_of_momentum(of, q)]
+    return tuple(found)
+
+
+def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
+    space, p = of.needed(PhaseSpace), letter_of_momentum(q)
+
+    def by_matter(found: Relation) -> tuple[Any, Any]:
+        sides = [found.left, bound(explicit(found.right), space.by_matter())]
+        return ImmutableDenseMatrix(sides), ImmutableDenseMatrix([q.rate, q.rate])
+
+    return establish(
+        "canonical.equation_of_rate",
+        None,
+        lambda H: Relation(q.rate, "=", Partial(H, p)),
+        {"hamiltonian": of},
+        lines=Lines(put_in=None, arranged=_by_terms),
+        routes={"momenta": by_matter},
+        key=f"canonical_{q.symbol.name}",
+        facts=[space, OfCoordinate(q)],
+    )
+
+
+def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
+    space, p = of.needed(PhaseSpace), letter_of_momentum(q)
+    matter = space.lagrangian.needed(Matter)
+
+    def by_virtual_work(found: Relation) -> tuple[Any, Any]:
+        in_rates = space.by_matter()
+        changing = by_functions_of_time(in_rates[p], [each.symbol for each in space.coordinates])
+        lost = changing - bound(explicit(found.right), in_rates)
+        work = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
+        return ImmutableDenseMatrix([found.left, lost]), ImmutableDenseMatrix([rate(p), work])
+
+    cyclic = not explicit(of.value).has(q.symbol)
+    return establish(
+        "canonical.equation_of_momentum",
+        None,
+        lambda H: Relation(rate(p), "=", -Partial(H, q.symbol)),
+        {"hamiltonian": of},
+        lines=Lines(put_in=None, arranged=_by_terms),
+        routes={"virtual_work": by_virtual_work},
+        outcome="cyclic" if cyclic else "generic",
+        telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
+        key=f"canonical_{p.name}",
+        facts=[space, OfCoordinate(q)],
+    )
+
+
+def _by_terms(found: Relation) -> Relation:
+    return Relation(found.left, found.mark, by_terms(explicit(found.right)))
+
+
+def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quantity:
+    """A quantity of the motion with its rates written by the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
+
+    quantity   a scalar in coordinates and rates of the same motion
+    of         the Hamiltonian, J
+    Second route: with the momenta of the mass points put in, it is what it was.
+    Errors: the Hamiltonian is that of another motion; the quantity holds no rate.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    space = of.needed(PhaseSpace)
+    rates = {parent.symbol: parent for parent in of.parents if parent.symbol in {q.rate for q in space.coordinates}}
+    present: Sequence[Quantity] = [v for symbol, v in rates.items() if explicit(quantity.value).has(symbol)]
+    if not present:
+        message = f"`in_momenta`: `{quantity.key}` holds no rate of the coordinates of `{of.key}`"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    values = {v.symbol: v.value for v in present}
+
+    def back(found: Expr) -> tuple[Expr, Expr]:
+        return bound(explicit(found), space.by_matter()), explicit(quantity.value)
+
+    return establish(
+        "canonical.in_momenta",
+        quantity.symbol,
+        lambda _, *those: bound(explicit(quantity.value), dict(zip(values, those, strict=True))),
+        {"quantity": quantity, **{v.key: v for v in present}},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_terms(explicit(value).expand())),
+        routes={"momenta": back},
+        key=key or f"{quantity.key}_in_momenta",
+        kind=quantity.step.kind,
+        facts=[space],
+        scope=Scope(case_of=quantity),
+    )

@@ -1,0 +1,262 @@
+"""Coordinates and their momenta: letters, the rates that belong to given momenta, and how functions of them are written.
+
+A momentum p_q is a plain name beside its coordinate q. In phase space both are free, so both count as coordinates of
+what depends on them; as functions of coordinates and rates momenta are values, m l^2 theta_dot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import permutations
+
+from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, diff
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.collect import by_rates, spread
+from derive.algebra.expressions import Partial, bound, explicit, rate, scalar
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, coordinate, required
+from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.step import Fact, Quantity, compared_with, lettered
+
+__all__ = ["conjugate", "conjugate_momentum", "momenta"]
+
+LARGEST = 4  # momenta that are solved together for rates
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class PhaseSpace(Fact):
+    """What is a function of coordinates and momenta, and the Lagrangian whose momenta they are."""
+
+    missing = "is not a function of coordinates and their momenta"
+    coordinates: tuple[Coordinate, ...]
+    lagrangian: Quantity
+
+    @property
+    def pairs(self) -> tuple[tuple[Symbol, Symbol], ...]:
+        return tuple((q.symbol, letter_of_momentum(q)) for q in self.coordinates)
+
+    def by_matter(self) -> dict[Symbol, Expr]:
+        """Each momentum as the sum of m v . dr/dq over the mass points."""
+        matter = self.lagrangian.needed(Matter)
+        return {p: matter.momentum_along(q) for q, p in self.pairs}
+
+
+def letter_of_momentum(q: Coordinate) -> Symbol:
+    return scalar(f"p_{q.symbol.name}")
+
+
+def kind_of_momentum(kind: str) -> str | None:
+    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name."""
+    return kind_of_dimension(
+        dimension_of_kind("energy") * dimension_of_kind("time") / dimension_of_kind(kind),
+    )
+
+
+def conjugate(of: Coordinate) -> Coordinate:
+    """The momentum p_q as a letter of its own beside the coordinate, to write functions of both: `x*p_y - y*p_x`.
+
+    of   the coordinate, an angle or a length
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    kind = kind_of_momentum(of.kind)
+    if kind is None:
+        raise Rejected(Complaint("no-such-kind", f"the momentum of a quantity of the kind `{of.kind}` has no name"))
+    return coordinate(letter_of_momentum(of).name, kind)
+
+
+def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, key: str | None = None) -> Quantity:
+    """Momentum that belongs to a coordinate, p_q = dL/dq_dot.
+
+    of   the Lagrangian, J
+    q    one of its coordinates
+    Second route: the sum of m v . dr/dq over the mass points.
+    Outcomes: generic, zero.
+    Errors: L does not depend on q.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1.
+    """
+    required(of.coordinates, q, "conjugate_momentum", of)
+    matter = of.needed(Matter)
+    letter = scalar(symbol) if symbol else letter_of_momentum(q)
+    return establish(
+        "canonical.conjugate_momentum",
+        letter,
+        lambda L: Partial(L, q.rate),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, list(of.coordinates))),
+        routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        key=key or letter.name,
+        kind=kind_of_momentum(q.kind),
+        facts=[FromLagrangian(of), OfCoordinate(q)],
+    )
+
+
+def momenta(of: Quantity) -> tuple[Quantity, ...]:
+    """Momenta of all coordinates, p_q = dL/dq_dot.
+
+    of   the Lagrangian, J
+    Keys: p_ and the name of the coordinate.
+    Second route: as `conjugate_momentum`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    return tuple(conjugate_momentum(of, q) for q in coordinates_of(of))
+
+
+# --- the rates that belong to momenta --------------------------------------------------------------------------------
+
+
+def rates_by_momenta(
+    of: Quantity, given: Sequence[Quantity], free: Mapping[Symbol, str], verb: str
+) -> tuple[Quantity, ...]:
+    """Rates as functions of momenta, solved from p = dL/dq_dot, which is linear in the rates.
+
+    of      the Lagrangian, J
+    given   momenta of some of its coordinates, each known from now on by its letter
+    free    the letters of those that vary from now on as coordinates do, with their kinds
+    verb    what a complaint calls
+    Second route: the rates put back into the momenta of the mass points.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    """
+    own = [p.needed(OfCoordinate).coordinate for p in given]
+    solved = _solved({p.symbol: p.value for p in given}, [q.rate for q in own], verb)
+    letters = [p.symbol for p in given]
+    matter = of.needed(Matter)
+
+    def put_back(q: Coordinate, found: Expr) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
+        rates = {**solved, q.rate: found}
+        back = [bound(matter.momentum_along(each.symbol), rates) for each in own]
+        return ImmutableDenseMatrix(back), ImmutableDenseMatrix(letters)
+
+    def of_one(q: Coordinate) -> Quantity:
+        return establish(
+            "canonical.rate_by_momenta",
+            q.rate,
+            lambda *names: bound(solved[q.rate], dict(zip(letters, names, strict=False))),
+            {f"momentum_{each.symbol.name}": lettered(p) for each, p in zip(own, given, strict=True)},
+            lines=Lines(put_in=None, result=False, arranged=explicit),
+            routes={"put_back": lambda found: put_back(q, found)},
+            outcome="alone" if len(own) == 1 else "together",
+            key=f"{verb}_rate_{q.symbol.name}",
+            kind=kind_of_dimension(dimension_of_kind(q.kind) / dimension_of_kind("time")),
+            scope=Scope(coordinates=free),
+        )
+
+    return tuple(of_one(q) for q in own)
+
+
+def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol], verb: str) -> dict[Symbol, Expr]:
+    """Linear equations for the rates, those that are coupled solved together."""
+    matrix = Matrix([[diff(explicit(p), v) for v in rates] for p in momenta_of.values()])
+    at_rest = dict.fromkeys(rates, ZERO)
+    wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
+    if matrix.has(*rates):
+        message = f"`{verb}` needs momenta that are linear in the rates"
+        raise Rejected(Complaint("wrong-argument", message))
+    found: dict[Symbol, Expr] = {}
+    for block in _coupled(matrix):
+        names = ", ".join(rates[i].name for i in block)
+        if len(block) > LARGEST:
+            message = f"`{verb}`: {len(block)} momenta would have to be solved together for {names}"
+            raise Rejected(Complaint("too-hard", message, help=f"at most {LARGEST} rates may be coupled"))
+        part = matrix.extract(block, block)
+        below = tidied(part.det(method="berkowitz"))
+        if below == 0:
+            message = f"`{verb}`: the momenta do not determine {names}"
+            raise Rejected(Complaint("singular", message, help="one motion is described by two coordinates"))
+        above = part.adjugate() * wanted.extract(block, [0])
+        found.update({rates[i]: by_letters(top / below, list(momenta_of)) for i, top in zip(block, above, strict=True)})
+    return found
+
+
+def _coupled(matrix: Matrix) -> list[list[int]]:
+    """The indices that entries off the diagonal tie together, set by set."""
+    blocks: list[set[int]] = []
+    for i in range(matrix.rows):
+        tied = {i, *(j for j in range(matrix.cols) if matrix[i, j] != 0)}
+        joined = [block for block in blocks if block & tied]
+        blocks = [block for block in blocks if not block & tied] + [tied.union(*joined)]
+    return [sorted(block) for block in blocks]
+
+
+# --- how functions of letters are written ----------------------------------------------------------------------------
+
+
+def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
+    """A polynomial in the letters: squares completed where that is shorter, else by products, else one fraction."""
+    value = explicit(value)
+    present = [p for p in letters if value.has(p)]
+    if not present:
+        return tidied(value)
+    try:
+        gathered = value.expand().as_poly(*present)
+    except PolynomialError:
+        gathered = None
+    if gathered is None or gathered.total_degree() > 2:
+        return tidied(value)
+    parts: dict[int, list[tuple[Expr, Expr]]] = {}
+    for powers, c in gathered.terms():
+        parts.setdefault(sum(powers), []).append((Mul(*(p**n for p, n in zip(present, powers, strict=True))), c))
+    quadratic = _written([(m, spread(c)) for m, c in parts.get(2, [])], present)
+    linear = _shortest([_added((m, spread(c)) for m, c in parts.get(1, [])), tidied(_added(parts.get(1, [])))])
+    rest = tidied(Add(*(c for _, c in parts.get(0, []))))
+    return Add(quadratic, linear, rest)
+
+
+def _written(terms: Sequence[tuple[Expr, Expr]], letters: Sequence[Symbol]) -> Expr:
+    """A quadratic form as products, as one fraction, or with its squares completed, whichever is shortest."""
+    plain = _added(terms)
+    if all(monomial.is_Pow for monomial, _ in terms):
+        return plain
+    forms = [plain, tidied(plain)]
+    forms += [_squares(plain, order) for order in permutations(letters) if len(letters) <= 3]
+    return _shortest(forms)
+
+
+def _squares(value: Expr, order: Sequence[Symbol]) -> Expr:
+    """a (p + b q/a)^2 + ..., letter after letter, each bracket with no denominator of its own."""
+    squares: list[Expr] = []
+    rest = value
+    for p in order:
+        a = tidied(diff(rest, p, 2) / 2)
+        if a == 0:
+            continue
+        inner = tidied(p + tidied((diff(rest, p) / 2 - a * p) / a))
+        above, below = inner.as_numer_denom()
+        squares.append(spread(a / below**2) * above**2)
+        rest = tidied(rest - a * (p + (diff(rest, p) / 2 - a * p) / a) ** 2)
+    return Add(*squares, rest)
+
+
+def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
+    return Add(*(m * c for m, c in terms))
+
+
+def _shortest(forms: Sequence[Expr]) -> Expr:
+    return min(forms, key=lambda form: int(form.count_ops()))
+
+
+def beside_potential(value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = ()) -> Expr:
+    """An energy as a sum: what is kinetic by squares of rates and of letters, then the potential energy as it was found.
+
+    of        the Lagrangian
+    letters   momenta, constant or not; `moving` are coordinates whose rates still occur
+    """
+    potential = explicit(of.needed(Energies).potential.value)
+    at_rest = bound(value, {rate(q): ZERO for q in moving})
+    kinetic = by_rates(tidied(value - at_rest), list(moving), halves=True)
+    return Add(kinetic, by_letters(at_rest - potential, letters), potential)
+
+
+def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
+    """The part of a quadratic expression that is homogeneous in the rates of degree 0, 1 or 2."""
+    u = Dummy("u")
+    scaled = bound(explicit(value), {v: u * v for v in rates})
+    factor = Rational(1, 2) if degree == 2 else Integer(1)
+    return factor * bound(diff(scaled, u, degree) if degree else scaled, {u: ZERO})
