@@ -42,6 +42,7 @@ from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraints import *
 from derive.mechanics.systems.coordinates import *
 from derive.mechanics.systems.cyclic import *
+from derive.mechanics.systems.effective import *
 from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.lagrangian import *
 from derive.mechanics.systems.phase_space import *

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Add, Expr, diff
+from sympy import Add, Expr, Integer
 
 from derive.algebra.expressions import bound, explicit, rate
 from derive.mechanics.outcomes.signs import lasts, vanishes
@@ -49,8 +49,39 @@ _ENERGIES = {
 }
 
 
-def _not_in_hamiltonian(facts: Judged) -> bool:
-    return is_zero(diff(explicit(facts.inputs["hamiltonian"]), facts.inputs["coordinate"]))
+def _of_momentum(facts: Judged) -> bool:
+    return bool(facts.result.left == rate(facts.inputs["momentum"]))
+
+
+def _conserved(kind: str | None) -> Predicate:
+    """The coordinate is of the kind, and its momentum changes by no more than d'Alembert's principle lets vanish."""
+
+    def is_so(facts: Judged) -> bool:
+        L, q = facts.quantities["lagrangian"], facts.inputs["coordinate"]
+        matter = L.needed(Matter)
+        rest = by_functions_of_time(facts.result, matter.coordinates) - matter.inertia_along(q) + matter.force_along(q)
+        of_kind = L.coordinates[q] == kind if kind else L.coordinates[q] not in {"angle", "length"}
+        return of_kind and is_zero(rest)
+
+    return is_so
+
+
+def _seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
+    """Of two sorts: momenta are kept, or a motion is prescribed, so that at rest there is a kinetic energy."""
+
+    def is_so(facts: Judged) -> bool:
+        kept = [role for role in facts.quantities if role.startswith("constant_")]
+        L = facts.quantities["lagrangian"]
+        matter, potential = L.needed(Matter), explicit(L.needed(Energies).potential.value)
+        at_rest = bound(matter.kinetic_energy(), {rate(q): Integer(0) for q in matter.coordinates})
+        same = is_zero(facts.result - potential)
+        return bool(kept) == constants and (driven is None or (not is_zero(at_rest), not same) == (driven, driven))
+
+    return is_so
+
+
+def _constants(facts: Judged) -> int:
+    return sum(role.startswith("constant_") for role in facts.quantities)
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
@@ -60,9 +91,24 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "together": lambda facts: len(facts.quantities) > 1,
     },
     "canonical.hamiltonian": _ENERGIES,
-    "canonical.equation_of_momentum": {
-        "generic": lambda facts: not _not_in_hamiltonian(facts) and not is_zero(facts.result.right),
-        "cyclic": lambda facts: is_zero(facts.result.right),
+    "canonical.hamilton_equation": {
+        "rate": lambda facts: facts.result.left == rate(facts.inputs["coordinate"]),
+        "force": lambda facts: _of_momentum(facts) and not is_zero(facts.result.right),
+        "cyclic": lambda facts: _of_momentum(facts) and is_zero(facts.result.right),
+    },
+    "effective.conserved": {
+        "angular": _conserved("angle"),
+        "linear": _conserved("length"),
+        "other": _conserved(None),
+    },
+    "effective.routhian": {
+        "one": lambda facts: _constants(facts) == 1,
+        "several": lambda facts: _constants(facts) > 1,
+    },
+    "effective.effective_potential": {
+        "reduced": _seen_by_the_rest(True, None),
+        "driven": _seen_by_the_rest(False, True),
+        "unchanged": _seen_by_the_rest(False, False),
     },
     "energy.energy_function": _ENERGIES,
     "energy.energy_function_rate": {

@@ -19,6 +19,7 @@ from derive.mechanics.systems.phase_space import (
     PhaseSpace,
     beside_potential,
     kind_of_momentum,
+    kinetic_first,
     letter_of_momentum,
     momenta,
     part_of_degree,
@@ -78,7 +79,12 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
             **{f"momentum_{p.key}": lettered(p) for p in given},
             **{v.key: v for v in rates},
         },
-        lines=Lines(put_in=Level.FULL, arranged=written),
+        lines=Lines(
+            put_in=Level.FULL,
+            result=False,
+            arranged=written,
+            after=kinetic_first(written(bound(h, put_in)), list(letters)),
+        ),
         routes={"by_degree": by_degree, "canonical": canonical},
         outcome=outcome_of_energy(h, of),
         telling=Telling(formulas=told_of_excess(h, of, [q.rate for q in moving]), points_to={"whole": of}),
@@ -96,7 +102,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
     Keys: canonical_ and the name of the coordinate, or of the momentum.
     Second route: with the momenta of the mass points put in, the first is the rate itself, and the second is
     d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
-    Outcomes: generic, cyclic (H does not contain q, so its momentum is constant).
+    Outcomes: rate (the first), force (the second), cyclic (the second where H does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     found: list[Quantity] = []
@@ -113,12 +119,14 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         return ImmutableDenseMatrix(sides), ImmutableDenseMatrix([q.rate, q.rate])
 
     return establish(
-        "canonical.equation_of_rate",
+        "canonical.hamilton_equation",
         None,
         lambda H: Relation(q.rate, "=", Partial(H, p)),
         {"hamiltonian": of},
         lines=Lines(put_in=None, arranged=_by_terms),
         routes={"momenta": by_matter},
+        outcome="rate",
+        telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{q.symbol.name}",
         facts=[space, OfCoordinate(q)],
     )
@@ -137,13 +145,13 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
 
     cyclic = not explicit(of.value).has(q.symbol)
     return establish(
-        "canonical.equation_of_momentum",
+        "canonical.hamilton_equation",
         None,
         lambda H: Relation(rate(p), "=", -Partial(H, q.symbol)),
         {"hamiltonian": of},
         lines=Lines(put_in=None, arranged=_by_terms),
         routes={"virtual_work": by_virtual_work},
-        outcome="cyclic" if cyclic else "generic",
+        outcome="cyclic" if cyclic else "force",
         telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{p.name}",
         facts=[space, OfCoordinate(q)],

@@ -17,7 +17,7 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
-from derive.mechanics.systems.phase_space import beside_potential, momenta, part_of_degree
+from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, momenta, part_of_degree
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Form, Quantity, is_zero
 
@@ -74,7 +74,7 @@ def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function
         scalar(symbol),
         law,
         {"lagrangian": of, **{f"momentum_{p.key}": p for p in momenta(of)}},
-        lines=Lines(put_in=None, arranged=value_of),
+        lines=Lines(put_in=None, result=False, arranged=value_of, after=kinetic_first(plain, rates)),
         routes={"by_degree": by_degree},
         outcome=lambda value: outcome_of_energy(value, of),
         telling=Telling(formulas=told_of_excess(plain, of, rates)),

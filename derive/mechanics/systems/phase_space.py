@@ -14,7 +14,7 @@ from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, 
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.collect import by_rates, spread
-from derive.algebra.expressions import Partial, bound, explicit, rate, scalar
+from derive.algebra.expressions import Partial, Terms, bound, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -22,7 +22,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, coord
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
 from derive.steps.establish import Lines, Scope, establish
-from derive.steps.step import Fact, Quantity, compared_with, lettered
+from derive.steps.step import Fact, Form, Quantity, compared_with, lettered
 
 __all__ = ["conjugate", "conjugate_momentum", "momenta"]
 
@@ -127,6 +127,7 @@ def rates_by_momenta(
     own = [p.needed(OfCoordinate).coordinate for p in given]
     solved = _solved({p.symbol: p.value for p in given}, [q.rate for q in own], verb)
     letters = [p.symbol for p in given]
+    by = "_".join(letter.name for letter in letters)
     matter = of.needed(Matter)
 
     def put_back(q: Coordinate, found: Expr) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
@@ -143,7 +144,7 @@ def rates_by_momenta(
             lines=Lines(put_in=None, result=False, arranged=explicit),
             routes={"put_back": lambda found: put_back(q, found)},
             outcome="alone" if len(own) == 1 else "together",
-            key=f"{verb}_rate_{q.symbol.name}",
+            key=f"{verb}_rate_{q.symbol.name}" if free else f"rate_{q.symbol.name}_by_{by}",
             kind=kind_of_dimension(dimension_of_kind(q.kind) / dimension_of_kind("time")),
             scope=Scope(coordinates=free),
         )
@@ -252,6 +253,17 @@ def beside_potential(value: Expr, of: Quantity, letters: Sequence[Symbol], movin
     at_rest = bound(value, {rate(q): ZERO for q in moving})
     kinetic = by_rates(tidied(value - at_rest), list(moving), halves=True)
     return Add(kinetic, by_letters(at_rest - potential, letters), potential)
+
+
+def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
+    """The last line of an energy: its terms in the order of the names in them, what has none of these last."""
+
+    def rank(term: Expr) -> tuple[int, bool, str]:
+        found = (i for i, name in enumerate(names) if term.has(name))
+        return next(found, len(names)), term.could_extract_minus_sign(), str(term)
+
+    terms = sorted(Add.make_args(value), key=rank)
+    return [Form(Terms(*terms) if len(terms) > 1 else value, "result")]
 
 
 def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:

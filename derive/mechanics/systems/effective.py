@@ -1,0 +1,290 @@
+"""What is left once cyclic coordinates are put aside: conserved momenta, the Routhian, the effective potential.
+
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3; Landau, Lifshitz, *Mechanics*, section 41.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.collect import by_rates
+from derive.algebra.expressions import (
+    TIME,
+    At,
+    Factors,
+    Partial,
+    Terms,
+    bound,
+    explicit,
+    rate,
+    scalar,
+)
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
+from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
+from derive.mechanics.systems.phase_space import (
+    beside_potential,
+    kind_of_momentum,
+    kinetic_first,
+    letter_of_momentum,
+    part_of_degree,
+    rates_by_momenta,
+)
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.step import Fact, Level, Quantity, compared_with, lettered
+
+__all__ = ["conserved", "effective_potential", "routhian"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Constant(Fact):
+    """That a momentum does not change, and the coordinate that it belongs to."""
+
+    missing = "is not the momentum of a cyclic coordinate, as `conserved` yields it"
+    coordinate: Coordinate
+
+
+@dataclass(frozen=True)
+class ReducedMatter(Matter):
+    """Matter whose cyclic coordinates move as their constant momenta tell: what it does along the others.
+
+    whole   the matter with all its coordinates
+    rates   those of the cyclic coordinates, by the others and by the constants
+    """
+
+    whole: Matter = Matter()
+    rates: tuple[tuple[Symbol, Expr], ...] = ()
+
+    def kinetic_energy(self) -> Expr:
+        return self._put_in(self.whole.kinetic_energy())
+
+    def momentum_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.momentum_along(q))
+
+    def inertia_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.inertia_along(q))
+
+    def turning_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.turning_along(q))
+
+    def force_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.force_along(q))
+
+    def _put_in(self, value: Expr) -> Expr:
+        accelerations = {rate(v): by_functions_of_time(found, self.coordinates) for v, found in self.rates}
+        return bound(bound(explicit(value), accelerations), dict(self.rates))
+
+
+def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, key: str | None = None) -> Quantity:
+    """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; it is known by its letter from then on.
+
+    of      the Lagrangian, J
+    q       a coordinate that it does not contain
+    value   the letter of the constant; p_q unless it is given
+    Second route: the sum of m v . dr/dq over the mass points; and its rate by functions of time is the sum of
+    (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    Outcomes: angular (q is an angle), linear (q is a length), other.
+    Errors: L contains q, or does not depend on its rate.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
+    """
+    required(of.coordinates, q, "conserved", of)
+    L = explicit(of.value)
+    if L.has(q.symbol):
+        message = f"`conserved`: `{of.key}` contains {q.symbol.name}, so its momentum is not constant"
+        raise Rejected(Complaint("not-cyclic", message))
+    if not L.has(q.rate):
+        message = f"`conserved`: `{of.key}` does not contain the rate of {q.symbol.name}, which has no momentum"
+        raise Rejected(Complaint("not-cyclic", message))
+    letter = letter_of_momentum(q) if value is None else scalar(value) if isinstance(value, str) else value
+    matter = of.needed(Matter)
+    moving = list(of.coordinates)
+
+    def by_virtual_work(found: Expr) -> tuple[Expr, Expr]:
+        return by_functions_of_time(found, moving), matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
+
+    return establish(
+        "effective.conserved",
+        letter,
+        lambda L, _: Partial(L, q.rate),
+        {"lagrangian": of, "coordinate": q.symbol},
+        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
+        routes={
+            "along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol)),
+            "virtual_work": by_virtual_work,
+        },
+        outcome={"angle": "angular", "length": "linear"}.get(q.kind, "other"),
+        key=key or f"conserved_{q.symbol.name}",
+        kind=kind_of_momentum(q.kind),
+        facts=[FromLagrangian(of), OfCoordinate(q), Constant(q)],
+    )
+
+
+def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
+    """The coordinates that are left."""
+    found = coordinates_of(of)
+    for each in constants:
+        q = each.needed(Constant).coordinate
+        if each.needed(FromLagrangian).lagrangian.step != of.step:
+            message = f"`{verb}`: `{each.key}` is not a momentum of `{of.key}`"
+            raise Rejected(Complaint("different-subjects", message))
+        if q not in found:
+            raise Rejected(Complaint("wrong-argument", f"`{verb}`: {q.symbol.name} is given twice"))
+        found.remove(q)
+    if not found:
+        message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate is left"
+        raise Rejected(Complaint("wrong-argument", message))
+    return found
+
+
+def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "routhian") -> Quantity:
+    """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian of the others.
+
+    of          the Lagrangian, J
+    constants   momenta of cyclic coordinates, as `conserved` yields them
+    The rates of the cyclic coordinates are steps of their own.
+    Second route: by mass points and forces: -dR/dp is the rate of the cyclic coordinate, dR/dq_dot and dR/dq of the
+    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot with T of the
+    mass points.
+    Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
+    """
+    if not constants:
+        raise Rejected(Complaint("wrong-argument", "`routhian` needs a conserved momentum", help="`conserved(L, phi)`"))
+    left = _put_aside(of, constants, "routhian")
+    rates = rates_by_momenta(of, constants, {}, "routhian")
+    put_in = {v.symbol: v.value for v in rates}
+    matter = of.needed(Matter)
+    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), matter, tuple(put_in.items()))
+
+    letters = [each.symbol for each in constants]
+    carried = Add(*(p * v for p, v in zip(letters, put_in.values(), strict=True)))
+    whole = bound(explicit(of.value), put_in) - carried
+
+    def by_matter(found: Expr) -> tuple[Any, Any]:
+        ours = [-diff(found, p) for p in letters] + [diff(found, s) for q in left for s in (q.rate, q.symbol)]
+        theirs: list[Expr] = list(put_in.values())
+        for q in left:
+            pushed = reduced.force_along(q.symbol) + reduced.turning_along(q.symbol)
+            theirs += [reduced.momentum_along(q.symbol), pushed]
+        return ImmutableDenseMatrix(ours), ImmutableDenseMatrix(theirs)
+
+    def energies(found: Expr) -> tuple[Expr, Expr]:
+        return found, reduced.kinetic_energy() - of.needed(Energies).potential.value - carried
+
+    def law(L: Expr, *both: Expr) -> Expr:
+        n = len(constants)
+        return Terms(L, *(-Factors(p, v) for p, v in zip(both[:n], both[n:], strict=True)))
+
+    def written(value: Expr) -> Expr:
+        return -beside_potential(-value, of, letters, [q.symbol for q in left])
+
+    return establish(
+        "effective.routhian",
+        scalar(symbol),
+        law,
+        _inputs(of, constants, rates, put_in),
+        lines=Lines(
+            put_in=Level.FULL,
+            result=False,
+            arranged=written,
+            after=kinetic_first(written(whole), [*(q.rate for q in left), *letters]),
+        ),
+        routes={"matter": by_matter, "energies": energies},
+        outcome="one" if len(constants) == 1 else "several",
+        key=key,
+        kind="energy",
+        facts=[reduced],
+    )
+
+
+def _inputs(
+    of: Quantity, constants: Sequence[Quantity], rates: Sequence[Quantity], put_in: Mapping[Symbol, Expr]
+) -> dict[str, Any]:
+    """The Lagrangian with the rates put in, the constants by their letters, and those rates."""
+    return {
+        "lagrangian": replace(of, value=bound(explicit(of.value), dict(put_in)), parents=(of,)),
+        **{f"constant_{each.key}": lettered(each) for each in constants},
+        **{v.key: v for v in rates},
+    }
+
+
+def effective_potential(
+    of: Quantity, *constants: Quantity, symbol: str = "U_eff", key: str = "effective_potential"
+) -> Quantity:
+    """Effective potential, what the other coordinates see: U_eff = sum of p q_dot - L where their own rates vanish.
+
+    of          the Lagrangian, J, which does not contain the time
+    constants   momenta of cyclic coordinates, as `conserved` yields them; all that are cyclic unless one is given
+    Without cyclic coordinates it is U - T_0: that of a prescribed rotation.
+    Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with the conserved momenta put in; and T_2 - T_0
+    + U of the mass points.
+    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U).
+    Errors: L contains the time; no coordinate is left.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
+    """
+    if TIME in explicit(of.value).free_symbols:
+        message = f"`effective_potential`: `{of.key}` contains the time t, so nothing is at rest"
+        raise Rejected(Complaint("changes", message))
+    constants = constants or _cyclic(of)
+    left = _put_aside(of, constants, "effective_potential")
+    rates = rates_by_momenta(of, constants, {}, "effective_potential") if constants else ()
+    put_in = {v.symbol: v.value for v in rates}
+    matter, potential = of.needed(Matter), of.needed(Energies).potential
+    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), matter, tuple(put_in.items()))
+    still = dict.fromkeys([s for q in left for s in (q.rate, q.acceleration)], ZERO)
+    letters = [each.symbol for each in constants]
+    carried = Add(*(p * v for p, v in zip(letters, put_in.values(), strict=True)))
+    whole = bound(carried - bound(explicit(of.value), put_in), still)
+
+    def law(L: Expr, *both: Expr) -> Expr:
+        n = len(constants)
+        whole: Any = Terms(*(Factors(p, v) for p, v in zip(both[:n], both[n:], strict=True)), -L) if n else L
+        for q in left:
+            whole = At(whole, q.rate, ZERO)
+        return whole if n else -whole
+
+    def forces(found: Expr) -> tuple[Any, Any]:
+        ours = [-diff(found, q.symbol) for q in left]
+        theirs = [reduced.force_along(q.symbol) - reduced.inertia_along(q.symbol) for q in left]
+        return ImmutableDenseMatrix(ours), bound(ImmutableDenseMatrix(theirs), still)
+
+    def by_degree(found: Expr) -> tuple[Expr, Expr]:
+        kinetic, names = matter.kinetic_energy(), [q.rate for q in coordinates_of(of)]
+        parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
+        return found, bound(bound(parts, put_in), still) + potential.value
+
+    def written(value: Expr) -> Expr:
+        return beside_potential(value, of, letters)
+
+    return establish(
+        "effective.effective_potential",
+        scalar(symbol),
+        law,
+        _inputs(of, constants, rates, put_in),
+        lines=Lines(put_in=None, result=False, arranged=written, after=kinetic_first(written(whole), letters)),
+        routes={"forces": forces, "by_degree": by_degree},
+        outcome="reduced" if constants else "driven" if _is_driven(of) else "unchanged",
+        key=key,
+        kind="energy",
+        facts=[FromLagrangian(of)],
+    )
+
+
+def _cyclic(of: Quantity) -> tuple[Quantity, ...]:
+    """The momenta of all coordinates that the Lagrangian does not contain."""
+    L = explicit(of.value)
+    return tuple(conserved(of, q) for q in coordinates_of(of) if not L.has(q.symbol) and L.has(q.rate))
+
+
+def _is_driven(of: Quantity) -> bool:
+    """Whether T has a part without rates."""
+    kinetic = explicit(of.needed(Energies).kinetic.value)
+    return bool(tidied(bound(kinetic, {q.rate: ZERO for q in coordinates_of(of)})) != 0)
