@@ -38,6 +38,7 @@ from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.vectors import *
+from derive.mechanics.systems.brackets import *
 from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraints import *
 from derive.mechanics.systems.coordinates import *
@@ -48,6 +49,7 @@ from derive.mechanics.systems.lagrangian import *
 from derive.mechanics.systems.phase_space import *
 from derive.mechanics.systems.places import *
 from derive.mechanics.systems.rolling import *
+from derive.mechanics.systems.symmetry import *
 from derive.mechanics.systems.system import *
 from derive.mechanics.tops.precession import *
 from derive.mechanics.tops.sleeping import *

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from sympy import Add, Expr, Integer
+from sympy import Add, Expr, Integer, diff
 
 from derive.algebra.expressions import bound, explicit, rate
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies
+from derive.mechanics.systems.phase_space import PhaseSpace
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import Quantity, is_zero
 
@@ -84,7 +85,28 @@ def _constants(facts: Judged) -> int:
     return sum(role.startswith("constant_") for role in facts.quantities)
 
 
+def _carries_momenta_alone(facts: Judged) -> bool:
+    """Where all rates vanish and no place moves by itself, nothing is left but what the shift adds to L."""
+    return is_zero(facts.inputs["gain"])
+
+
+def _keeps_along_the_motion(facts: Judged) -> bool:
+    """The second function is the Hamiltonian of a Lagrangian, along whose motions the first one does not change."""
+    space = facts.quantities["g"].needed(PhaseSpace)
+    L: Quantity = space.lagrangian
+    matter = L.needed(Matter)
+    f = explicit(facts.inputs["f"])
+    in_rates = {p: matter.momentum_along(q) for q, p in space.pairs}
+    sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
+    return is_zero(by_functions_of_time(bound(f, in_rates), matter.coordinates) - Add(*sums))
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
+    "brackets.poisson_bracket": {
+        "generic": lasts,
+        "zero": vanishes,
+        "conserved": lambda facts: vanishes(facts) and _keeps_along_the_motion(facts),
+    },
     "canonical.conjugate_momentum": {"generic": lasts, "zero": vanishes},
     "canonical.rate_by_momenta": {
         "alone": lambda facts: len(facts.quantities) == 1,
@@ -109,6 +131,14 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "reduced": _seen_by_the_rest(True, None),
         "driven": _seen_by_the_rest(False, True),
         "unchanged": _seen_by_the_rest(False, False),
+    },
+    "symmetry.change": {
+        "none": lambda facts: is_zero(facts.result.right) and is_zero(facts.result.left),
+        "gain": lambda facts: is_zero(facts.result.residual),
+    },
+    "symmetry.noether": {
+        "symmetry": lambda facts: _carries_momenta_alone(facts),
+        "with_gain": lambda facts: not _carries_momenta_alone(facts),
     },
     "energy.energy_function": _ENERGIES,
     "energy.energy_function_rate": {

@@ -1,0 +1,157 @@
+"""Noether's theorem: a shift of the coordinates that leaves the Lagrangian as it is gives a constant of the motion.
+
+Source: Landau, Lifshitz, *Mechanics*, sections 7 and 9; Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.normal_form import vanishes
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, required
+from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of
+from derive.mechanics.systems.phase_space import conjugate_momentum
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.step import Form, Level, Quantity
+
+__all__ = ["noether"]
+
+ZERO = Integer(0)
+
+
+def noether(
+    of: Quantity,
+    shift: Mapping[Coordinate, Any],
+    gained: Any = ZERO,
+    symbol: str = "Q",
+    key: str = "noether",
+) -> Quantity:
+    """Constant of the motion that belongs to a symmetry, Q = sum of p_q xi_q - F.
+
+    of       the Lagrangian, J
+    shift    coordinate -> xi, a formula in coordinates and the time: each q becomes q + epsilon xi
+    gained   F in coordinates and the time, where the shift adds epsilon dF/dt to L; nothing unless it is given
+    That L stays, and the momenta, are steps of their own.
+    Second route: its rate by functions of time is d'Alembert's sum along the shift, sum of xi (m a - F) . dr/dq, which
+    vanishes; and it is the sum of m v . dr, the mass points being carried along by the shift.
+    Outcomes: symmetry, with_gain.
+    Errors: L does not stay as it is: what is left is told; the shift holds a rate, or moves nothing.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
+    """
+    xi = _formulas(of, shift)
+    gain = _plain(gained, "gained", of)
+    changed = _change(of, xi, gain, key)
+    matter = of.needed(Matter)
+    moving = [q.symbol for q in coordinates_of(of)]
+    momenta = {q: conjugate_momentum(of, q) for q in shift}
+
+    def law(*p: Expr) -> Expr:
+        carried = [Factors(each, x) if x != 1 else each for each, x in zip(p, xi.values(), strict=False)]
+        return Terms(*carried, *([-gain] if gain != 0 else []))
+
+    def along_the_shift(found: Expr) -> tuple[Expr, Expr]:
+        work = [x * (matter.inertia_along(q) - matter.force_along(q)) for q, x in xi.items()]
+        return by_functions_of_time(found, moving), Add(*work)
+
+    def carried(found: Expr) -> tuple[Expr, Expr]:
+        return found, Add(*(m * way * v for m, way, v in _ways(matter, xi))) - gain
+
+    return establish(
+        "symmetry.noether",
+        scalar(symbol),
+        law,
+        {f"momentum_{q.symbol.name}": p for q, p in momenta.items()},
+        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
+        routes={"along_the_shift": along_the_shift, "carried": carried},
+        outcome="with_gain" if gain != 0 else "symmetry",
+        telling=Telling(judged_by={"gain": gain}, points_to={"change": changed}),
+        key=key,
+        parents=[of, changed],
+        facts=[FromLagrangian(of)],
+    )
+
+
+def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Expr]:
+    for q in shift:
+        if not isinstance(q, Coordinate):
+            message = "`noether` needs the shift of each coordinate: {x: 1}, or {x: -y, y: x}"
+            raise Rejected(Complaint("wrong-argument", message))
+        required(of.coordinates, q, "noether", of)
+    found = {q.symbol: _plain(x, f"shift of {q.symbol.name}", of) for q, x in shift.items()}
+    if all(x == 0 for x in found.values()):
+        raise Rejected(Complaint("wrong-argument", "`noether`: this shift moves nothing"))
+    return found
+
+
+def _plain(value: Any, role: str, of: Quantity) -> Expr:
+    """A formula in coordinates and the time, without rates."""
+    found = Integer(0) + (value.symbol if isinstance(value, Coordinate) else value)
+    if not isinstance(found, Expr) or found.has(*(rate(q, n) for q in of.coordinates for n in (1, 2))):
+        message = f"`noether`: the {role} is a formula in the coordinates and the time, without rates"
+        raise Rejected(Complaint("wrong-argument", message))
+    return found
+
+
+def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
+    """The first order of the change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must vanish or be dF/dt."""
+    matter = of.needed(Matter)
+    moving = [q.symbol for q in coordinates_of(of)]
+    L = explicit(of.value)
+    ways = {q: x for q, x in xi.items() if x != 0 and L.has(q)}
+    ways.update({rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))})
+    left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
+    if not vanishes(left):
+        message = f"`noether`: the shift is no symmetry, it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
+        raise Rejected(Complaint("no-symmetry", message, help="a change by the rate of some F is told by `gained=F`"))
+
+    def law(L: Expr) -> Relation:
+        terms = [_times(Partial(L, s), x) for s, x in ways.items()]
+        return Relation(Terms(*terms) if terms else ZERO, "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
+
+    def by_places(found: Relation) -> tuple[Any, Any]:
+        """What the points gain of (1/2) m v.v on their way, and the work of the loads on it."""
+        done = [m * by_functions_of_time(way, moving) * v for m, way, v in _ways(matter, xi)]
+        done += [matter.force_along(q) * x for q, x in xi.items()]
+        both = [found.left, found.right]
+        return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), by_functions_of_time(gain, moving)])
+
+    return establish(
+        "symmetry.change",
+        None,
+        law,
+        {"lagrangian": of},
+        lines=Lines(put_in=None, result=False, arranged=explicit, after=_worked(L, ways, gain, moving)),
+        routes={"places": by_places},
+        outcome="gain" if gain != 0 else "none",
+        telling=Telling(judged_by={"moved": tuple(ways)}),
+        key=f"{key}_change",
+    )
+
+
+def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[Symbol]) -> list[Form]:
+    """The derivatives put in, where there are any that do not vanish."""
+    terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
+    right = by_rates(explicit(TimeRate(gain, *moving)), moving)
+    return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []
+
+
+def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, Expr]]:
+    """Mass, way and velocity of each point along each axis, as the shift carries it."""
+    found: list[tuple[Expr, Expr, Expr]] = []
+    for point in matter.points:
+        for c in point.place:
+            way = Add(*(diff(c, q) * x for q, x in xi.items()))
+            found.append((point.mass, way, by_functions_of_time(c, matter.coordinates)))
+    return found
+
+
+def _times(derivative: Expr, factor: Expr) -> Expr:
+    return derivative if factor == 1 else Factors(derivative, factor)
