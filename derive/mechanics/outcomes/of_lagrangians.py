@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sympy import Add, Expr, Integer, diff
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import bound, explicit, rate
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.mechanics.systems.coordinates import by_functions_of_time
@@ -28,14 +29,14 @@ def _is_conserved(facts: Judged) -> bool:
     """Its rate along the motion, the accelerations taken out by d'Alembert's principle, vanishes."""
     matter = facts.quantities["lagrangian"].needed(Matter)
     along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
-    return is_zero(by_functions_of_time(_in_rates(facts), matter.coordinates) - Add(*along))
+    return bool(equal(by_functions_of_time(_in_rates(facts), matter.coordinates), Add(*along)))
 
 
 def _is_energy(facts: Judged) -> bool:
     """Kinetic energy of the mass points, and the potential energy."""
     L = facts.quantities["lagrangian"]
     whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
-    return is_zero(_in_rates(facts) - whole)
+    return bool(equal(_in_rates(facts), whole))
 
 
 def _energy(conserved: bool, whole: bool) -> Predicate:
@@ -60,9 +61,9 @@ def _conserved(kind: str | None) -> Predicate:
     def is_so(facts: Judged) -> bool:
         L, q = facts.quantities["lagrangian"], facts.inputs["coordinate"]
         matter = L.needed(Matter)
-        rest = by_functions_of_time(facts.result, matter.coordinates) - matter.inertia_along(q) + matter.force_along(q)
+        by_time = by_functions_of_time(facts.result, matter.coordinates)
         of_kind = L.coordinates[q] == kind if kind else L.coordinates[q] not in {"angle", "length"}
-        return of_kind and is_zero(rest)
+        return of_kind and bool(equal(by_time, matter.inertia_along(q) - matter.force_along(q)))
 
     return is_so
 
@@ -98,7 +99,7 @@ def _keeps_along_the_motion(facts: Judged) -> bool:
     f = explicit(facts.inputs["f"])
     in_rates = {p: matter.momentum_along(q) for q, p in space.pairs}
     sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
-    return is_zero(by_functions_of_time(bound(f, in_rates), matter.coordinates) - Add(*sums))
+    return bool(equal(by_functions_of_time(bound(f, in_rates), matter.coordinates), Add(*sums)))
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {

@@ -15,7 +15,7 @@ from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_tim
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import PhaseSpace, kind_of_momentum, letter_of_momentum
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Form, Level, Quantity, is_zero, value_behind
+from derive.steps.step import Form, Level, Quantity, value_behind
 
 __all__ = ["poisson_bracket"]
 
@@ -49,30 +49,36 @@ def poisson_bracket(
     flat = [s for pair in pairs for s in pair]
     flow = g.fact(PhaseSpace) if isinstance(g, Quantity) and g.step.rule == "canonical.hamiltonian" else None
 
+    values = [explicit(value_behind(each)) for each in (one, other)]
+    derivatives = _derivatives(values[0], values[1], pairs)
+
     def law(f: Expr, g: Expr) -> Expr:
-        terms = [term for q, p in pairs for term in _of_one_pair(f, g, q, p, value_behind(one), value_behind(other))]
+        terms = [sign * Factors(Partial(f, u), Partial(g, v)) for sign, u, v in derivatives]
         return Terms(*terms) if terms else ZERO
 
     def by_rules(found: Expr) -> tuple[Expr, Expr]:
-        return found, _by_rules(explicit(value_behind(one)), explicit(value_behind(other)), dict(pairs))
+        return found, _by_rules(values[0], values[1], dict(pairs))
 
     def along_the_motion(found: Expr) -> tuple[Expr, Expr]:
-        return _along_the_motion(found, explicit(value_behind(one)), flow) if flow else (found, found)
+        return _along_the_motion(found, values[0], flow) if flow else (found, found)
 
     def outcome(found: Expr) -> str:
         if found != 0:
             return "generic"
-        return "conserved" if flow and TIME not in explicit(value_behind(one)).free_symbols else "zero"
+        return "conserved" if flow and TIME not in values[0].free_symbols else "zero"
 
-    value = _written(law(*(explicit(value_behind(each)) for each in (one, other))))
+    value = _written(law(values[0], values[1]))
+    worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]
+    plain = isinstance(one, Symbol) or isinstance(other, Symbol)  # whose derivatives are not worth a line
     return establish(
         "brackets.poisson_bracket",
         PoissonBracket(*names, *flat),
         law,
         {"f": one, "g": other},
         lines=Lines(
-            put_in=Level.STANDARD,
-            law=Level.STANDARD if any(isinstance(each, Quantity) for each in (one, other)) else Level.FULL,
+            put_in=None,
+            law=Level.FULL if plain else Level.STANDARD,
+            between=[Form(Terms(*worked), "derivatives", Level.FULL if plain else Level.STANDARD)] if worked else [],
             arranged=_written,
             after=_told_among(value, among),
         ),
@@ -111,15 +117,14 @@ def _function(of: Any, pairs: Pairs) -> Any:
     return found
 
 
-def _of_one_pair(f: Expr, g: Expr, q: Symbol, p: Symbol, of_f: Expr, of_g: Expr) -> list[Expr]:
-    """df/dq dg/dp - df/dp dg/dq, without what vanishes."""
-    of_f, of_g = explicit(of_f), explicit(of_g)
-    terms: list[Expr] = []
-    if diff(of_f, q) != 0 and diff(of_g, p) != 0:
-        terms.append(Factors(Partial(f, q), Partial(g, p)))
-    if diff(of_f, p) != 0 and diff(of_g, q) != 0:
-        terms.append(-Factors(Partial(f, p), Partial(g, q)))
-    return terms
+def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
+    """By what f and g are differentiated in each product, with the sign before it, but for those that vanish."""
+    found: list[tuple[Integer, Symbol, Symbol]] = []
+    for q, p in pairs:
+        for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):
+            if diff(f, u) != 0 and diff(g, v) != 0:
+                found.append((sign, u, v))
+    return found
 
 
 def _written(value: Expr) -> Expr:
@@ -138,7 +143,7 @@ def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
 
 
 def _by_rules(f: Expr, g: Expr, pairs: dict[Symbol, Symbol]) -> Expr:
-    """The bracket from {q, p} = 1 alone: it is linear, a derivation in each place, and changes sign with their order."""
+    """The bracket from {q, p} = 1 alone: linear, a derivation in each place, of the other sign in the other order."""
     letters = {*pairs, *pairs.values()}
 
     def bracket(f: Expr, g: Expr) -> Expr:
@@ -173,10 +178,8 @@ def _parts(f: Expr) -> list[tuple[Expr, Expr]]:
 def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Expr]:
     """df/dt by functions of time, the accelerations taken out by d'Alembert's sums, each with the factor df/dp."""
     matter = space.lagrangian.needed(Matter)
-    in_rates = space.by_matter()
+    in_rates = space.in_rates
     moving = [q for q, _ in space.pairs]
     by_time = by_functions_of_time(bound(f, in_rates), moving)
-    sums = [
-        bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs
-    ]
+    sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
     return bound(found + diff(f, TIME), in_rates), by_time - Add(*sums)

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, diff
+from sympy import Add, Expr, ImmutableDenseMatrix, Symbol, diff
 
 from derive.algebra.collect import by_terms
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, bound, explicit, rate, scalar
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
@@ -36,8 +37,8 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
 
     of   the Lagrangian, J
     The momenta and the rates that belong to them are steps of their own.
-    Second route: T_2 - T_0 + U of the mass points; and with the momenta of the mass points in it, dH/dp is q_dot and
-    -dH/dq is the sum of F . dr/dq and of m v . d(dr/dq)/dt.
+    Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; and with the momenta in it dH/dp is
+    q_dot, and -dH/dq is the sum of F . dr/dq and of m v . d(dr/dq)/dt.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither).
     Errors: the momenta do not determine the rates, or too many would have to be solved together.
@@ -45,18 +46,18 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
     """
     moving = coordinates_of(of)
     energies, matter = of.needed(Energies), of.needed(Matter)
-    space = PhaseSpace(tuple(moving), of)
     letters = {letter_of_momentum(q): kind_of_momentum(q.kind) or "number" for q in moving}
     given = momenta(of)
+    space = PhaseSpace(tuple(moving), given, of)
     rates = rates_by_momenta(of, given, letters, key)
     put_in = {v.symbol: v.value for v in rates}
-    in_rates = space.by_matter()
+    in_rates = space.in_rates
 
     def law(L: Expr, *both: Expr) -> Expr:
         return Terms(*(Factors(p, v) for p, v in zip(both[: len(moving)], both[len(moving) :], strict=True)), -L)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
-        kinetic, names = matter.kinetic_energy(), [q.rate for q in moving]
+        kinetic, names = energies.kinetic.value, [q.rate for q in moving]
         parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
         return found, bound(parts, put_in) + energies.potential.value
 
@@ -66,10 +67,8 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
         forces = [matter.force_along(q) + matter.turning_along(q) for q, _ in space.pairs]
         return ImmutableDenseMatrix([*onwards, *pushed]), ImmutableDenseMatrix([*(q.rate for q in moving), *forces])
 
-    def written(value: Expr) -> Expr:
-        return beside_potential(value, of, list(letters))
-
     h = explicit(sum((p.value * v for p, v in zip(given, put_in, strict=True)), -explicit(of.value)))
+    written = beside_potential(bound(h, put_in), of, list(letters))
     return establish(
         "canonical.hamiltonian",
         scalar(symbol),
@@ -82,8 +81,8 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
         lines=Lines(
             put_in=Level.FULL,
             result=False,
-            arranged=written,
-            after=kinetic_first(written(bound(h, put_in)), list(letters)),
+            arranged=lambda _: written,
+            after=kinetic_first(written, list(letters)),
         ),
         routes={"by_degree": by_degree, "canonical": canonical},
         outcome=outcome_of_energy(h, of),
@@ -100,7 +99,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
     of   the Hamiltonian, J
     Keys: canonical_ and the name of the coordinate, or of the momentum.
-    Second route: with the momenta of the mass points put in, the first is the rate itself, and the second is
+    Second route: with the momenta put in, the first is the rate itself, and the second is
     d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
     Outcomes: rate (the first), force (the second), cyclic (the second where H does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
@@ -114,8 +113,8 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
     space, p = of.needed(PhaseSpace), letter_of_momentum(q)
 
-    def by_matter(found: Relation) -> tuple[Any, Any]:
-        sides = [found.left, bound(explicit(found.right), space.by_matter())]
+    def by_momenta(found: Relation) -> tuple[Any, Any]:
+        sides = [found.left, bound(explicit(found.right), space.in_rates)]
         return ImmutableDenseMatrix(sides), ImmutableDenseMatrix([q.rate, q.rate])
 
     return establish(
@@ -123,8 +122,8 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         None,
         lambda H: Relation(q.rate, "=", Partial(H, p)),
         {"hamiltonian": of},
-        lines=Lines(put_in=None, arranged=_by_terms),
-        routes={"momenta": by_matter},
+        lines=Lines(put_in=None, arranged=lambda found: _by_terms(found, [p for _, p in space.pairs])),
+        routes={"momenta": by_momenta},
         outcome="rate",
         telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{q.symbol.name}",
@@ -137,7 +136,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
     matter = space.lagrangian.needed(Matter)
 
     def by_virtual_work(found: Relation) -> tuple[Any, Any]:
-        in_rates = space.by_matter()
+        in_rates = space.in_rates
         changing = by_functions_of_time(in_rates[p], [each.symbol for each in space.coordinates])
         lost = changing - bound(explicit(found.right), in_rates)
         work = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
@@ -149,7 +148,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         None,
         lambda H: Relation(rate(p), "=", -Partial(H, q.symbol)),
         {"hamiltonian": of},
-        lines=Lines(put_in=None, arranged=_by_terms),
+        lines=Lines(put_in=None, arranged=lambda found: _by_terms(found, [p for _, p in space.pairs])),
         routes={"virtual_work": by_virtual_work},
         outcome="cyclic" if cyclic else "force",
         telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
@@ -158,8 +157,12 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
     )
 
 
-def _by_terms(found: Relation) -> Relation:
-    return Relation(found.left, found.mark, by_terms(explicit(found.right)))
+def _by_terms(found: Relation, letters: Sequence[Symbol]) -> Relation:
+    """What holds momenta term by term, as it was differentiated, and the rest together."""
+    right = explicit(found.right)
+    terms = Add.make_args(right)
+    moving, rest = ([term for term in terms if term.has(*letters) == held] for held in (True, False))
+    return Relation(found.left, found.mark, Add(by_terms(Add(*moving)), tidied(Add(*rest))))
 
 
 def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quantity:
@@ -167,7 +170,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
 
     quantity   a scalar in coordinates and rates of the same motion
     of         the Hamiltonian, J
-    Second route: with the momenta of the mass points put in, it is what it was.
+    Second route: with the momenta put in, it is what it was.
     Errors: the Hamiltonian is that of another motion; the quantity holds no rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
@@ -180,7 +183,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
     values = {v.symbol: v.value for v in present}
 
     def back(found: Expr) -> tuple[Expr, Expr]:
-        return bound(explicit(found), space.by_matter()), explicit(quantity.value)
+        return bound(explicit(found), space.in_rates), explicit(quantity.value)
 
     return establish(
         "canonical.in_momenta",

@@ -6,7 +6,7 @@ Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3; Landau, Lif
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
@@ -36,7 +36,7 @@ from derive.mechanics.systems.phase_space import (
     part_of_degree,
     rates_by_momenta,
 )
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, establish
 from derive.steps.step import Fact, Level, Quantity, compared_with, lettered
 
 __all__ = ["conserved", "effective_potential", "routhian"]
@@ -60,7 +60,7 @@ class ReducedMatter(Matter):
     rates   those of the cyclic coordinates, by the others and by the constants
     """
 
-    whole: Matter = Matter()
+    whole: Matter = field(default_factory=Matter)
     rates: tuple[tuple[Symbol, Expr], ...] = ()
 
     def kinetic_energy(self) -> Expr:
@@ -151,8 +151,8 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
     constants   momenta of cyclic coordinates, as `conserved` yields them
     The rates of the cyclic coordinates are steps of their own.
     Second route: by mass points and forces: -dR/dp is the rate of the cyclic coordinate, dR/dq_dot and dR/dq of the
-    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot with T of the
-    mass points.
+    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot with the
+    rates put in.
     Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
     """
@@ -177,15 +177,14 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
         return ImmutableDenseMatrix(ours), ImmutableDenseMatrix(theirs)
 
     def energies(found: Expr) -> tuple[Expr, Expr]:
-        return found, reduced.kinetic_energy() - of.needed(Energies).potential.value - carried
+        energies = of.needed(Energies)
+        return found, bound(explicit(energies.kinetic.value), put_in) - energies.potential.value - carried
 
     def law(L: Expr, *both: Expr) -> Expr:
         n = len(constants)
         return Terms(L, *(-Factors(p, v) for p, v in zip(both[:n], both[n:], strict=True)))
 
-    def written(value: Expr) -> Expr:
-        return -beside_potential(-value, of, letters, [q.symbol for q in left])
-
+    written = beside_potential(whole, of, letters, [q.symbol for q in left], sign=-1)
     return establish(
         "effective.routhian",
         scalar(symbol),
@@ -194,8 +193,8 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
         lines=Lines(
             put_in=Level.FULL,
             result=False,
-            arranged=written,
-            after=kinetic_first(written(whole), [*(q.rate for q in left), *letters]),
+            arranged=lambda _: written,
+            after=kinetic_first(written, [*(q.rate for q in left), *letters]),
         ),
         routes={"matter": by_matter, "energies": energies},
         outcome="one" if len(constants) == 1 else "several",
@@ -225,7 +224,7 @@ def effective_potential(
     constants   momenta of cyclic coordinates, as `conserved` yields them; all that are cyclic unless one is given
     Without cyclic coordinates it is U - T_0: that of a prescribed rotation.
     Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with the conserved momenta put in; and T_2 - T_0
-    + U of the mass points.
+    + U with the rates put in.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U).
     Errors: L contains the time; no coordinate is left.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
@@ -257,19 +256,17 @@ def effective_potential(
         return ImmutableDenseMatrix(ours), bound(ImmutableDenseMatrix(theirs), still)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
-        kinetic, names = matter.kinetic_energy(), [q.rate for q in coordinates_of(of)]
+        kinetic, names = of.needed(Energies).kinetic.value, [q.rate for q in coordinates_of(of)]
         parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
         return found, bound(bound(parts, put_in), still) + potential.value
 
-    def written(value: Expr) -> Expr:
-        return beside_potential(value, of, letters)
-
+    written = beside_potential(whole, of, letters)
     return establish(
         "effective.effective_potential",
         scalar(symbol),
         law,
         _inputs(of, constants, rates, put_in),
-        lines=Lines(put_in=None, result=False, arranged=written, after=kinetic_first(written(whole), letters)),
+        lines=Lines(put_in=None, result=False, arranged=lambda _: written, after=kinetic_first(written, letters)),
         routes={"forces": forces, "by_degree": by_degree},
         outcome="reduced" if constants else "driven" if _is_driven(of) else "unchanged",
         key=key,

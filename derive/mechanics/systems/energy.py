@@ -33,11 +33,11 @@ def outcome_of_energy(value: Expr, of: Quantity) -> str:
 
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
-    """What T + U has more than the energy function, and the same from the mass points."""
+    """What T + U has more than the energy function, and the same by the parts of T."""
     excess = by_rates(tidied(of.needed(Energies).whole - value), [q.symbol for q in coordinates_of(of)])
     if is_zero(excess):
         return {}
-    kinetic = of.needed(Matter).kinetic_energy()
+    kinetic = of.needed(Energies).kinetic.value
     by_parts = part_of_degree(kinetic, rates, 1) + 2 * part_of_degree(kinetic, rates, 0)
     return {"excess": (excess, by_parts)}
 
@@ -47,7 +47,7 @@ def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function
 
     of   the Lagrangian, J
     The momenta are steps of their own.
-    Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates, from the mass points.
+    Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither).
     Errors: L is not the difference of two energies.
@@ -55,26 +55,24 @@ def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function
     """
     moving = coordinates_of(of)
     rates = [q.rate for q in moving]
-    energies, matter = of.needed(Energies), of.needed(Matter)
+    energies = of.needed(Energies)
 
     def law(L: Expr, *p: Expr) -> Expr:
         return Terms(*(Factors(each, v) for each, v in zip(p, rates, strict=True)), -L)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
-        kinetic = matter.kinetic_energy()
+        kinetic = energies.kinetic.value
         parts = part_of_degree(kinetic, rates, 2) - part_of_degree(kinetic, rates, 0)
         return found, parts + energies.potential.value
 
-    def value_of(found: Expr) -> Expr:
-        return beside_potential(found, of, [], [q.symbol for q in moving])
-
-    plain = value_of(explicit(Add(*(explicit(Partial(of.value, v)) * v for v in rates), -of.value)))
+    carried = Add(*(explicit(Partial(of.value, v)) * v for v in rates))
+    plain = beside_potential(explicit(carried - of.value), of, [], [q.symbol for q in moving])
     return establish(
         "energy.energy_function",
         scalar(symbol),
         law,
         {"lagrangian": of, **{f"momentum_{p.key}": p for p in momenta(of)}},
-        lines=Lines(put_in=None, result=False, arranged=value_of, after=kinetic_first(plain, rates)),
+        lines=Lines(put_in=None, result=False, arranged=lambda _: plain, after=kinetic_first(plain, rates)),
         routes={"by_degree": by_degree},
         outcome=lambda value: outcome_of_energy(value, of),
         telling=Telling(formulas=told_of_excess(plain, of, rates)),
@@ -120,4 +118,3 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
         parents=[of, L],
         facts=[FromLagrangian(L)],
     )
-

@@ -1,4 +1,4 @@
-"""Coordinates and their momenta: letters, the rates that belong to given momenta, and how functions of them are written.
+"""Coordinates and their momenta: letters, the rates that belong to momenta, and how functions of them are written.
 
 A momentum p_q is a plain name beside its coordinate q. In phase space both are free, so both count as coordinates of
 what depends on them; as functions of coordinates and rates momenta are values, m l^2 theta_dot.
@@ -10,8 +10,24 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
-from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, diff
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    Mul,
+    Rational,
+    Symbol,
+    cos,
+    diff,
+    expand,
+    factor_terms,
+    sin,
+)
 from sympy.polys.polyerrors import PolynomialError
+from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.collect import by_rates, spread
 from derive.algebra.expressions import Partial, Terms, bound, explicit, rate, scalar
@@ -36,16 +52,17 @@ class PhaseSpace(Fact):
 
     missing = "is not a function of coordinates and their momenta"
     coordinates: tuple[Coordinate, ...]
+    momenta: tuple[Quantity, ...]
     lagrangian: Quantity
 
     @property
     def pairs(self) -> tuple[tuple[Symbol, Symbol], ...]:
         return tuple((q.symbol, letter_of_momentum(q)) for q in self.coordinates)
 
-    def by_matter(self) -> dict[Symbol, Expr]:
-        """Each momentum as the sum of m v . dr/dq over the mass points."""
-        matter = self.lagrangian.needed(Matter)
-        return {p: matter.momentum_along(q) for q, p in self.pairs}
+    @property
+    def in_rates(self) -> dict[Symbol, Expr]:
+        """Each momentum as it depends on the rates, which the mass points have confirmed."""
+        return {p.symbol: explicit(p.value) for p in self.momenta}
 
 
 def letter_of_momentum(q: Coordinate) -> Symbol:
@@ -121,18 +138,17 @@ def rates_by_momenta(
     given   momenta of some of its coordinates, each known from now on by its letter
     free    the letters of those that vary from now on as coordinates do, with their kinds
     verb    what a complaint calls
-    Second route: the rates put back into the momenta of the mass points.
+    Second route: the rates put back into the momenta.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]
     solved = _solved({p.symbol: p.value for p in given}, [q.rate for q in own], verb)
     letters = [p.symbol for p in given]
     by = "_".join(letter.name for letter in letters)
-    matter = of.needed(Matter)
 
     def put_back(q: Coordinate, found: Expr) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
         rates = {**solved, q.rate: found}
-        back = [bound(matter.momentum_along(each.symbol), rates) for each in own]
+        back = [bound(explicit(p.value), rates) for p in given]
         return ImmutableDenseMatrix(back), ImmutableDenseMatrix(letters)
 
     def of_one(q: Coordinate) -> Quantity:
@@ -172,7 +188,8 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol], verb: st
             message = f"`{verb}`: the momenta do not determine {names}"
             raise Rejected(Complaint("singular", message, help="one motion is described by two coordinates"))
         above = part.adjugate() * wanted.extract(block, [0])
-        found.update({rates[i]: by_letters(top / below, list(momenta_of)) for i, top in zip(block, above, strict=True)})
+        solved = (by_one_square(tidied(explicit(top) / below)) for top in above)
+        found.update(zip((rates[i] for i in block), solved, strict=True))
     return found
 
 
@@ -204,20 +221,43 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     parts: dict[int, list[tuple[Expr, Expr]]] = {}
     for powers, c in gathered.terms():
         parts.setdefault(sum(powers), []).append((Mul(*(p**n for p, n in zip(present, powers, strict=True))), c))
-    quadratic = _written([(m, spread(c)) for m, c in parts.get(2, [])], present)
+    quadratic = _written([(m, spread(c)) for m, c in parts.get(2, [])])
     linear = _shortest([_added((m, spread(c)) for m, c in parts.get(1, [])), tidied(_added(parts.get(1, [])))])
     rest = tidied(Add(*(c for _, c in parts.get(0, []))))
-    return Add(quadratic, linear, rest)
+    return Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
 
 
-def _written(terms: Sequence[tuple[Expr, Expr]], letters: Sequence[Symbol]) -> Expr:
+def by_one_square(value: Expr) -> Expr:
+    """m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; and below a fraction no sum that begins with a minus."""
+    if not value.has(sin, cos):
+        return value
+    if value.is_Add:
+        value = _shortest([value, *(expand(square(value)) for square in (TR5, TR6))])
+    if value.is_Add:
+        return Add(*(by_one_square(term) for term in value.args))
+    sign: Expr = Integer(1)
+    factors: list[Expr] = []
+    for factor in Mul.make_args(value):
+        if factor.is_Mul:
+            factor = by_one_square(factor)
+        base, power = factor.as_base_exp()
+        if base.is_Add and power.is_Integer:
+            base = _shortest([base, *(factor_terms(expand(square(base))) for square in (TR5, TR6))])
+            if power.is_negative and base.could_extract_minus_sign():
+                base, sign = -base, sign * Integer(-1) ** power
+        factors.append(base**power)
+    return sign * Mul(*factors)
+
+
+def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
     """A quadratic form as products, as one fraction, or with its squares completed, whichever is shortest."""
-    plain = _added(terms)
-    if all(monomial.is_Pow for monomial, _ in terms):
-        return plain
-    forms = [plain, tidied(plain)]
-    forms += [_squares(plain, order) for order in permutations(letters) if len(letters) <= 3]
-    return _shortest(forms)
+    mixed = {p for monomial, _ in terms if monomial.is_Mul for p in monomial.free_symbols}
+    if not mixed:
+        return _added(terms)
+    coupled = _added(term for term in terms if term[0].free_symbols & mixed)
+    alone = _added(term for term in terms if not term[0].free_symbols & mixed)
+    orders = permutations(sorted(mixed, key=str)) if len(mixed) <= 3 else ()
+    return alone + _shortest([coupled, tidied(coupled), *(_squares(coupled, order) for order in orders)])
 
 
 def _squares(value: Expr, order: Sequence[Symbol]) -> Expr:
@@ -243,24 +283,29 @@ def _shortest(forms: Sequence[Expr]) -> Expr:
     return min(forms, key=lambda form: int(form.count_ops()))
 
 
-def beside_potential(value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = ()) -> Expr:
-    """An energy as a sum: what is kinetic by squares of rates and of letters, then the potential energy as it was found.
+def beside_potential(
+    value: Expr, of: Quantity, letters: Sequence[Symbol], moving: Sequence[Symbol] = (), sign: int = 1
+) -> Expr:
+    """An energy as a sum: what is kinetic by squares of rates and of letters, and the potential energy as it was found.
 
     of        the Lagrangian
     letters   momenta, constant or not; `moving` are coordinates whose rates still occur
+    sign      that of the potential energy: -1 in a Lagrangian
     """
     potential = explicit(of.needed(Energies).potential.value)
     at_rest = bound(value, {rate(q): ZERO for q in moving})
-    kinetic = by_rates(tidied(value - at_rest), list(moving), halves=True)
-    return Add(kinetic, by_letters(at_rest - potential, letters), potential)
+    kinetic = by_one_square(by_rates(tidied(value - at_rest), list(moving), halves=True)) if moving else ZERO
+    return Add(kinetic, sign * (by_letters(sign * at_rest - potential, letters) + potential))
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
     """The last line of an energy: its terms in the order of the names in them, what has none of these last."""
 
-    def rank(term: Expr) -> tuple[int, bool, str]:
-        found = (i for i, name in enumerate(names) if term.has(name))
-        return next(found, len(names)), term.could_extract_minus_sign(), str(term)
+    def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
+        first = next((i for i, name in enumerate(names) if term.has(name)), len(names))
+        linear = first < len(names) and not any(diff(term, a, b) != 0 for a in names for b in names)
+        mixed = first < len(names) and diff(term, names[first], 2) == 0
+        return linear, first, mixed, term.could_extract_minus_sign(), str(term)
 
     terms = sorted(Add.make_args(value), key=rank)
     return [Form(Terms(*terms) if len(terms) > 1 else value, "result")]

@@ -11,7 +11,7 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
 from derive.algebra.collect import by_rates, by_terms
-from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -54,7 +54,7 @@ def noether(
     momenta = {q: conjugate_momentum(of, q) for q in shift}
 
     def law(*p: Expr) -> Expr:
-        carried = [Factors(each, x) if x != 1 else each for each, x in zip(p, xi.values(), strict=False)]
+        carried = [_times(each, x) for each, x in zip(p, xi.values(), strict=True) if x != 0]
         return Terms(*carried, *([-gain] if gain != 0 else []))
 
     def along_the_shift(found: Expr) -> tuple[Expr, Expr]:
@@ -80,7 +80,8 @@ def noether(
 
 
 def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Expr]:
-    for q in shift:
+    named: list[Any] = list(shift)
+    for q in named:
         if not isinstance(q, Coordinate):
             message = "`noether` needs the shift of each coordinate: {x: 1}, or {x: -y, y: x}"
             raise Rejected(Complaint("wrong-argument", message))
@@ -93,7 +94,7 @@ def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Exp
 
 def _plain(value: Any, role: str, of: Quantity) -> Expr:
     """A formula in coordinates and the time, without rates."""
-    found = Integer(0) + (value.symbol if isinstance(value, Coordinate) else value)
+    found = value.symbol if isinstance(value, Coordinate) else Integer(value) if isinstance(value, int) else value
     if not isinstance(found, Expr) or found.has(*(rate(q, n) for q in of.coordinates for n in (1, 2))):
         message = f"`noether`: the {role} is a formula in the coordinates and the time, without rates"
         raise Rejected(Complaint("wrong-argument", message))
@@ -109,10 +110,16 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     ways.update({rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))})
     left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
     if not vanishes(left):
-        message = f"`noether`: the shift is no symmetry, it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
+        message = (
+            f"`noether`: the shift is no symmetry, it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
+        )
         raise Rejected(Complaint("no-symmetry", message, help="a change by the rate of some F is told by `gained=F`"))
 
-    def law(L: Expr) -> Relation:
+    told: dict[str, Expr] = {}
+    for i, (q, x) in enumerate(xi.items(), 1):
+        told.update({f"q_{i}": q, f"xi_{i}": x})
+
+    def law(L: Expr, *_: Expr) -> Relation:
         terms = [_times(Partial(L, s), x) for s, x in ways.items()]
         return Relation(Terms(*terms) if terms else ZERO, "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
 
@@ -127,7 +134,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         "symmetry.change",
         None,
         law,
-        {"lagrangian": of},
+        {"lagrangian": of, **told},
         lines=Lines(put_in=None, result=False, arranged=explicit, after=_worked(L, ways, gain, moving)),
         routes={"places": by_places},
         outcome="gain" if gain != 0 else "none",
@@ -154,4 +161,5 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
 
 
 def _times(derivative: Expr, factor: Expr) -> Expr:
-    return derivative if factor == 1 else Factors(derivative, factor)
+    """The product, kept in its bracket where it would be multiplied out."""
+    return Factors(factor, derivative) if factor.is_Add or derivative.is_Add else factor * derivative

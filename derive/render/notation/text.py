@@ -121,7 +121,7 @@ def text_box(layout: Layout) -> TextBox:
             inner = text_box(inside)
             if len(inner.lines) > 1:
                 return _tall_fence(inner, kind)
-            left, right = {"(": "()", "|": "||", "{": "{}"}[kind]
+            left, right = {"(": ("(", ")"), "|": ("|", "|"), "{": ("{", "}")}[kind]
             return TextBox((f"{left}{inner.lines[0]}{right}",))
         case Lowered(base, word):
             return text_box(base).beside(TextBox((f"_{word}",)))
