@@ -52,6 +52,7 @@ EXPRESSIONS = [
     I * a,
     oo,
     sqrt(42) / 28 * a,
+    ex.PoissonBracket(a, b, a, b),
     Symbol("omega_x", real=True),
     Symbol("n", integer=True, positive=True),
     Mul(2, a + b, evaluate=False),

@@ -42,7 +42,7 @@ def test_its_dimension_is_that_of_both_less_an_action() -> None:
 def test_it_is_written_in_braces_and_goes_to_lists_and_back() -> None:
     layout = Notation().layout(bracket(x, p_x))
     assert plain(layout) == "{x, p_x}"
-    assert latex(layout) == r"\{x, p_{x}\}"
+    assert latex(layout) == r"\{x,\ p_{x}\}"
     assert decoded(encoded(bracket(x, p_x))) == bracket(x, p_x)
 
 

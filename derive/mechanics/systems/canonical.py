@@ -49,7 +49,7 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
     letters = {letter_of_momentum(q): kind_of_momentum(q.kind) or "number" for q in moving}
     given = momenta(of)
     space = PhaseSpace(tuple(moving), given, of)
-    rates = rates_by_momenta(of, given, letters, key)
+    rates = rates_by_momenta(of, given, varying=True, key=f"{key}_rate")
     put_in = {v.symbol: v.value for v in rates}
     in_rates = space.in_rates
 
@@ -112,6 +112,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
 def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
     space, p = of.needed(PhaseSpace), letter_of_momentum(q)
+    solved = next(parent for parent in of.parents if parent.symbol == q.rate)
 
     def by_momenta(found: Relation) -> tuple[Any, Any]:
         sides = [found.left, bound(explicit(found.right), space.in_rates)]
@@ -122,7 +123,7 @@ def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
         None,
         lambda H: Relation(q.rate, "=", Partial(H, p)),
         {"hamiltonian": of},
-        lines=Lines(put_in=None, arranged=lambda found: _by_terms(found, [p for _, p in space.pairs])),
+        lines=Lines(put_in=None, arranged=lambda found: Relation(found.left, found.mark, solved.value)),
         routes={"momenta": by_momenta},
         outcome="rate",
         telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),

@@ -159,7 +159,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
     if not constants:
         raise Rejected(Complaint("wrong-argument", "`routhian` needs a conserved momentum", help="`conserved(L, phi)`"))
     left = _put_aside(of, constants, "routhian")
-    rates = rates_by_momenta(of, constants, {}, "routhian")
+    rates = rates_by_momenta(of, constants)
     put_in = {v.symbol: v.value for v in rates}
     matter = of.needed(Matter)
     reduced = ReducedMatter((), (), tuple(q.symbol for q in left), matter, tuple(put_in.items()))
@@ -234,7 +234,7 @@ def effective_potential(
         raise Rejected(Complaint("changes", message))
     constants = constants or _cyclic(of)
     left = _put_aside(of, constants, "effective_potential")
-    rates = rates_by_momenta(of, constants, {}, "effective_potential") if constants else ()
+    rates = rates_by_momenta(of, constants) if constants else ()
     put_in = {v.symbol: v.value for v in rates}
     matter, potential = of.needed(Matter), of.needed(Energies).potential
     reduced = ReducedMatter((), (), tuple(q.symbol for q in left), matter, tuple(put_in.items()))

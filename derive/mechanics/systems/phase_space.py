@@ -40,7 +40,7 @@ from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordi
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Fact, Form, Quantity, compared_with, lettered
 
-__all__ = ["conjugate", "conjugate_momentum", "momenta"]
+__all__ = ["conjugate", "conjugate_momentum", "momenta", "rates_by_momenta"]
 
 LARGEST = 4  # momenta that are solved together for rates
 ZERO = Integer(0)
@@ -130,19 +130,22 @@ def momenta(of: Quantity) -> tuple[Quantity, ...]:
 
 
 def rates_by_momenta(
-    of: Quantity, given: Sequence[Quantity], free: Mapping[Symbol, str], verb: str
+    of: Quantity, given: Sequence[Quantity], varying: bool = False, key: str = "rate"
 ) -> tuple[Quantity, ...]:
     """Rates as functions of momenta, solved from p = dL/dq_dot, which is linear in the rates.
 
-    of      the Lagrangian, J
-    given   momenta of some of its coordinates, each known from now on by its letter
-    free    the letters of those that vary from now on as coordinates do, with their kinds
-    verb    what a complaint calls
+    of        the Lagrangian, J
+    given     momenta of some of its coordinates, each known from now on by its letter
+    varying   whether those letters vary as coordinates do, and are not constant
+    Keys: rate_ and the name of the coordinate, _by_ and the letters.
     Second route: the rates put back into the momenta.
+    Outcomes: alone, together.
+    Errors: the momenta do not determine the rates, or too many would have to be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]
-    solved = _solved({p.symbol: p.value for p in given}, [q.rate for q in own], verb)
+    solved = _solved({p.symbol: p.value for p in given}, [q.rate for q in own])
+    moving = {p.symbol: p.step.kind or "number" for p in given} if varying else {}
     letters = [p.symbol for p in given]
     by = "_".join(letter.name for letter in letters)
 
@@ -160,32 +163,33 @@ def rates_by_momenta(
             lines=Lines(put_in=None, result=False, arranged=explicit),
             routes={"put_back": lambda found: put_back(q, found)},
             outcome="alone" if len(own) == 1 else "together",
-            key=f"{verb}_rate_{q.symbol.name}" if free else f"rate_{q.symbol.name}_by_{by}",
+            key=f"{key}_{q.symbol.name}" if varying else f"{key}_{q.symbol.name}_by_{by}",
             kind=kind_of_dimension(dimension_of_kind(q.kind) / dimension_of_kind("time")),
-            scope=Scope(coordinates=free),
+            scope=Scope(coordinates=moving),
         )
 
     return tuple(of_one(q) for q in own)
 
 
-def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol], verb: str) -> dict[Symbol, Expr]:
+def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
     """Linear equations for the rates, those that are coupled solved together."""
     matrix = Matrix([[diff(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
     if matrix.has(*rates):
-        message = f"`{verb}` needs momenta that are linear in the rates"
-        raise Rejected(Complaint("wrong-argument", message))
+        raise Rejected(
+            Complaint("wrong-argument", "rates can be solved from momenta only where these are linear in them")
+        )
     found: dict[Symbol, Expr] = {}
     for block in _coupled(matrix):
         names = ", ".join(rates[i].name for i in block)
         if len(block) > LARGEST:
-            message = f"`{verb}`: {len(block)} momenta would have to be solved together for {names}"
+            message = f"{len(block)} momenta would have to be solved together for {names}"
             raise Rejected(Complaint("too-hard", message, help=f"at most {LARGEST} rates may be coupled"))
         part = matrix.extract(block, block)
         below = tidied(part.det(method="berkowitz"))
         if below == 0:
-            message = f"`{verb}`: the momenta do not determine {names}"
+            message = f"the momenta do not determine {names}"
             raise Rejected(Complaint("singular", message, help="one motion is described by two coordinates"))
         above = part.adjugate() * wanted.extract(block, [0])
         solved = (by_one_square(tidied(explicit(top) / below)) for top in above)
@@ -246,7 +250,20 @@ def by_one_square(value: Expr) -> Expr:
             if power.is_negative and base.could_extract_minus_sign():
                 base, sign = -base, sign * Integer(-1) ** power
         factors.append(base**power)
-    return sign * Mul(*factors)
+    return _without_minus(sign * Mul(*factors))
+
+
+def _without_minus(value: Expr) -> Expr:
+    """(b - a) c, not -(a - b) c."""
+    number, rest = value.as_coeff_Mul()
+    turned = next((f for f in Mul.make_args(rest) if f.is_Add and any(map(_is_taken_off, f.args))), None)
+    if not number.is_negative or turned is None:
+        return value
+    return -number * Mul(-turned, *(f for f in Mul.make_args(rest) if f is not turned))
+
+
+def _is_taken_off(term: Expr) -> bool:
+    return bool(term.could_extract_minus_sign())
 
 
 def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:

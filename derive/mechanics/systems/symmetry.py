@@ -55,7 +55,7 @@ def noether(
 
     def law(*p: Expr) -> Expr:
         carried = [_times(each, x) for each, x in zip(p, xi.values(), strict=True) if x != 0]
-        return Terms(*carried, *([-gain] if gain != 0 else []))
+        return Terms(*carried, *(term for term in Add.make_args(-gain) if term != 0))
 
     def along_the_shift(found: Expr) -> tuple[Expr, Expr]:
         work = [x * (matter.inertia_along(q) - matter.force_along(q)) for q, x in xi.items()]
@@ -117,11 +117,12 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
 
     told: dict[str, Expr] = {}
     for i, (q, x) in enumerate(xi.items(), 1):
-        told.update({f"q_{i}": q, f"xi_{i}": x})
+        told.update({f"q_{i}": q, **({f"xi_{i}": x} if x != 1 else {})})
 
     def law(L: Expr, *_: Expr) -> Relation:
         terms = [_times(Partial(L, s), x) for s, x in ways.items()]
-        return Relation(Terms(*terms) if terms else ZERO, "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
+        still = [Partial(L, q) for q, x in xi.items() if x != 0]
+        return Relation(Terms(*(terms or still)), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
 
     def by_places(found: Relation) -> tuple[Any, Any]:
         """What the points gain of (1/2) m v.v on their way, and the work of the loads on it."""
@@ -162,4 +163,5 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
 
 def _times(derivative: Expr, factor: Expr) -> Expr:
     """The product, kept in its bracket where it would be multiplied out."""
-    return Factors(factor, derivative) if factor.is_Add or derivative.is_Add else factor * derivative
+    both = factor != 1 and (factor.is_Add or derivative.is_Add)
+    return Factors(factor, derivative) if both else factor * derivative
