@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Add, Expr, Integer, diff
+from sympy import Add, Dummy, Expr, Integer, Symbol, diff
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import bound, explicit, rate
@@ -11,7 +11,7 @@ from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies
 from derive.mechanics.systems.phase_space import PhaseSpace
-from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
 from derive.steps.step import Quantity, is_zero
 
 
@@ -102,6 +102,20 @@ def _keeps_along_the_motion(facts: Judged) -> bool:
     return bool(equal(by_functions_of_time(bound(f, in_rates), matter.coordinates), Add(*sums)))
 
 
+def _shifted_as_told(facts: Judged, outcome: str) -> bool:
+    """L at the shifted coordinates, by functions of time, less what it gains, does not depend on the shift."""
+    L, small = facts.quantities["lagrangian"], Dummy("epsilon")
+    moving = L.needed(Matter).coordinates
+    shifted: dict[Symbol, Expr] = {}
+    for role, q in facts.inputs.items():
+        if not role.startswith("q_"):
+            continue
+        x = facts.inputs.get(role.replace("q", "xi"), Integer(1))
+        shifted.update({q: q + small * x, rate(q): rate(q) + small * by_functions_of_time(x, moving)})
+    change = diff(bound(explicit(L.value), shifted), small).subs(small, 0)
+    return bool(equal(change, explicit(facts.result.right)))
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "brackets.poisson_bracket": {
         "generic": lasts,
@@ -150,3 +164,5 @@ _TABLE: dict[str, dict[str, Predicate]] = {
 
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
+
+told_by("symmetry.change", _shifted_as_told)
