@@ -51,8 +51,8 @@ _ENERGIES = {
 }
 
 
-def _of_momentum(facts: Judged) -> bool:
-    return bool(facts.result.left == rate(facts.inputs["momentum"]))
+def _is_equation_of(facts: Judged, letter: Symbol) -> bool:
+    return facts.result.mark == "=" and bool(facts.result.left == rate(letter))
 
 
 def _conserved(kind: str | None) -> Predicate:
@@ -93,13 +93,22 @@ def _carries_momenta_alone(facts: Judged) -> bool:
 
 def _keeps_along_the_motion(facts: Judged) -> bool:
     """The second function is the Hamiltonian of a Lagrangian, along whose motions the first one does not change."""
-    space = facts.quantities["g"].needed(PhaseSpace)
-    L: Quantity = space.lagrangian
+    other: Quantity = facts.quantities["g"]
+    space = other.needed(PhaseSpace)
+    L = space.lagrangian
     matter = L.needed(Matter)
     f = explicit(facts.inputs["f"])
     in_rates = {p: matter.momentum_along(q) for q, p in space.pairs}
     sums = [bound(diff(f, p), in_rates) * (matter.inertia_along(q) - matter.force_along(q)) for q, p in space.pairs]
-    return bool(equal(by_functions_of_time(bound(f, in_rates), matter.coordinates), Add(*sums)))
+    kept = equal(by_functions_of_time(bound(f, in_rates), matter.coordinates), Add(*sums))
+    return other.step.rule == "canonical.hamiltonian" and bool(kept)
+
+
+def _bracket_as_told(facts: Judged, outcome: str) -> bool:
+    """The roles stand in the bracket in their order, and each momentum beside its own coordinate."""
+    named = [facts.quantities[role].symbol if role in facts.quantities else facts.inputs[role] for role in ("f", "g")]
+    own = all(p.name == f"p_{q.name}" for q, p in facts.symbol.pairs)
+    return own and list(facts.symbol.args[:2]) == named
 
 
 def _shifted_as_told(facts: Judged, outcome: str) -> bool:
@@ -129,9 +138,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "canonical.hamiltonian": _ENERGIES,
     "canonical.hamilton_equation": {
-        "rate": lambda facts: facts.result.left == rate(facts.inputs["coordinate"]),
-        "force": lambda facts: _of_momentum(facts) and not is_zero(facts.result.right),
-        "cyclic": lambda facts: _of_momentum(facts) and is_zero(facts.result.right),
+        "rate": lambda facts: _is_equation_of(facts, facts.inputs["coordinate"]),
+        "force": lambda facts: _is_equation_of(facts, facts.inputs["momentum"]) and not is_zero(facts.result.right),
+        "cyclic": lambda facts: _is_equation_of(facts, facts.inputs["momentum"]) and is_zero(facts.result.right),
     },
     "effective.conserved": {
         "angular": _conserved("angle"),
@@ -148,8 +157,8 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "unchanged": _seen_by_the_rest(False, False),
     },
     "symmetry.change": {
-        "none": lambda facts: is_zero(facts.result.right) and is_zero(facts.result.left),
-        "gain": lambda facts: is_zero(facts.result.residual),
+        "none": lambda facts: facts.result.mark == "=" and is_zero(facts.result.right),
+        "gain": lambda facts: facts.result.mark == "=" and not is_zero(facts.result.right),
     },
     "symmetry.noether": {
         "symmetry": lambda facts: _carries_momenta_alone(facts),
@@ -157,12 +166,13 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "energy.energy_function": _ENERGIES,
     "energy.energy_function_rate": {
-        "conserved": lambda facts: is_zero(facts.result.right),
-        "changes": lambda facts: not is_zero(facts.result.right),
+        "conserved": lambda facts: facts.result.mark == "=" and is_zero(facts.result.right),
+        "changes": lambda facts: facts.result.mark == "=" and not is_zero(facts.result.right),
     },
 }
 
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
 
+told_by("brackets.poisson_bracket", _bracket_as_told)
 told_by("symmetry.change", _shifted_as_told)

@@ -43,6 +43,7 @@ from derive.steps.step import Fact, Form, Quantity, compared_with, lettered
 __all__ = ["conjugate", "conjugate_momentum", "momenta", "rates_by_momenta"]
 
 LARGEST = 4  # momenta that are solved together for rates
+LARGEST_WITH_ANGLES = 2  # where sines and cosines couple them: the Hamiltonian of three is a page long
 ZERO = Integer(0)
 
 
@@ -183,10 +184,14 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
     found: dict[Symbol, Expr] = {}
     for block in _coupled(matrix):
         names = ", ".join(rates[i].name for i in block)
-        if len(block) > LARGEST:
-            message = f"{len(block)} momenta would have to be solved together for {names}"
-            raise Rejected(Complaint("too-hard", message, help=f"at most {LARGEST} rates may be coupled"))
         part = matrix.extract(block, block)
+        most = LARGEST_WITH_ANGLES if part.has(sin, cos) else LARGEST
+        if len(block) > most:
+            message = f"{len(block)} momenta would have to be solved together for {names}"
+            help_line = (
+                f"at most {LARGEST} rates may be coupled, and {LARGEST_WITH_ANGLES} where that depends on angles"
+            )
+            raise Rejected(Complaint("too-hard", message, help=help_line))
         below = tidied(part.det(method="berkowitz"))
         if below == 0:
             message = f"the momenta do not determine {names}"

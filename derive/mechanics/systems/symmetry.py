@@ -138,7 +138,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         {"lagrangian": of, **told},
         lines=Lines(put_in=None, result=False, arranged=explicit, after=_worked(L, ways, gain, moving)),
         routes={"places": by_places},
-        outcome="gain" if gain != 0 else "none",
+        outcome="none" if explicit(TimeRate(gain, *moving)) == 0 else "gain",
         telling=Telling(judged_by={"moved": tuple(ways)}),
         key=f"{key}_change",
     )
