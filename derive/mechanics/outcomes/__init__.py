@@ -8,9 +8,7 @@ from derive.mechanics.outcomes import of_answers as of_answers
 from derive.mechanics.outcomes import of_bodies as of_bodies
 from derive.mechanics.outcomes import of_conditions as of_conditions
 from derive.mechanics.outcomes import of_equilibria as of_equilibria
+from derive.mechanics.outcomes import of_lagrangians as of_lagrangians
 from derive.mechanics.outcomes import of_modes as of_modes
 from derive.mechanics.outcomes import of_motion as of_motion
 from derive.mechanics.outcomes import of_rotation as of_rotation
-from derive.mechanics.outcomes import of_bodies, of_conditions, of_lagrangians, of_motion, of_rotation
-
-__all__ = ["of_bodies", "of_conditions", "of_lagrangians", "of_motion", "of_rotation"]
