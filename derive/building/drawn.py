@@ -18,12 +18,12 @@ from derive.course.placement import Placement
 from derive.course.problem import Problem
 from derive.errors import Rejected
 from derive.figures.encoding import drawings_to_data
-from derive.figures.marks import Plot, Recorded
+from derive.figures.marks import Drawing, Plot, Recorded
 from derive.page.depiction import placement_of
 from derive.page.document import Document, Illustration
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import Phrases
-from derive.render.drawing.camera import Numbers, stand_ins
+from derive.render.drawing.camera import Numbers, stand_ins, with_coordinates
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Files
@@ -56,7 +56,7 @@ def _sheet(
     problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
 ) -> dict[str, bytes]:
     placement = placement_of(problem, drawing.key)
-    values = numbers_of(problem, placement)
+    values = numbers_of(problem, placement, drawing)
     curves = curves_of(problem, drawing, placement) if isinstance(drawing, Plot) else None
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
@@ -89,13 +89,18 @@ def _drawn(
     return sheet_of(pieces, notation, alt)
 
 
-def numbers_of(problem: Problem, placement: Placement | None) -> dict[Symbol, float]:
+def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
     """What each letter is while it is drawn: as the problem says of this drawing, its own number, or a stand-in."""
     said = dict(placement.values) if placement else {}
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}
     letters = [(declared.symbol, declared.kind) for declared in problem.symbols.values()]
     found = stand_ins(letters, {**own, **fixed})
+    if isinstance(drawing, Drawing):
+        free = {letter for letter, _ in (*drawing.coordinates, *drawing.values)} - {*own, *fixed}
+        sizes = [found[letter] for letter, kind in letters if kind == "length" and letter not in free]
+        known = {letter: number for letter, number in found.items() if letter not in free}
+        found = with_coordinates(drawing, known, sum(sizes) / len(sizes) if sizes else 1.0)
     for letter, expr in said.items():
         found[letter] = Numbers(found).of(expr)
     return found

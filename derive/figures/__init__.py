@@ -1,5 +1,6 @@
 """Drawings as a script describes them: `drawing("vectors", outline(block), arrow(omega, ...), ...)`."""
 
 from derive.figures.bodies import *
+from derive.figures.elements import *
 from derive.figures.machines import *
 from derive.figures.scenes import *

@@ -2,7 +2,7 @@
 
 A mark says all that is asked of it: of which pieces it is made once the letters have numbers, how large it is, how it
 is told in words. Which lines are hidden and where a label stands is decided on paper (`derive.render.drawing`).
-Positions are columns (x, y, z) in one frame, the same for all marks of a drawing.
+Positions are columns (x, y, z), or (x, y) in a plane, in one frame, the same for all marks of a drawing.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, TypeAlias
 
-from sympy import Symbol
+from sympy import MatrixBase, Symbol
 
 from derive.errors import Complaint, Rejected
 from derive.figures.pieces import InNumbers, Paper, Piece
@@ -38,6 +38,7 @@ class Mark:
     label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
     together: ClassVar[str | None] = None  # the phrase by which all such marks are told at once, by their labels
+    layer: ClassVar[int] = 9  # what has a lower one is drawn before it
 
     def __init_subclass__(cls) -> None:
         known = MARK_CLASSES.setdefault(cls.__name__, cls)
@@ -77,6 +78,7 @@ class Surface(Mark):
 
     name: str = ""
     measures: tuple[tuple[str, Any], ...] = field(default=(), metadata=BESIDE)
+    layer: ClassVar[int] = 0
 
     def places(self, numbers: InNumbers) -> list[Vector]:
         """The outermost places that it reaches."""
@@ -91,11 +93,17 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 
 @dataclass(frozen=True)
 class Drawing:
-    """A scene: its name on the page, its marks, and whether they are seen in space or in their plane (x, y)."""
+    """A scene: its name on the page, its marks, and whether they are seen in space or in their plane (x, y).
+
+    coordinates   those that it shows, with their kinds
+    values        what letters are drawn with, in terms of others, unless the problem gives them numbers
+    """
 
     key: str
     marks: tuple[Mark, ...]
     view: str = SPACE
+    coordinates: tuple[tuple[Any, str], ...] = ()
+    values: tuple[tuple[Any, Any], ...] = ()
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -129,6 +137,15 @@ class Plot:
     @property
     def letters(self) -> set[Symbol]:
         return letters_in((self.expr, self.lower, self.upper))
+
+
+def components_in(thing: Any) -> set[int]:
+    """How many components the places and directions of marks have, however deep they are."""
+    if isinstance(thing, tuple | list):
+        return {count for each in thing for count in components_in(each)}
+    if isinstance(thing, Mark):
+        return components_in([getattr(thing, f.name) for f in fields(thing) if not f.metadata.get("beside")])
+    return {thing.rows} if isinstance(thing, MatrixBase) else set()
 
 
 def letters_in(thing: Any) -> set[Symbol]:

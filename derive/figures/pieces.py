@@ -25,16 +25,19 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Patch:
-    """A surface on paper that hides what is drawn before it."""
+    """A surface on paper that hides what is drawn before it; `fill` is one of the colours of `drawing.canvas`."""
 
     spots: tuple[Spot, ...]
+    fill: str = "blank"
 
 
 @dataclass(frozen=True)
 class Bullet:
-    """A point on paper."""
+    """A point on paper, as a disc of a size in points."""
 
     spot: Spot
+    size: float = 1.6
+    fill: str = "line"
 
     @property
     def spots(self) -> tuple[Spot, ...]:
@@ -43,12 +46,18 @@ class Bullet:
 
 @dataclass(frozen=True)
 class Tag:
-    """A label: what it says, the spot that it belongs to, the side on which it would best stand."""
+    """A label: what it says, the spot that it belongs to, the side on which it would best stand.
+
+    way   of the label of a line: half of it, so that the label may slide along and stand on the other side
+    on    whether it stands on the spot itself, or as far from it as `towards` and its opposite, if that is free
+    """
 
     label: Any
     spot: Spot
     towards: Spot
     gap: float = 3.0
+    way: Spot | None = None
+    on: bool = False
 
     @property
     def spots(self) -> tuple[Spot, ...]:
@@ -66,6 +75,8 @@ class InNumbers(Protocol):
     def of(self, expr: Any) -> float: ...
 
     def vector(self, column: Any) -> Vector: ...
+
+    def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]: ...
 
 
 @dataclass(frozen=True)

@@ -1,44 +1,62 @@
 """The words in which a script describes a drawing, in terms of the bodies and quantities that it derives with.
 
-    drawing("vectors", outline(block), arrow(omega, block.middle), arrow(L, block.middle), angle(omega, L, theta))
+    drawing("vectors", outline(block), arrow(omega, block.middle), arrow(L, block.middle), arc(omega, L, theta))
 
 A quantity brings its name and its key along; a plain expression is taken as it is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import cycle
 from typing import Any
 
-from sympy import Expr, Integer, MatrixBase, Rational, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol, pi
 
-from derive.algebra.equality import Grade
-from derive.algebra.expressions import AXES, column, explicit, scalar
+from derive.algebra.expressions import AXES, explicit, scalar
 from derive.errors import Complaint, Rejected
-from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, LengthMark, PointMark, Turn
+from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.bodies import ORIGIN, outline
-from derive.figures.marks import PLANE, SPACE, Drawing, Mark, Marks, Plot, flat, noted
-from derive.mechanics.bodies.regions import Point
+from derive.figures.marks import (
+    PLANE, SPACE, Drawing, Mark, Marks, Plot, components_in, flat, letters_in, noted,
+)  # fmt: skip
+from derive.figures.positions import name_of, value_and_keys, vector_of
+from derive.steps.record import current_run
 from derive.steps.step import Quantity
 
-__all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "length", "plot", "point", "turn", "vectors_in"]
+__all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "plot", "point_mark", "turn", "vectors_in"]
 
+DEGREES = (34, 52, 22, 44, 16, 38)  # with which angles are drawn that are coordinates
 LONG, SMALL = Rational(5, 4), Rational(1, 4)  # in terms of the size of the body
 
 
-def drawing(key: str, *marks: Marks, view: str = SPACE) -> Drawing:
+def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[Any, Any] | None = None) -> Drawing:
     """A drawing of these marks, put on the record of the problem.
 
-    key     its name, for `drawings:` in the problem
-    marks   marks or lists of them; solids hide what is behind them, everything else is drawn over them
-    view    "space" (seen from the front, a little from above, z upwards) or "plane" (x to the right, y upwards)
+    key      its name, for `drawings:` in the problem
+    marks    marks or lists of them; solids hide what is behind them, everything else is drawn over them
+    view     "space" (seen from the front, a little from above, z upwards) or "plane" (x to the right, y upwards);
+             without one it is the plane if there is a place with two components
+    values   numbers or proportions with which letters are drawn, unless the problem says otherwise: `{x: l/4}`
     """
-    if view not in (SPACE, PLANE):
+    if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
         raise Rejected(Complaint("wrong-argument", f'there is no view "{view}"', help=help_line))
-    found = Drawing(key, tuple(flat(marks)), view)
+    shown = tuple(flat(marks))
+    seen = view or (PLANE if 2 in components_in(shown) else SPACE)
+    run = current_run.get()
+    named = run.coordinates if run is not None else {}
+    moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
+    chosen = {**_drawn_at(moving), **{name_of(None, letter): Integer(0) + v for letter, v in (values or {}).items()}}
+    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()))
     noted(found)
     return found
+
+
+def _drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
+    """An angle for each coordinate that is one, no two neighbours alike."""
+    angles = [q for q, kind in moving.items() if kind == "angle"]
+    return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}
 
 
 def plot(
@@ -79,8 +97,8 @@ def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, as
     label    its name, if it is not the quantity's own
     asked    whether it is what the problem asks for, and so drawn strongly
     """
-    (value, own), (start, others) = _vector(vector), _vector(at)
-    return Arrow(start, value, size, asked, label=_name_of(vector, label), keys=own + others)
+    (value, own), (start, others) = vector_of(vector), vector_of(at)
+    return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others)
 
 
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
@@ -91,9 +109,9 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
     at       the vertex
     radius   length; without one the arc is as large as the eye needs
     """
-    (u, first), (v, second), (vertex, third) = (_vector(thing) for thing in (a, b, at))
-    _, own = _value_and_keys(label)
-    return AngleMark(vertex, u, v, radius, label=_name_of(None, label), keys=first + second + third + own)
+    (u, first), (v, second), (vertex, third) = (vector_of(thing) for thing in (a, b, at))
+    _, own = value_and_keys(label)
+    return AngleMark(vertex, u, v, radius, label=name_of(None, label), keys=first + second + third + own)
 
 
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
@@ -103,7 +121,7 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
     through   a place on the axis
     rate      angular speed, 1/s: positive is right-handed about `along`
     """
-    (direction, first), (place, second) = _vector(along), _vector(through)
+    (direction, first), (place, second) = vector_of(along), vector_of(through)
     label = -rate if rate is not None and rate.could_extract_minus_sign() else rate
     return AxisOfRotation(place, direction, rate, label=label, keys=first + second)
 
@@ -115,36 +133,28 @@ def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
     at      the middle of the turn
     size    its radius in terms of the size of the body
     """
-    (direction, first), (place, second) = _vector(along), _vector(at)
+    (direction, first), (place, second) = vector_of(along), vector_of(at)
     return Turn(place, direction, size, label=label, keys=first + second)
 
 
-def point(at: Any, label: Any = None) -> Mark:
+def point_mark(at: Any, label: Any = None) -> Mark:
     """A point; a derived place brings its name along.
 
     at   a place: a column of lengths, a body's point, or a quantity
     """
-    place, keys = _vector(at)
-    return PointMark(place, label=_name_of(at, label), keys=keys)
-
-
-def length(start: Any, end: Any, label: Any, aside: Any) -> Mark:
-    """A dimension line from one place to another.
-
-    aside   vector (3): the direction in which the line is set off, so that it stands clear of the body
-    """
-    (a, first), (b, second) = _vector(start), _vector(end)
-    return LengthMark(a, b, _vector(aside)[0], label=label, keys=first + second)
+    place, keys = vector_of(at)
+    return PointMark(place, label=name_of(at, label), keys=keys)
 
 
 def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
-    """The coordinate axes from their origin.
+    """The coordinate axes from their origin, two of them if it is in a plane.
 
     reach   how long they are: one length, or one each
     """
-    place, keys = _vector(at)
+    place, keys = vector_of(at)
+    names = names[: place.rows]
     lengths = tuple(reach) if isinstance(reach, tuple | list) else (reach,) * len(names)
-    ends = [column(*(far if i == k else 0 for k in range(3))) for i, far in enumerate(lengths)]
+    ends = [ImmutableDenseMatrix([far if i == k else 0 for k in range(place.rows)]) for i, far in enumerate(lengths)]
     return [Axis(place, place + end, label=scalar(name), keys=keys) for name, end in zip(names, ends, strict=True)]
 
 
@@ -160,41 +170,3 @@ def vectors_in(body: Any, *vectors: Quantity, angle: Any = None, at: Any = None)
     marks = [*outline(body, named=False), axis_of_rotation(vectors[0], start)]
     marks += [arrow(vector, start, LONG * Rational(4, 5) ** i) for i, vector in enumerate(vectors)]
     return marks if angle is None else [*marks, arc(vectors[0], vectors[1], angle, start)]
-
-
-# --- what a script hands over ----------------------------------------------------------------------------------------
-
-
-def _vector(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """The components of a vector or a place, and the keys behind it; anything else is refused."""
-    value, keys = _value_and_keys(thing)
-    if not isinstance(value, MatrixBase) or value.shape != (3, 1):
-        got = f"`{thing.key}` is none" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
-        raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
-    return value, keys
-
-
-def _value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Of a quantity its value and, if it is derived, its key; of a point its place; of another thing itself."""
-    if isinstance(thing, Quantity):
-        return thing.value, (thing.key,) if _is_derived(thing) else ()
-    if isinstance(thing, Point):
-        return thing.position, ()
-    return thing, ()
-
-
-def _is_derived(quantity: Quantity) -> bool:
-    """Whether there is more behind it than names that were given."""
-    own = any(evidence.grade is not Grade.DEFINITION for evidence in quantity.step.evidence)
-    return own or any(_is_derived(parent) for parent in quantity.parents)
-
-
-def _name_of(thing: Any, label: Any) -> Any:
-    """What is written beside it: as asked, or the quantity's own name."""
-    if isinstance(label, Quantity):
-        return label.symbol
-    if isinstance(label, str):
-        return scalar(label)
-    if label is not None:
-        return label
-    return thing.symbol if isinstance(thing, Quantity) else None

@@ -9,7 +9,7 @@ from typing import Any
 from sympy import Symbol, symbols
 
 from derive.algebra.expressions import column
-from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline, point, slab_on_cylinder
+from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline, point_mark, slab_on_cylinder
 from derive.figures.marks import Drawing, Mark
 from derive.figures.pieces import Piece, Stroke
 from derive.mechanics import Composed, Cone, Coordinate, Cuboid, Disc, Part, Rod, rolled_centre
@@ -50,7 +50,7 @@ SCENES = [
     vectors_of_block(axis=(1, 1, 0)),
     drawing("axes", outline(Cuboid((a, 2 * a, 3 * a), M)), axis_of_rotation(column(1, 2, 3), rate=omega)),
     drawing("cone", outline(CONE)),
-    drawing("cone_above", outline(CONE, "base"), point(column(0, 0, h / 4), Symbol("C"))),
+    drawing("cone_above", outline(CONE, "base"), point_mark(column(0, 0, h / 4), Symbol("C"))),
     drawing("top", leaning(precession=Symbol("phi_dot"), spin=Symbol("S"), weight=M)),
     SLAB,
 ]

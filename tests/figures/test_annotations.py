@@ -8,7 +8,7 @@ import pytest
 from sympy import Rational, Symbol
 
 from derive.algebra.expressions import column
-from derive.figures import arc, arrow, axis_of_rotation, drawing, length, outline, point
+from derive.figures import arc, arrow, axis_of_rotation, drawing, length_mark, outline, point_mark
 from derive.figures.annotations import AngleMark, Turn
 from derive.figures.marks import Drawing
 from derive.figures.pieces import Bullet, Tag
@@ -61,8 +61,8 @@ def test_a_vector_that_vanishes_is_not_drawn() -> None:
 
 
 def test_a_length_of_zero_has_no_dimension_line() -> None:
-    nothing = length(RIGHT, RIGHT, a, UP)
-    assert strokes(pieces_of(plane(point(column(0, 0, 0)), point(RIGHT), nothing)), "measure") == []
+    nothing = length_mark(RIGHT, RIGHT, a, UP)
+    assert strokes(pieces_of(plane(point_mark(column(0, 0, 0)), point_mark(RIGHT), nothing)), "measure") == []
     assert len(strokes(pieces_of(SLAB), "measure")) == 2
 
 
@@ -85,12 +85,12 @@ def test_a_negative_rate_turns_the_other_way() -> None:
 
 
 def test_a_mark_without_a_name_has_no_label() -> None:
-    found = plane(point(column(0, 0, 0)), point(RIGHT, Symbol("A")))
+    found = plane(point_mark(column(0, 0, 0)), point_mark(RIGHT, Symbol("A")))
     assert [piece.label for piece in pieces_of(found) if isinstance(piece, Tag)] == [Symbol("A")]
 
 
 def test_an_angle_needs_two_directions() -> None:
     flat = arc(UP, column(0, 0, 0), theta)
     assert isinstance(flat, AngleMark)
-    assert strokes(pieces_of(plane(point(RIGHT), point(UP), flat)), "angle") == []
+    assert strokes(pieces_of(plane(point_mark(RIGHT), point_mark(UP), flat)), "angle") == []
     assert NUMBERS[a] == 1

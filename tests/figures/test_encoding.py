@@ -7,7 +7,7 @@ import json
 import pytest
 
 from derive.algebra.expressions import column
-from derive.figures import drawing, outline, plot, point, slab_on_cylinder
+from derive.figures import drawing, outline, plot, point_mark, slab_on_cylinder
 from derive.figures.annotations import PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Drawing
@@ -18,7 +18,7 @@ from tests.mechanics.block import known_block
 def test_drawings_go_to_json_and_back_unchanged() -> None:
     scenes = [
         vectors_of_block(),
-        drawing("cone", outline(CONE), point(column(0, 0, h / 4), "C")),
+        drawing("cone", outline(CONE), point_mark(column(0, 0, h / 4), "C")),
         drawing("top", leaning(precession=theta, spin=theta, weight=M)),
         drawing("slab", slab_on_cylinder(R, a, theta), view="plane"),
         plot("torque", known_block()["magnitude"], a, (1, 2), of="length"),
@@ -27,7 +27,7 @@ def test_drawings_go_to_json_and_back_unchanged() -> None:
 
 
 def test_data_are_plain_json_and_every_mark_says_what_it_is() -> None:
-    (data,) = drawings_to_data([drawing("one", point(column(0, 0, h / 4), "C"))])
+    (data,) = drawings_to_data([drawing("one", point_mark(column(0, 0, h / 4), "C"))])
     assert (data["is"], data["key"], [mark["is"] for mark in data["marks"]]) == ("Drawing", "one", ["PointMark"])
     assert json.loads(json.dumps(data)) == data
 

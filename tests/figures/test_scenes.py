@@ -6,7 +6,7 @@ import pytest
 
 from derive.algebra.expressions import column
 from derive.errors import Rejected
-from derive.figures import arc, arrow, drawing, outline, plot, point
+from derive.figures import arc, arrow, drawing, outline, plot, point_mark
 from derive.figures.annotations import AngleMark, Arrow
 from derive.mechanics import Cuboid
 from derive.steps.record import recorded
@@ -32,37 +32,37 @@ def test_a_drawing_rests_on_what_is_derived_and_not_on_what_is_given() -> None:
 
 def test_a_derived_place_brings_its_key_along() -> None:
     block = Cuboid((a, 2 * a, 3 * a), M)
-    assert point(block.centre).keys == ("centre_of_mass",)
-    assert point(block.middle).keys == ()
+    assert point_mark(block.centre).keys == ("centre_of_mass",)
+    assert point_mark(block.middle).keys == ()
 
 
 def test_drawings_are_recorded_in_their_order() -> None:
     with recorded() as run:
-        drawing("b", point(column(0, 0, 0)))
-        drawing("a", point(column(0, 0, 0)))
+        drawing("b", point_mark(column(0, 0, 0)))
+        drawing("a", point_mark(column(0, 0, 0)))
     assert [found.key for found in run.drawings] == ["b", "a"]
 
 
 def test_a_name_stands_for_one_drawing() -> None:
     with recorded():
-        drawing("one", point(column(0, 0, 0)))
+        drawing("one", point_mark(column(0, 0, 0)))
         with pytest.raises(Rejected, match="both called `one`"):
-            drawing("one", point(column(1, 0, 0)))
+            drawing("one", point_mark(column(1, 0, 0)))
 
 
 @pytest.mark.parametrize("name", ["", "A b", "../up", "x" * 40])
 def test_a_name_that_could_not_be_a_file_is_refused(name: str) -> None:
     with pytest.raises(Rejected, match="cannot name a drawing"):
-        drawing(name, point(column(0, 0, 0)))
+        drawing(name, point_mark(column(0, 0, 0)))
 
 
 def test_what_is_no_vector_is_refused() -> None:
     with pytest.raises(Rejected, match="needs a vector or a place here, but `kinetic_energy` is none"):
         arrow(known_block()["kinetic_energy"])
     with pytest.raises(Rejected, match="but it is a int"):
-        point(3)
+        point_mark(3)
     with pytest.raises(Rejected, match="no view"):
-        drawing("one", point(column(0, 0, 0)), view="side")
+        drawing("one", point_mark(column(0, 0, 0)), view="side")
     with pytest.raises(Rejected, match="no outline of a Symbol"):
         outline(a)
 

@@ -7,7 +7,7 @@ the order in which they are declared (times what the numbers of that kind are li
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, cycle
 from math import cos, hypot, isfinite, pi, radians, sin
 from typing import Any
 
@@ -16,10 +16,12 @@ from sympy.core.function import AppliedUndef
 
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected
+from derive.figures.extrema import values_along
 from derive.figures.marks import PLANE, Drawing
 from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
+SHARES = (0.8, 0.6, 1.0, 0.7)  # what lengths are drawn with that are coordinates, in terms of those that are given
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
@@ -41,6 +43,18 @@ def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, An
     return found
 
 
+def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical: float) -> dict[Symbol, float]:
+    """The letters' numbers, and one for each coordinate that has none: as the drawing says, or by its kind."""
+    found = dict(lengths)
+    free = [(q, kind) for q, kind in drawing.coordinates if q not in found]
+    for (q, kind), share in zip(free, cycle(SHARES), strict=False):
+        found[q] = ANGLE if kind == "angle" else share * typical
+    for letter, expr in drawing.values:
+        if letter not in lengths:
+            found[letter] = Numbers(found).of(expr)
+    return found
+
+
 class Numbers:
     """The values of expressions, by the numbers of their letters; a letter of which nothing is known is an angle."""
 
@@ -51,16 +65,29 @@ class Numbers:
         if isinstance(expr, float):
             return expr
         value = explicit(expr)
-        letters = {*value.free_symbols, *value.atoms(AppliedUndef)} - {Symbol("t"), Symbol("t", real=True)}
-        put_in = {letter: Float(self._values.get(_name(letter), ANGLE)) for letter in letters}
-        number = value.xreplace(put_in).evalf()
+        number = self._put_in(value).evalf()
         if not number.is_real or not isfinite(float(number)):
             raise Rejected(Complaint("drawing", f"a drawing needs the value of {value}, which is not a real number"))
         return float(number)
 
     def vector(self, column: Any) -> Vector:
-        x, y, z = (self.of(entry) for entry in explicit(column))
-        return x, y, z
+        """The place or the direction; what has two components is in the plane of the drawing."""
+        x, y, *rest = (self.of(entry) for entry in explicit(column))
+        return x, y, rest[0] if rest else 0.0
+
+    def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]:
+        """The places that a formula runs through while one of its letters goes from one end to the other."""
+        lower, upper = (self.of(end) for end in ends)
+        curves = [
+            [y for _, y in values_along(self._put_in(entry, letter), letter, lower, upper, steps)]
+            for entry in explicit(column)
+        ]
+        return [(x, y, rest[0] if rest else 0.0) for x, y, *rest in zip(*curves, strict=True)]
+
+    def _put_in(self, value: Expr, free: Any = None) -> Expr:
+        letters = {*value.free_symbols, *value.atoms(AppliedUndef)} - {free}
+        put_in = {letter: Float(self._values.get(_name(letter), ANGLE)) for letter in letters}
+        return value.xreplace(put_in)
 
 
 def _name(letter: Expr) -> str:

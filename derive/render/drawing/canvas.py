@@ -48,6 +48,13 @@ class Pen:
 PENS = {
     "edge": Pen(LINE, 0.7),
     "rod": Pen(LINE, 2.4),
+    "bar": Pen(LINE, 1.3),
+    "string": Pen(LINE, 0.6),
+    "spring": Pen(LINE, 0.75),
+    "ground": Pen(LINE, 0.9),
+    "hatch": Pen(QUIET, 0.45),
+    "trace": Pen(QUIET, 0.55, (4, 2.5)),
+    "wire": Pen(QUIET, 0.9),
     "hidden": Pen(QUIET, 0.5, (3, 2)),
     "construction": Pen(QUIET, 0.5, (7, 2, 1, 2)),
     "thin": Pen(QUIET, 0.4),
@@ -58,6 +65,7 @@ PENS = {
     "angle": Pen(INK, 0.7),
     "turn": Pen(INK, 0.8, head=5.0),
 }
+FILLS = {"blank": BLANK, "body": "#DFE5EC", "line": LINE, "ink": INK}
 SETTINGS: Any = {
     "mathtext.fontset": "cm",
     "svg.hashsalt": "derive",
@@ -187,12 +195,12 @@ def _patches(pieces: Sequence[Piece], labels: Sequence[Placed], letters: _Letter
         match piece:
             case Patch():
                 path = Path([*piece.spots, piece.spots[0]], closed=True)
-                found.append(PathPatch(path, facecolor=BLANK, linewidth=0))
+                found.append(PathPatch(path, facecolor=FILLS[piece.fill], linewidth=0))
             case Stroke():
                 found += _stroke(piece)
             case Bullet():
-                circle = Path.unit_circle().transformed(Affine2D().scale(1.6).translate(*piece.spot))
-                found.append(PathPatch(circle, facecolor=LINE, linewidth=0))
+                circle = Path.unit_circle().transformed(Affine2D().scale(piece.size).translate(*piece.spot))
+                found.append(PathPatch(circle, facecolor=FILLS[piece.fill], linewidth=0))
     return found + [patch for label in labels for patch in letters.patches(label)]
 
 

@@ -1,7 +1,8 @@
 """Where the labels of a drawing stand: beside what they name, and on nothing else.
 
 Each label tries a ring of places round its spot and takes the one that covers the least; between equals, the one
-nearest to the side that its mark asked for. The first label chooses first.
+nearest to the side that its mark asked for. Labels on what they name choose first, those of lines last, as they
+can slide.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float
     """Every label of the pieces with its place; `measured` gives a label's width and height in points."""
     drawn = [dot for piece in pieces for dot in _dots(piece)]
     found: list[Placed] = []
-    for tag in (piece for piece in pieces if isinstance(piece, Tag)):
+    tags = [piece for piece in pieces if isinstance(piece, Tag)]
+    for tag in sorted(tags, key=lambda each: (not each.on, each.way is not None)):
         width, height = measured(tag.label)
         boxes = [(cost, box) for cost, box in _tried(tag, width, height)]
         best = min(boxes, key=lambda entry: entry[0] + _covered(entry[1], drawn, [p.extent for p in found]))[1]
@@ -44,6 +46,12 @@ def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
     """Boxes round the spot, each with what it costs to stand there rather than where the mark asked."""
+    if tag.on:
+        yield from _tried_on(tag, width, height)
+        return
+    if tag.way is not None:
+        yield from _tried_along(tag, tag.way, width, height)
+        return
     base = (tag.towards[0], tag.towards[1])
     for ring, gap in enumerate((tag.gap, tag.gap + 4, tag.gap + 9, tag.gap + 15)):
         for turn in range(-8, 9):
@@ -52,9 +60,32 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
             y = base[0] * sin(angle) + base[1] * cos(angle)
             # The box touches a circle about the spot: its middle lies beyond by its half size in that direction.
             away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
-            middle = tag.spot[0] + away * x, tag.spot[1] + away * y
-            box = (middle[0] - width / 2, middle[1] - height / 2, middle[0] + width / 2, middle[1] + height / 2)
-            yield abs(turn) * 0.8 + ring * 2.5, box
+            yield abs(turn) * 0.8 + ring * 2.5, _box(_moved(tag.spot, (x, y), away), width, height)
+
+
+def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
+    """In the middle of what it names, or a little to either side."""
+    for share in (0.0, -0.5, 0.5, -1.0, 1.0):
+        yield 4.0 * abs(share), _box(_moved(tag.spot, tag.towards, share), width, height)
+
+
+def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:
+    """Along a line on both of its sides, so that no corner of the box touches it."""
+    (x, y), far = tag.towards, hypot(*tag.towards) or 1.0
+    normal = x / far, y / far
+    away = tag.gap + (abs(normal[0]) * width + abs(normal[1]) * height) / 2
+    for share in (0.0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6):
+        beside = _moved(tag.spot, way, share)
+        for side in (1.0, -1.0):
+            yield 6.0 * abs(share) + (side < 0) * 2.0, _box(_moved(beside, normal, side * away), width, height)
+
+
+def _moved(spot: Spot, way: Spot, share: float) -> Spot:
+    return spot[0] + share * way[0], spot[1] + share * way[1]
+
+
+def _box(middle: Spot, width: float, height: float) -> Extent:
+    return middle[0] - width / 2, middle[1] - height / 2, middle[0] + width / 2, middle[1] + height / 2
 
 
 def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> float:
@@ -68,7 +99,9 @@ def _dots(piece: Piece) -> list[Spot]:
     """A stroke as spots a point apart; a head or a bullet as a small cluster."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
-        return [(x + i, y + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        reach = max(1, round(piece.size - 0.6))
+        around = range(-reach, reach + 1)
+        return [(x + i, y + j) for i in around for j in around if max(abs(i), abs(j)) == reach or reach == 1]
     if not isinstance(piece, Stroke):
         return []
     found = []

@@ -34,9 +34,11 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
 
 
 def _pieces(drawing: Drawing, paper: OnPaper) -> list[Piece]:
-    surfaces = [mark for mark in drawing.marks if isinstance(mark, Surface)]
-    if drawing.view == SPACE:
-        surfaces.sort(key=lambda mark: dot(mean(mark.places(paper.numbers)), paper.stance.eye))
-    ordered: list[Mark] = [*surfaces, *(mark for mark in drawing.marks if not isinstance(mark, Surface))]
+    def before(mark: Mark) -> tuple[int, float]:
+        if not isinstance(mark, Surface) or drawing.view != SPACE:
+            return mark.layer, 0.0
+        return mark.layer, dot(mean(mark.places(paper.numbers)), paper.stance.eye)
+
+    ordered = sorted(drawing.marks, key=before)
     pieces = [piece for mark in ordered for piece in mark.pieces(paper)]
     return [piece for piece in pieces if not (isinstance(piece, Tag) and piece.label is None)]

@@ -1,0 +1,216 @@
+"""The words for the parts of a machine and for what stands round them, at the places that its system has.
+
+    drawing("pendulum", pivot(origin), rod(origin, bob, l), angle_mark(origin, "down", bob, theta), particle(bob, m))
+
+Places are those that `point` and `place` give, in the plane or all in space; what has no size is drawn as large as the
+eye needs. The order of the marks does not matter: particles are drawn over rods, rods over walls.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Integer, Symbol, pi
+
+from derive.algebra.expressions import scalar
+from derive.errors import Complaint, Rejected
+from derive.figures.annotations import ASIDE
+from derive.figures.marks import Mark
+from derive.figures.parts import (
+    BLOCK, CART, CASTER, BarMark, BlockMark, CartMark, ParticleMark, RopeMark, SpringMark, WedgeMark, WheelMark,
+)  # fmt: skip
+from derive.figures.positions import SIDES, name_of, towards, vector_of, vectors_of
+from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GravityMark, GroundMark, WayMark
+from derive.mechanics.systems.coordinates import Coordinate
+
+__all__ = [
+    "angle_mark",
+    "block",
+    "cart",
+    "ceiling",
+    "fixed_end",
+    "floor",
+    "gravity_mark",
+    "length_mark",
+    "particle",
+    "pivot",
+    "rod",
+    "rope",
+    "spring_mark",
+    "wall",
+    "way",
+    "wedge",
+    "wheel",
+]
+
+CLEAR = 7.0  # points between a block and a dimension line
+UNDER = {BlockMark: BLOCK[1] / 2, CartMark: CART[1] / 2 + 2 * CASTER}  # points from the place to the floor below
+
+# --- parts -----------------------------------------------------------------------------------------------------------
+
+
+def particle(at: Any, label: Any = None) -> Mark:
+    """A particle, a bob or a bead.
+
+    at      place
+    label   its mass
+    """
+    place, keys = vector_of(at)
+    return ParticleMark(place, label=name_of(at, label), keys=keys)
+
+
+def rod(start: Any, end: Any, label: Any = None) -> Mark:
+    """A light rod, or another straight thing, from one place to another; the label is its length."""
+    (a, b), keys = vectors_of(start, end)
+    return BarMark(a, b, label=name_of(None, label), keys=keys)
+
+
+def spring_mark(start: Any, end: Any, label: Any = None) -> Mark:
+    """A spring from one place to another; the label is its constant."""
+    (a, b), keys = vectors_of(start, end)
+    return SpringMark(a, b, label=name_of(None, label), keys=keys)
+
+
+def rope(*along: Any, label: Any = None) -> Mark:
+    """A taut string through places and round wheels, on the side to which it bends: `rope(first, pulley, second)`."""
+    if len(along) < 2:
+        raise Rejected(Complaint("wrong-argument", "a rope goes through two places or more"))
+    wheels = [each if isinstance(each, WheelMark) else None for each in along]
+    things = [wheel.centre if wheel else each for wheel, each in zip(wheels, along, strict=True)]
+    places, keys = vectors_of(*things)
+    radii = tuple(wheel.radius if wheel else Integer(0) for wheel in wheels)
+    return RopeMark(tuple(places), radii, label=name_of(None, label), keys=keys)
+
+
+def wheel(centre: Any, radius: Any = None, label: Any = None, pointer: Any = None) -> WheelMark:
+    """A disc seen along its axis: a pulley, or what rolls.
+
+    centre    place
+    radius    length; without one it is a small pulley
+    pointer   a direction that turns with it: a vector, drawn as a line from its centre to its rim
+    """
+    place, keys = vector_of(centre)
+    ahead = vector_of(pointer)[0] if pointer is not None else None
+    return WheelMark(place, radius, ahead, label=name_of(None, label), keys=keys)
+
+
+def block(
+    at: Any, label: Any = None, along: Any = "right", width: Any = None, height: Any = None, stands: bool = False
+) -> Mark:
+    """A block that slides along a direction.
+
+    at              its middle, or that of its base if it `stands` there
+    label           its mass, written on it if it is short
+    along           vector, or "right", "up": where its base points
+    width, height   lengths; without them it is as large as the eye needs
+    """
+    place, keys = vector_of(at)
+    return BlockMark(place, _way(along, place.rows), width, height, stands, label=name_of(None, label), keys=keys)
+
+
+def cart(at: Any, label: Any = None, along: Any = "right", width: Any = None, height: Any = None) -> Mark:
+    """A cart on two wheels; its place is the middle of its body."""
+    place, keys = vector_of(at)
+    return CartMark(place, _way(along, place.rows), width, height, label=name_of(None, label), keys=keys)
+
+
+def wedge(*corners: Any, label: Any = None) -> Mark:
+    """A wedge, or another solid seen from its side, by its corners in order."""
+    if len(corners) < 3:
+        raise Rejected(Complaint("wrong-argument", "a wedge has three corners or more"))
+    places, keys = vectors_of(*corners)
+    return WedgeMark(tuple(places), label=name_of(None, label), keys=keys)
+
+
+# --- what holds them -------------------------------------------------------------------------------------------------
+
+
+def floor(start: Any, end: Any, under: Any = None) -> Mark:
+    """Hatched ground from one place to another, its solid side below.
+
+    under   a block or a cart that stands on it at these heights, so that the line is drawn under it
+    """
+    return _ground(start, end, "down", under)
+
+
+def ceiling(start: Any, end: Any) -> Mark:
+    """A hatched line from one place to another, its solid side above."""
+    return _ground(start, end, "up", None)
+
+
+def wall(start: Any, end: Any, solid: str = "left") -> Mark:
+    """A hatched line from one place to another; `solid` says on which side, "left" or "right"."""
+    return _ground(start, end, solid, None)
+
+
+def _ground(start: Any, end: Any, side: str, under: Any) -> Mark:
+    (a, b), keys = vectors_of(start, end)
+    off = UNDER.get(type(under), 0.0) if getattr(under, "height", None) is None else 0.0
+    return GroundMark(a, b, towards(side, a.rows), off, keys=keys)
+
+
+def pivot(at: Any, label: Any = None, away: Any = "down") -> Mark:
+    """A joint that is fixed; what hangs on it goes away from it downwards, or in another direction."""
+    place, keys = vector_of(at)
+    return FixedEnd(place, _way(away, place.rows), True, label=name_of(None, label), keys=keys)
+
+
+def fixed_end(at: Any, other: Any) -> Mark:
+    """A piece of wall that holds the end of a spring or a string, across the way to its other end."""
+    (a, b), keys = vectors_of(at, other)
+    return FixedEnd(a, b - a, keys=keys)
+
+
+# --- what is told of them --------------------------------------------------------------------------------------------
+
+
+def angle_mark(vertex: Any, start: Any, end: Any, label: Any = None) -> Mark:
+    """The arc between two ways from a vertex.
+
+    vertex   place
+    start    place, or "down", "up", "right" or "left", for a direction that is then drawn as a dashed line
+    end      place
+    label    its name, or the quantity that the angle is
+    """
+    dashed = isinstance(start, str)
+    (at, b), keys = vectors_of(vertex, end)
+    a = towards(start, at.rows) if dashed else vectors_of(vertex, start)[0][1] - at
+    return AngleBetween(at, a, b - at, dashed, label=name_of(None, label), keys=keys)
+
+
+def length_mark(start: Any, end: Any, label: Any, aside: Any = None, past: Any = None) -> Mark:
+    """A dimension line from one place to another.
+
+    aside   vector, or "up", "left" and so on: the side on which it stands; without one away from the middle
+    past    a block or a cart at one of its ends, which it leaves clear
+    """
+    (a, b), keys = vectors_of(start, end)
+    side = None if aside is None else _way(aside, a.rows)
+    off = CLEAR + max(past.usual) / 2 if isinstance(past, BlockMark) else ASIDE
+    return DistanceMark(a, b, side, off, label=name_of(None, label), keys=keys)
+
+
+def way(
+    place: Any, letter: Any, between: tuple[Any, Any] = (0, 2 * pi), label: Any = None, solid: bool = False
+) -> Mark:
+    """The curve of a place while one of its letters goes from one value to another, all others being fixed.
+
+    letter   a coordinate, or another letter of the place
+    solid    whether it is a thing, a hoop or a wire, and not only the way
+    """
+    formula, keys = vector_of(place)
+    symbol = letter.symbol if isinstance(letter, Coordinate) else letter
+    if not isinstance(symbol, Symbol) or symbol not in formula.free_symbols:
+        raise Rejected(Complaint("wrong-argument", f"a way needs a letter of its place, but {symbol} is none"))
+    lower, upper = (Integer(0) + end for end in between)
+    pen = "wire" if solid else "trace"
+    return WayMark(formula, symbol, lower, upper, pen, label=name_of(None, label), keys=keys)
+
+
+def gravity_mark(label: Any = None, in_space: bool = False) -> Mark:
+    """An arrow downwards beside the parts: the acceleration of gravity."""
+    return GravityMark(towards("down", 3 if in_space else 2), label=name_of(None, label or scalar("g")))
+
+
+def _way(thing: Any, rows: int) -> Any:
+    return towards(thing, rows) if isinstance(thing, str) and thing in SIDES else vector_of(thing)[0]

@@ -1,0 +1,318 @@
+"""The parts of machines: particles, rods, ropes, springs, blocks, carts, wheels and wedges.
+
+What has no size in the problem has one in points on paper, so that it is seen as well on a large drawing as on a small
+one: particles, blocks and wheels unless they are given lengths, the width of a spring.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import acos, atan2, cos, hypot, pi, sin, sqrt, tan
+from typing import Any, ClassVar
+
+from sympy import Symbol
+
+from derive.figures.marks import InWords, Position, Surface
+from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
+from derive.figures.space import Spot, Vector, direction, midway, plus
+
+BOB = 4.3  # points: the radius of a particle
+WHEEL = 9.0  # the radius of a pulley
+BLOCK = (24.0, 16.0)  # the width and the height of a block
+CART = (40.0, 13.0)
+CASTER = 3.6  # the radius of a cart's wheels
+COIL = 4.6  # half the width of a spring
+PITCH = 5.0  # between two of its turns
+LEAD = 7.0  # its straight ends
+SHORT = 3  # letters of a name that is written on a block
+
+
+@dataclass(frozen=True)
+class _Piecewise(Surface):
+    """What is drawn from place to place, and told by its name."""
+
+    @property
+    def told_as(self) -> str:
+        return type(self).__name__.removesuffix("Mark").lower()
+
+    def in_words(self) -> InWords:
+        return self.told_as, {"label": self.label}
+
+
+def beside(label: Any, start: Spot, end: Spot, gap: float = 3.0) -> Tag:
+    """The name of a line: best above it, since what hangs on it and its angle with the vertical are below."""
+    x, y = direction(start, end)
+    normal = (-y, x) if x > 1e-9 or abs(x) <= 1e-9 and y < 0 else (y, -x)
+    return Tag(label, midway(start, end), normal, gap, ((end[0] - start[0]) / 2, (end[1] - start[1]) / 2))
+
+
+@dataclass(frozen=True)
+class _Stretched(_Piecewise):
+    """What goes from one place to another."""
+
+    start: Position
+    end: Position
+    layer: ClassVar[int] = 1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.start), numbers.vector(self.end)]
+
+    def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
+        return beside(self.label, spots[0], spots[1], gap)
+
+
+@dataclass(frozen=True)
+class BarMark(_Stretched):
+    """A rod whose mass does not count; it is seen on what it is fixed to."""
+
+    layer: ClassVar[int] = 3
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*self.places(paper.numbers))
+        return [Stroke(spots, "bar"), self._beside(spots, 3.0)]
+
+
+@dataclass(frozen=True)
+class ConnectionMark(_Stretched):
+    """A dashed line between two places: their distance, which nothing but its name shows."""
+
+    layer: ClassVar[int] = 0
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*self.places(paper.numbers))
+        return [Stroke(spots, "trace"), self._beside(spots, 3.0)]
+
+
+@dataclass(frozen=True)
+class SpringMark(_Stretched):
+    """A spring: a zigzag with straight ends."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        (x, y), (u, v) = spots = paper.spots(*self.places(paper.numbers))
+        far = hypot(u - x, v - y)
+        lead = min(LEAD, 0.2 * far)
+        turns = max(5, min(14, round((far - 2 * lead) / PITCH)))
+        along = direction(*spots)
+        aside = -along[1], along[0]
+
+        def spot(way: float, off: float) -> Spot:
+            return x + along[0] * way + aside[0] * off, y + along[1] * way + aside[1] * off
+
+        step = (far - 2 * lead) / turns
+        peaks = [spot(lead + (i + 0.5) * step, COIL if i % 2 else -COIL) for i in range(turns)]
+        line = ((x, y), spot(lead, 0), *peaks, spot(far - lead, 0), (u, v))
+        return [Stroke(line, "spring"), self._beside(spots, COIL + 3.0)]
+
+
+@dataclass(frozen=True)
+class RopeMark(_Piecewise):
+    """A taut string from place to place; it goes round what has a radius, on the side to which it bends there.
+
+    radii   of the wheels at these places: zero for a mere place, nothing for a wheel of the usual size
+    """
+
+    along: tuple[Position, ...]
+    radii: tuple[Any, ...]
+    layer: ClassVar[int] = 1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(place) for place in self.along]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*self.places(paper.numbers))
+        radii = [WHEEL if r is None else paper.numbers.of(r) * paper.scale for r in self.radii]
+        turns = [0.0, *(_bend(*three) for three in zip(spots, spots[1:], spots[2:], strict=False)), 0.0]
+        circles = [(spot, r * turn) for spot, r, turn in zip(spots, radii, turns, strict=True)]
+        lines = [_tangent(*a, *b) for a, b in pairwise(circles)]
+        path = [lines[0][0]]
+        for (middle, radius), before, after in zip(circles[1:], lines, [*lines[1:], None], strict=True):
+            path += [before[1]] if after is None else _round(middle, radius, before[1], after[0])
+        longest = max(lines, key=lambda line: hypot(line[1][0] - line[0][0], line[1][1] - line[0][1]))
+        return [Stroke(tuple(path), "string"), beside(self.label, *longest)]
+
+
+def _bend(a: Spot, b: Spot, c: Spot) -> float:
+    """1 where a way from a to c bends to the left at b, -1 where it bends to the right, or not at all."""
+    return 1.0 if (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) > 0 else -1.0
+
+
+def _tangent(a: Spot, p: float, b: Spot, q: float) -> tuple[Spot, Spot]:
+    """The line that leaves one circle and meets the next; a circle of positive radius has its middle to the left."""
+    x, y = b[0] - a[0], b[1] - a[1]
+    far = hypot(x, y)
+    if far <= abs(q - p) or far == 0:
+        return a, b
+    # The unit normal n to the left of the line has n.(b - a) = q - p.
+    share = (q - p) / far
+    rest = sqrt(1 - share**2)
+    ex, ey = x / far, y / far
+    n = ex * share - ey * rest, ey * share + ex * rest
+    return (a[0] - n[0] * p, a[1] - n[1] * p), (b[0] - n[0] * q, b[1] - n[1] * q)
+
+
+def _round(middle: Spot, radius: float, start: Spot, end: Spot) -> list[Spot]:
+    """The spots of an arc, anticlockwise if the radius is positive."""
+    if abs(radius) < 1e-9:
+        return [start]
+    first, last = (atan2(spot[1] - middle[1], spot[0] - middle[0]) for spot in (start, end))
+    sense = 1.0 if radius > 0 else -1.0
+    way = (sense * (last - first)) % (2 * pi)
+    if way > 2 * pi - 1e-6:
+        way = 0.0
+    angles = [first + sense * way * i / 24 for i in range(25)]
+    return [(middle[0] + abs(radius) * cos(t), middle[1] + abs(radius) * sin(t)) for t in angles]
+
+
+@dataclass(frozen=True)
+class CornerRopeMark(_Piecewise):
+    """A taut string with a small pulley in its corner, so that both of its straight parts stay on their lines."""
+
+    start: Position
+    corner: Position
+    end: Position
+    layer: ClassVar[int] = 1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(place) for place in (self.start, self.corner, self.end)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        a, corner, b = paper.spots(*self.places(paper.numbers))
+        back, ahead = direction(corner, a), direction(corner, b)
+        half = acos(max(-1.0, min(1.0, back[0] * ahead[0] + back[1] * ahead[1]))) / 2
+        if not 0.05 < half < pi / 2 - 0.05:
+            return [Stroke((a, corner, b), "string")]
+        inwards = direction((0.0, 0.0), (back[0] + ahead[0], back[1] + ahead[1]))
+        hub = corner[0] + inwards[0] * WHEEL / sin(half), corner[1] + inwards[1] * WHEEL / sin(half)
+        ends = [(corner[0] + e[0] * WHEEL / tan(half), corner[1] + e[1] * WHEEL / tan(half)) for e in (back, ahead)]
+        arc = _round(hub, WHEEL * _bend(a, corner, b), ends[0], ends[1])
+        return [Stroke((a, *arc, b), "string"), *_disc(hub, WHEEL, "body"), Bullet(hub)]
+
+    @property
+    def told_as(self) -> str:
+        return "corner_rope"
+
+
+@dataclass(frozen=True)
+class ParticleMark(_Piecewise):
+    """A particle, a bob or a bead: a small disc."""
+
+    at: Position
+    layer: ClassVar[int] = 4
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(*self.places(paper.numbers))
+        return [Bullet(spot, BOB, "ink"), Tag(self.label, spot, (0.9, -0.3), BOB + 2.5)]
+
+
+@dataclass(frozen=True)
+class BlockMark(_Piecewise):
+    """A block on a line along which it moves; its middle is at the place, or that of its base if it stands there.
+
+    width, height   lengths, or nothing for a block of the usual size
+    """
+
+    at: Position
+    along: Position
+    width: Any = None
+    height: Any = None
+    stands: bool = False
+    layer: ClassVar[int] = 2
+    usual: ClassVar[tuple[float, float]] = BLOCK
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        middle, corners = self._framed(paper, *self._size(paper))
+        return [Patch(corners, "body"), Stroke((*corners, corners[0]), "edge"), self._named(middle, corners)]
+
+    def _size(self, paper: Paper) -> tuple[float, float]:
+        given = zip((self.width, self.height), self.usual, strict=True)
+        wide, high = (usual if size is None else paper.numbers.of(size) * paper.scale for size, usual in given)
+        return wide, high
+
+    def _framed(self, paper: Paper, wide: float, high: float) -> tuple[Spot, tuple[Spot, ...]]:
+        """Its middle and its corners from the lower left one round to the upper left one."""
+        at, ahead = paper.numbers.vector(self.at), paper.numbers.vector(self.along)
+        spot = paper.spot(at)
+        e = direction(spot, paper.spot(plus(at, ahead)))
+        e = e if e[0] > 1e-9 or abs(e[0]) <= 1e-9 and e[1] > 0 else (-e[0], -e[1])
+        if self.stands:
+            spot = spot[0] - e[1] * high / 2, spot[1] + e[0] * high / 2
+        half = [(-wide / 2, -high / 2), (wide / 2, -high / 2), (wide / 2, high / 2), (-wide / 2, high / 2)]
+        return spot, tuple((spot[0] + e[0] * a - e[1] * b, spot[1] + e[1] * a + e[0] * b) for a, b in half)
+
+    def _named(self, middle: Spot, corners: tuple[Spot, ...]) -> Tag:
+        """On it, if the name is short, otherwise above it."""
+        if not isinstance(self.label, Symbol) or len(self.label.name.replace("_", "")) > SHORT:
+            return Tag(self.label, middle, (0.0, 1.0), self.usual[1] / 2 + 3.0)
+        (x, y), (u, v) = corners[:2]
+        return Tag(self.label, middle, ((u - x) * 0.3, (v - y) * 0.3), on=True)
+
+
+@dataclass(frozen=True)
+class CartMark(BlockMark):
+    """A cart; the place is the middle of its body, which stands on two wheels."""
+
+    usual: ClassVar[tuple[float, float]] = CART
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        wide, high = self._size(paper)
+        middle, corners = self._framed(paper, wide, high)
+        (x, y), (u, v) = corners[:2]
+        wheels: list[Piece] = []
+        down = direction(corners[3], corners[0])
+        for share in (0.22, 0.78):
+            hub = x + (u - x) * share + CASTER * down[0], y + (v - y) * share + CASTER * down[1]
+            wheels += [*_disc(hub, CASTER, "blank"), Bullet(hub, 0.9)]
+        return [Patch(corners, "body"), Stroke((*corners, corners[0]), "edge"), *wheels, self._named(middle, corners)]
+
+
+@dataclass(frozen=True)
+class WheelMark(_Piecewise):
+    """A disc seen along its axis: a pulley, or what rolls; `pointer` is a direction that turns with it."""
+
+    centre: Position
+    radius: Any = None
+    pointer: Position = None
+    layer: ClassVar[int] = 2
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        x, y, z = numbers.vector(self.centre)
+        radius = numbers.of(self.radius) if self.radius is not None else 0.0
+        return [(x - radius, y - radius, z), (x + radius, y + radius, z)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        hub = paper.spot(paper.numbers.vector(self.centre))
+        radius = WHEEL if self.radius is None else paper.numbers.of(self.radius) * paper.scale
+        pieces = _disc(hub, radius, "body")
+        if self.pointer is not None:
+            ahead = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.pointer)))
+            end = hub[0] + radius * ahead[0], hub[1] + radius * ahead[1]
+            pieces.append(Stroke((hub, end), "edge"))
+        return [*pieces, Bullet(hub), Tag(self.label, hub, (-0.6, 0.8))]
+
+
+def _disc(middle: Spot, radius: float, fill: str) -> list[Piece]:
+    angles = [2 * pi * i / 72 for i in range(73)]
+    spots = tuple((middle[0] + radius * cos(t), middle[1] + radius * sin(t)) for t in angles)
+    return [Patch(spots, fill), Stroke(spots, "edge")]
+
+
+@dataclass(frozen=True)
+class WedgeMark(_Piecewise):
+    """A wedge, or another solid seen from its side, by its corners."""
+
+    corners: tuple[Position, ...]
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(corner) for corner in self.corners]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*self.places(paper.numbers))
+        x, y = (sum(spot[k] for spot in spots) / len(spots) for k in (0, 1))
+        return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge"), Tag(self.label, (x, y), (0.0, 0.0), on=True)]

@@ -1,0 +1,77 @@
+"""What a script hands over to be drawn: places, directions and names, with the steps that they rest on.
+
+A place is a `Location` of `derive.mechanics`, a column, a point of a body or a derived quantity. One with two
+components is in the plane of the drawing, x to the right and y upwards.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import ImmutableDenseMatrix, MatrixBase
+
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import scalar
+from derive.errors import Complaint, Rejected, did_you_mean
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.systems.coordinates import Coordinate
+from derive.mechanics.systems.places import Location
+from derive.steps.step import Quantity
+
+SIDES = {"down": (0, -1), "up": (0, 1), "right": (1, 0), "left": (-1, 0)}
+
+
+def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
+    """The components of a vector or a place, and the keys behind it; anything else is refused."""
+    value, keys = value_and_keys(thing)
+    if not isinstance(value, MatrixBase) or value.shape not in {(2, 1), (3, 1)}:
+        got = f"`{thing.key}` is none" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
+        raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
+    return value, keys
+
+
+def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
+    """The components of each, all in a plane or all in space, and all keys behind them."""
+    found = [vector_of(thing) for thing in things]
+    if len({value.rows for value, _ in found}) > 1:
+        message = "some places of a drawing have two components, others three"
+        raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
+    return [value for value, _ in found], tuple(key for _, keys in found for key in keys)
+
+
+def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
+    """Of a quantity its value and, if it is derived, its key; of a point its place; of another thing itself."""
+    if isinstance(thing, Quantity):
+        return thing.value, (thing.key,) if _is_derived(thing) else ()
+    if isinstance(thing, Point):
+        return thing.position, ()
+    if isinstance(thing, Location):
+        return ImmutableDenseMatrix(thing.components), ()
+    return thing, ()
+
+
+def _is_derived(quantity: Quantity) -> bool:
+    """Whether there is more behind it than names that were given."""
+    own = any(evidence.grade is not Grade.DEFINITION for evidence in quantity.step.evidence)
+    return own or any(_is_derived(parent) for parent in quantity.parents)
+
+
+def name_of(thing: Any, label: Any) -> Any:
+    """What is written beside it: as asked, or the quantity's own name."""
+    if isinstance(label, Quantity):
+        return label.symbol
+    if isinstance(label, str):
+        return scalar(label)
+    if label is not None:
+        return label.symbol if isinstance(label, Coordinate) else label
+    return thing.symbol if isinstance(thing, Quantity) else None
+
+
+def towards(side: str, rows: int) -> Any:
+    """The unit vector to one side of the drawing, in a plane or in space: there `right` is along x."""
+    if side not in SIDES:
+        known = ", ".join(f'"{each}"' for each in SIDES)
+        help_line = did_you_mean(side, SIDES) or f"use {known}"
+        raise Rejected(Complaint("wrong-argument", f'a drawing has no side "{side}"', help=help_line))
+    across, up = SIDES[side]
+    return ImmutableDenseMatrix([across, up] if rows == 2 else [across, 0, up])

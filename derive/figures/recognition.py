@@ -1,0 +1,174 @@
+"""What the formulas of places say of a machine: which places keep their distance, which turn by an angle, and which
+move on a straight line.
+
+All of it is decided by algebra, after numbers have refuted most of what is not so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from sympy import Add, Expr, Float, Integer, Symbol, cos, expand, factor, sin, sqrt
+
+from derive.algebra.expressions import TIME
+from derive.algebra.normal_form import vanishes
+from derive.algebra.tidy import tidied
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+
+ZERO = Integer(0)
+SAMPLES = (0.37, 0.83)
+
+
+@dataclass(frozen=True)
+class Link:
+    """A way from a place to a particle whose length is constant, or a coordinate."""
+
+    start: Location
+    end: Location
+    length: Expr
+    is_constant: bool
+
+    @property
+    def way(self) -> Location:
+        return self.end - self.start
+
+
+@dataclass(frozen=True)
+class Track:
+    """A straight line along which a particle moves as one coordinate grows: `start` is where that is zero."""
+
+    start: Location
+    way: Location
+    by: Symbol
+
+    @property
+    def foot(self) -> Location:
+        """The place of the line that is nearest to the origin."""
+        along = sum((a * b for a, b in zip(self.start.components, self.way.components, strict=True)), ZERO)
+        square = sum((b * b for b in self.way.components), ZERO)
+        return Location(tuple(tidied(a - along / square * b) for a, b in _pairs(self.start, self.way)))
+
+    @property
+    def is_unit(self) -> bool:
+        return vanishes(Add(*(c**2 for c in self.way.components)) - 1)
+
+
+def _pairs(a: Location, b: Location) -> zip[tuple[Expr, Expr]]:
+    return zip(a.components, b.components, strict=True)
+
+
+def moving_in(system: System, *things: Expr) -> set[Symbol]:
+    """The coordinates in these expressions, and the time."""
+    known = {*system.coordinates, TIME}
+    return {letter for thing in things for letter in thing.free_symbols if letter in known}
+
+
+def is_fixed(system: System, place: Location) -> bool:
+    return not moving_in(system, *place.components)
+
+
+def same(a: Location, b: Location) -> bool:
+    return all(expand(x - y) == 0 for x, y in _pairs(a, b))
+
+
+# --- links -----------------------------------------------------------------------------------------------------------
+
+
+def link_to(system: System, index: int) -> Link | None:
+    """What holds a particle by a rod, or is the origin of its polar coordinates: another particle or a fixed place first."""
+    end = system.particles[index].at
+    known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
+    found = [start for q in moving_in(system, *end.components) if (start := _without(end, q)) is not None]
+    starts = sorted(found, key=lambda start: _rank(system, start, known))
+    for start in starts:
+        link = _link(system, start, end)
+        if link is not None and _rank(system, start, known)[0] < 3:
+            return link
+    return None
+
+
+def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
+    """How likely something is there: a known place, one at rest, one that only slides or is carried."""
+    order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
+    if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
+        order = 3
+    return order, str(start.components)
+
+
+def _without(place: Location, q: Symbol) -> Location | None:
+    """The terms of a place in which a letter does not occur, if it occurs in a sine or a cosine of every other."""
+    parts = [expand(c).as_independent(q, as_Add=True) for c in place.components]
+    if any(rest != 0 and not rest.has(sin, cos) for _, rest in parts):
+        return None
+    return Location(tuple(fixed for fixed, _ in parts))
+
+
+def _link(system: System, start: Location, end: Location) -> Link | None:
+    """The way between two places, if its length is constant or a coordinate."""
+    square = Add(*(c**2 for c in (end - start).components))
+    if square == 0:
+        return None
+    lengths = [q for q, kind in system.coordinates.items() if kind == "length" and q in square.free_symbols]
+    if _varies(system, square):
+        if len(lengths) == 1 and not _varies(system, square / lengths[0] ** 2) and vanishes(square - lengths[0] ** 2):
+            return Link(start, end, lengths[0], False)
+        return None
+    length = sqrt(factor(tidied(square)))
+    return None if moving_in(system, length) else Link(start, end, length, True)
+
+
+def _varies(system: System, value: Expr) -> bool:
+    """Whether it does, as two samples show; it may still vary if they do not."""
+    moving = sorted(moving_in(system, value), key=str)
+    fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(sorted(value.free_symbols - {*moving}, key=str))}
+    at = [
+        float(value.xreplace({**fixed, **{q: Float(x + 0.29 * i) for i, q in enumerate(moving)}}).evalf())
+        for x in SAMPLES
+    ]
+    return abs(at[0] - at[1]) > 1e-9 * (1 + abs(at[0]))
+
+
+# --- angles ----------------------------------------------------------------------------------------------------------
+
+
+def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
+    """The angle by which a link turns, and the fixed direction in which it is zero."""
+    e = tuple(tidied(c / link.length) for c in link.way.components)
+    for angle in _angles(e):
+        zero = tuple(c.xreplace({sin(angle): ZERO, cos(angle): Integer(1)}) for c in e)
+        if moving_in(system, *zero) or not any(zero):
+            continue
+        if vanishes(Add(*(a * b for a, b in zip(e, zero, strict=True))) - cos(angle)):
+            return angle, Location(zero)
+    return None
+
+
+def _angles(direction: Iterable[Expr]) -> list[Expr]:
+    """What sines and cosines are taken of, those with a coordinate alone first."""
+    found = {function.args[0] for c in direction for function in c.atoms(sin, cos)}
+    return sorted(found, key=lambda angle: (not angle.is_Symbol, str(angle)))
+
+
+# --- straight lines --------------------------------------------------------------------------------------------------
+
+
+def track_of(system: System, index: int) -> Track | None:
+    """The line along which a particle moves by one length, the last that was named, in a fixed direction."""
+    place = system.particles[index].at
+    for q in reversed(list(system.coordinates)):
+        if system.coordinates[q] != "length":
+            continue
+        way = Location(tuple(c.diff(q) for c in place.components))
+        if any(way.components) and is_fixed(system, way):
+            return Track(Location(tuple(c.xreplace({q: ZERO}) for c in place.components)), way, q)
+    return None
+
+
+def carrier_of(system: System, index: int, track: Track) -> int | None:
+    """The particle with which the line itself moves, if there is one."""
+    for j, other in enumerate(system.particles):
+        if j != index and not is_fixed(system, other.at) and is_fixed(system, track.start - other.at):
+            return j
+    return None

@@ -1,0 +1,246 @@
+"""What stands round the parts of a machine: ground, fixed ends, angles, lengths, gravity, the way of a place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, hypot, pi, sin
+from typing import Any, ClassVar
+
+from derive.figures.annotations import ASIDE
+from derive.figures.marks import InWords, Mark, Position, Surface
+from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
+from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
+
+HATCH = 4.0  # points: between two hatches, and how far they reach
+STAND = 11.0  # half the length of the piece of wall that holds a fixed end
+ARC = (11.0, 27.0)  # the radius of an arc
+FREE = 20.0  # between the parts and the arrow of gravity
+ARROW = 24.0
+STEPS = 120
+
+
+def hatched(start: Spot, end: Spot, solid: Spot) -> list[Piece]:
+    """A line with hatches on the side of a direction."""
+    x, y = end[0] - start[0], end[1] - start[1]
+    far = hypot(x, y)
+    along = (x / far, y / far) if far > 1e-9 else (1.0, 0.0)
+    count = max(1, round(far / HATCH))
+    pieces: list[Piece] = [Stroke((start, end), "ground")]
+    for i in range(count):
+        at = start[0] + x * (i + 0.8) / count, start[1] + y * (i + 0.8) / count
+        back = at[0] + HATCH * (solid[0] - 0.8 * along[0]), at[1] + HATCH * (solid[1] - 0.8 * along[1])
+        pieces.append(Stroke((at, back), "hatch"))
+    return pieces
+
+
+@dataclass(frozen=True)
+class GroundMark(Surface):
+    """A floor, a ceiling or a wall: a line that is hatched on its solid side.
+
+    solid   a direction to that side
+    off     points by which the line is set off to that side, for what stands on it and has no size of its own
+    """
+
+    start: Position
+    end: Position
+    solid: Position
+    off: float = 0.0
+    layer: ClassVar[int] = -1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.start), numbers.vector(self.end)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, end = paper.spots(*self.places(paper.numbers))
+        solid = _across(start, end, paper.spot(paper.numbers.vector(self.solid)))
+        a, b = ((x + solid[0] * self.off, y + solid[1] * self.off) for x, y in (start, end))
+        return hatched(a, b, solid)
+
+    def in_words(self) -> InWords:
+        return "ground", {}
+
+
+@dataclass(frozen=True)
+class FloorMark(Surface):
+    """Hatched ground under places of one height, a little longer than they need, `off` points below them."""
+
+    above: tuple[Position, ...]
+    off: float = 0.0
+    layer: ClassVar[int] = -1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(place) for place in self.above]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*self.places(paper.numbers))
+        y = min(spot[1] for spot in spots) - self.off
+        left, right = (choice(spot[0] for spot in spots) for choice in (min, max))
+        return hatched((left - FREE, y), (right + FREE, y), (0.0, -1.0))
+
+    def in_words(self) -> InWords:
+        return "ground", {}
+
+
+def _across(start: Spot, end: Spot, side: Spot) -> Spot:
+    """The unit normal of a line that points to a side."""
+    along = direction(start, end)
+    normal = -along[1], along[0]
+    return normal if normal[0] * side[0] + normal[1] * side[1] >= 0 else (along[1], -along[0])
+
+
+@dataclass(frozen=True)
+class FixedEnd(Surface):
+    """A place that is held by a piece of wall behind it; `away` is the direction from the wall. A pivot has a joint."""
+
+    at: Position
+    away: Position
+    joint: bool = False
+    layer: ClassVar[int] = 3
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        away = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.away)))
+        start, end = ((x + s * away[1] * STAND, y - s * away[0] * STAND) for s in (-1, 1))
+        joint: list[Piece] = [Bullet(spot, 2.2), Bullet(spot, 1.3, "blank")] if self.joint else []
+        return [*hatched(start, end, (-away[0], -away[1])), *joint, Tag(self.label, spot, (-away[1], away[0]), 5.0)]
+
+    def in_words(self) -> InWords:
+        return "pivot" if self.joint else "fixed_end", {"label": self.label}
+
+
+@dataclass(frozen=True)
+class WayMark(Surface):
+    """The way of a place while one letter goes from one end to the other: what it is bound to, if nothing else moves.
+
+    pen   `trace`, or `wire` for a thing that is there
+    """
+
+    place: Position
+    letter: Any
+    lower: Any
+    upper: Any
+    pen: str = "trace"
+    layer: ClassVar[int] = -1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return numbers.along(self.place, self.letter, (self.lower, self.upper), 12)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        steps = 1 if self.is_straight else STEPS
+        spots = paper.spots(*paper.numbers.along(self.place, self.letter, (self.lower, self.upper), steps))
+        return [Stroke(spots, self.pen), Tag(self.label, spots[-1], direction(spots[-2], spots[-1]))]
+
+    @property
+    def is_straight(self) -> bool:
+        return all(entry.diff(self.letter, 2) == 0 for entry in self.place)
+
+    def in_words(self) -> InWords | None:
+        return "wire" if self.pen == "wire" else "way", {"label": self.label}
+
+
+@dataclass(frozen=True)
+class AngleBetween(Mark):
+    """The arc from one way to another at a vertex, within both; `dashed` draws the first way, which nothing else does.
+
+    a, b   ways from the vertex, of which the lengths count
+    """
+
+    vertex: Position
+    a: Position
+    b: Position
+    dashed: bool = False
+    layer: ClassVar[int] = 5
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return (self.vertex,)
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return self.a, self.b
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        vertex, a, b = (paper.numbers.vector(each) for each in (self.vertex, self.a, self.b))
+        size, far = angle_of(a, b), size_of(b) * paper.scale
+        if not size_of(a) or not size_of(b) or size > pi - 1e-6:
+            return []
+        reach = far if self.dashed else min(far, size_of(a) * paper.scale)
+        # A small angle has a large arc, so that there is something to see; none is so large that it meets the ends.
+        points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
+        along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
+        radius = points / paper.scale
+        turned = [size * i / 48 for i in range(49)]
+        places = (plus(plus(vertex, along, radius * cos(t)), across, radius * sin(t)) for t in turned)
+        pieces: list[Piece] = []
+        if self.dashed:
+            end = plus(vertex, along, max(points + 7.0, min(0.85 * far, 62.0)) / paper.scale)
+            pieces.append(Stroke(paper.spots(vertex, end), "trace"))
+        if size < 0.02:
+            return pieces
+        spots = paper.spots(*places)
+        return [
+            *pieces,
+            Stroke(spots, "angle"),
+            Tag(self.label, spots[24], direction(paper.spot(vertex), spots[24]), 2.0),
+        ]
+
+    def in_words(self) -> InWords | None:
+        return ("angle_of_letters", {"label": self.label}) if self.label is not None else None
+
+
+@dataclass(frozen=True)
+class DistanceMark(Mark):
+    """A dimension line between two places, set off to a side, or away from the middle of the drawing."""
+
+    start: Position
+    end: Position
+    aside: Position = None
+    off: float = ASIDE
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return self.start, self.end
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*(paper.numbers.vector(end) for end in self.ends))
+        if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
+            return []
+        if self.aside is None:
+            x, y = paper.spot(paper.middle)
+            at = midway(*spots)
+            side = at[0] - x, at[1] - y
+        else:
+            side = paper.spot(paper.numbers.vector(self.aside))
+        away = _across(spots[0], spots[1], side)
+
+        def set_off(spot: Spot, far: float) -> Spot:
+            return spot[0] + away[0] * far, spot[1] + away[1] * far
+
+        extensions = [
+            Stroke((set_off(spot, max(2.4, self.off - 10.0)), set_off(spot, self.off + 3.0)), "thin") for spot in spots
+        ]
+        line = set_off(spots[0], self.off), set_off(spots[1], self.off)
+        return [*extensions, Stroke(line, "measure", head=True, tail=True), Tag(self.label, midway(*line), away)]
+
+    def in_words(self) -> InWords | None:
+        return self._if_named("length")
+
+
+@dataclass(frozen=True)
+class GravityMark(Mark):
+    """An arrow downwards beside the parts: the field in which they are."""
+
+    down: Position
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        down = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.down)))
+        spots = paper.spots(*paper.fixed)
+        right, top = max(x for x, _ in spots) + FREE, max(y for _, y in spots)
+        start, end = (right, top), (right + ARROW * down[0], top + ARROW * down[1])
+        return [Stroke((start, end), "given", head=True), Tag(self.label, midway(start, end), (1.0, 0.0))]
+
+    def in_words(self) -> InWords:
+        return "gravity", {"label": self.label}
