@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from sympy import Add, Expr, Float, Integer, Symbol, cos, expand, factor, sin, sqrt
+from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, expand, factor, sin, sqrt
 
 from derive.algebra.expressions import TIME
 from derive.algebra.normal_form import vanishes
@@ -77,7 +77,7 @@ def same(a: Location, b: Location) -> bool:
 
 
 def link_to(system: System, index: int) -> Link | None:
-    """What holds a particle by a rod, or is the origin of its polar coordinates: another particle or a fixed place first."""
+    """What holds a particle by a rod, or is the origin of its polar coordinates; known and fixed places first."""
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
     found = [start for q in moving_in(system, *end.components) if (start := _without(end, q)) is not None]
@@ -106,28 +106,26 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """The way between two places, if its length is constant or a coordinate."""
+    """The way between two places, if no angle and no motion that is prescribed changes its length."""
     square = Add(*(c**2 for c in (end - start).components))
-    if square == 0:
+    turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}
+    if square == 0 or not turning or _varies(square, turning):
         return None
-    lengths = [q for q, kind in system.coordinates.items() if kind == "length" and q in square.free_symbols]
-    if _varies(system, square):
-        if len(lengths) == 1 and not _varies(system, square / lengths[0] ** 2) and vanishes(square - lengths[0] ** 2):
-            return Link(start, end, lengths[0], False)
+    square = tidied(square)
+    if square.free_symbols & turning:
         return None
-    length = sqrt(factor(tidied(square)))
-    return None if moving_in(system, length) else Link(start, end, length, True)
+    length = sqrt(factor(square))
+    length = length.xreplace({size: size.args[0] for size in length.atoms(Abs)})
+    return Link(start, end, length, not moving_in(system, length))
 
 
-def _varies(system: System, value: Expr) -> bool:
+def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Whether it does, as two samples show; it may still vary if they do not."""
-    moving = sorted(moving_in(system, value), key=str)
-    fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(sorted(value.free_symbols - {*moving}, key=str))}
-    at = [
-        float(value.xreplace({**fixed, **{q: Float(x + 0.29 * i) for i, q in enumerate(moving)}}).evalf())
-        for x in SAMPLES
-    ]
-    return abs(at[0] - at[1]) > 1e-9 * (1 + abs(at[0]))
+    others = sorted(value.free_symbols - turning, key=str)
+    fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
+    angles = [{q: Float(x + 0.29 * i) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
+    one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
+    return abs(one - other) > 1e-9 * (1 + abs(one))
 
 
 # --- angles ----------------------------------------------------------------------------------------------------------
@@ -172,3 +170,24 @@ def carrier_of(system: System, index: int, track: Track) -> int | None:
         if j != index and not is_fixed(system, other.at) and is_fixed(system, track.start - other.at):
             return j
     return None
+
+
+# --- strings ---------------------------------------------------------------------------------------------------------
+
+
+def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
+    """Pairs of particles that move by one coordinate so that what the one gains on its line the other loses."""
+    found: list[tuple[int, int]] = []
+    for i, one in tracks.items():
+        for j, other in tracks.items():
+            if i < j and one.by == other.by and one.is_unit and other.is_unit:
+                if _way_from_foot(one) * _way_from_foot(other) < 0:
+                    found.append((i, j))
+    return found
+
+
+def _way_from_foot(track: Track) -> float:
+    """How far along its line a particle is from the foot, with every letter one and the coordinate a half."""
+    along = Add(*(a * b for a, b in _pairs(track.start, track.way))) + track.by
+    numbers = {letter: Float(1) for letter in along.free_symbols - {track.by}}
+    return float(along.xreplace({**numbers, track.by: Float(0.5)}).evalf())
