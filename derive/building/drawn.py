@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
+WIDE, LOW = 7.0, 0.35  # what is lower than this share of its width may be wider
 
 
 def drawing_files(
@@ -85,8 +86,13 @@ def _drawn(
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture
 
-    pieces = picture(what, Numbers(seen), width or WIDTH, (width or WIDTH) * HEIGHT / WIDTH)
-    return sheet_of(pieces, notation, alt)
+    sizes = (width,) if width else (WIDTH, WIDE)
+    for wide in sizes:
+        pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
+        sheet = sheet_of(pieces, notation, alt)
+        if sheet.height > LOW * sheet.width:
+            break
+    return sheet
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:

@@ -17,7 +17,17 @@ from derive.errors import Complaint, Rejected
 from derive.figures.annotations import ASIDE
 from derive.figures.marks import Mark
 from derive.figures.parts import (
-    BLOCK, CART, CASTER, BarMark, BlockMark, CartMark, ParticleMark, RopeMark, SpringMark, WedgeMark, WheelMark,
+    BLOCK,
+    CART,
+    CASTER,
+    BarMark,
+    BlockMark,
+    CartMark,
+    ParticleMark,
+    RopeMark,
+    SpringMark,
+    WedgeMark,
+    WheelMark,
 )  # fmt: skip
 from derive.figures.positions import SIDES, name_of, towards, vector_of, vectors_of
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GravityMark, GroundMark, WayMark

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import acos, atan2, cos, hypot, pi, sin, sqrt, tan
+from math import acos, atan2, cos, hypot, pi, sin, sqrt
 from typing import Any, ClassVar
 
 from sympy import Symbol
@@ -19,8 +19,8 @@ from derive.figures.space import Spot, Vector, direction, midway, plus
 
 BOB = 4.3  # points: the radius of a particle
 WHEEL = 9.0  # the radius of a pulley
-BLOCK = (24.0, 16.0)  # the width and the height of a block
-CART = (40.0, 13.0)
+BLOCK = (22.0, 18.0)  # the width and the height of a block
+CART = (38.0, 13.0)
 CASTER = 3.6  # the radius of a cart's wheels
 COIL = 4.6  # half the width of a spring
 PITCH = 5.0  # between two of its turns
@@ -92,7 +92,7 @@ class SpringMark(_Stretched):
         (x, y), (u, v) = spots = paper.spots(*self.places(paper.numbers))
         far = hypot(u - x, v - y)
         lead = min(LEAD, 0.2 * far)
-        turns = max(5, min(14, round((far - 2 * lead) / PITCH)))
+        turns = max(5, min(26, round((far - 2 * lead) / PITCH)))
         along = direction(*spots)
         aside = -along[1], along[0]
 
@@ -166,11 +166,14 @@ def _round(middle: Spot, radius: float, start: Spot, end: Spot) -> list[Spot]:
 
 @dataclass(frozen=True)
 class CornerRopeMark(_Piecewise):
-    """A taut string with a small pulley in its corner, so that both of its straight parts stay on their lines."""
+    """A taut string with a small pulley in its corner; its straight parts are set off to the outside by `lifts`, for
+    what stands on the lines.
+    """
 
     start: Position
     corner: Position
     end: Position
+    lifts: tuple[float, float] = (0.0, 0.0)
     layer: ClassVar[int] = 1
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -178,19 +181,33 @@ class CornerRopeMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         a, corner, b = paper.spots(*self.places(paper.numbers))
-        back, ahead = direction(corner, a), direction(corner, b)
-        half = acos(max(-1.0, min(1.0, back[0] * ahead[0] + back[1] * ahead[1]))) / 2
+        ways = direction(corner, a), direction(corner, b)
+        cosine = ways[0][0] * ways[1][0] + ways[0][1] * ways[1][1]
+        half = acos(max(-1.0, min(1.0, cosine))) / 2
         if not 0.05 < half < pi / 2 - 0.05:
             return [Stroke((a, corner, b), "string")]
-        inwards = direction((0.0, 0.0), (back[0] + ahead[0], back[1] + ahead[1]))
-        hub = corner[0] + inwards[0] * WHEEL / sin(half), corner[1] + inwards[1] * WHEEL / sin(half)
-        ends = [(corner[0] + e[0] * WHEEL / tan(half), corner[1] + e[1] * WHEEL / tan(half)) for e in (back, ahead)]
-        arc = _round(hub, WHEEL * _bend(a, corner, b), ends[0], ends[1])
-        return [Stroke((a, *arc, b), "string"), *_disc(hub, WHEEL, "body"), Bullet(hub)]
+        # The way from the corner to one end, and the normal of that line on the side where the other end is not.
+        inwards = [_normal(e, other) for e, other in zip(ways, ways[::-1], strict=True)]
+        sine = sin(2 * half)
+        shares = [(lift - WHEEL) / sine for lift in self.lifts[::-1]]
+        hub = tuple(corner[k] - ways[0][k] * shares[0] - ways[1][k] * shares[1] for k in (0, 1))
+        touching = [(hub[0] - n[0] * WHEEL, hub[1] - n[1] * WHEEL) for n in inwards]
+        a, b = (
+            (spot[0] - n[0] * lift, spot[1] - n[1] * lift)
+            for spot, n, lift in zip((a, b), inwards, self.lifts, strict=True)
+        )
+        arc = _round((hub[0], hub[1]), WHEEL * _bend(a, corner, b), *touching)
+        return [Stroke((a, *arc, b), "string"), *_disc((hub[0], hub[1]), WHEEL, "blank"), Bullet((hub[0], hub[1]))]
 
     @property
     def told_as(self) -> str:
         return "corner_rope"
+
+
+def _normal(along: Spot, side: Spot) -> Spot:
+    """The unit normal of a direction on the side of another."""
+    normal = -along[1], along[0]
+    return normal if normal[0] * side[0] + normal[1] * side[1] > 0 else (along[1], -along[0])
 
 
 @dataclass(frozen=True)

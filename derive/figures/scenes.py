@@ -18,7 +18,16 @@ from derive.errors import Complaint, Rejected
 from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.bodies import ORIGIN, outline
 from derive.figures.marks import (
-    PLANE, SPACE, Drawing, Mark, Marks, Plot, components_in, flat, letters_in, noted,
+    PLANE,
+    SPACE,
+    Drawing,
+    Mark,
+    Marks,
+    Plot,
+    components_in,
+    flat,
+    letters_in,
+    noted,
 )  # fmt: skip
 from derive.figures.positions import name_of, value_and_keys, vector_of
 from derive.steps.record import current_run

@@ -16,26 +16,52 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Axis, AxisOfRotation
+from derive.figures.annotations import Axis, AxisOfRotation, PointMark
 from derive.figures.elements import CLEAR, UNDER
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import (
-    BLOCK, BarMark, BlockMark, CartMark, ConnectionMark, CornerRopeMark, ParticleMark, RopeMark, SpringMark, WedgeMark,
+    BLOCK,
+    COIL,
+    WHEEL,
+    BarMark,
+    BlockMark,
+    CartMark,
+    ConnectionMark,
+    CornerRopeMark,
+    ParticleMark,
+    RopeMark,
+    SpringMark,
+    WedgeMark,
     WheelMark,
 )  # fmt: skip
 from derive.figures.recognition import (
-    Link, Track, angle_of_link, carrier_of, is_fixed, link_to, moving_in, ropes_of, same, track_of,
+    Link,
+    Track,
+    angle_of_link,
+    carrier_of,
+    is_fixed,
+    link_to,
+    moving_in,
+    ropes_of,
+    same,
+    track_of,
 )  # fmt: skip
 from derive.figures.scenes import drawing
 from derive.figures.surroundings import (
-    AngleBetween, DistanceMark, FixedEnd, FloorMark, GravityMark, WayMark,
+    ROOM,
+    AngleBetween,
+    DistanceMark,
+    FixedEnd,
+    FloorMark,
+    GravityMark,
+    WayMark,
 )  # fmt: skip
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import Central, System
 
 __all__ = ["sketch"]
 
-ZERO, ONE = Integer(0), Integer(1)
+ZERO = Integer(0)
 PAST = Rational(8, 5)  # how far a slope goes past what slides on it, in terms of its coordinate
 ECCENTRICITY = Rational(1, 2)
 
@@ -65,11 +91,16 @@ class _Scene:
         indices = range(len(system.particles))
         self.links = {i: link for i in indices if (link := link_to(system, i)) is not None}
         free = [i for i in indices if i not in self.links]
-        self.tracks = {i: track for i in free if (track := track_of(system, i)) is not None and self.rows == 2}
-        self.carriers = {i: carrier_of(system, i, track) for i, track in self.tracks.items()}
+        tracks = {i: track for i in free if (track := track_of(system, i)) is not None and self.rows == 2}
+        self.carriers = {i: carrier_of(system, i, track) for i, track in tracks.items()}
+        self.tracks = {i: track for i, track in tracks.items() if self._is_held(track, self.carriers[i])}
         self.ropes = ropes_of({i: track for i, track in self.tracks.items() if is_fixed(system, track.start)})
         self.free = [i for i in free if i not in self.tracks]
         self.moved = self._moved_apart()
+
+    @property
+    def _down(self) -> ImmutableDenseMatrix:
+        return ImmutableDenseMatrix([0] * (self.rows - 1) + [-1])
 
     @cached_property
     def marks(self) -> list[Mark]:
@@ -92,8 +123,11 @@ class _Scene:
         for i in self.free:
             yield from self._free(i)
         if self.system.weights:
-            down = ImmutableDenseMatrix([0] * (self.rows - 1) + [-1])
-            yield GravityMark(down, label=self.system.gravity)
+            yield GravityMark(self._down, label=self.system.gravity)
+
+    def _is_held(self, track: Track, carrier: int | None) -> bool:
+        """Whether its line is at rest, is carried by a particle, or moves as is prescribed."""
+        return carrier is not None or moving_in(self.system, *track.start.components) <= {TIME}
 
     def _mass(self, i: int) -> Any:
         return self.system.particles[i].mass
@@ -118,7 +152,8 @@ class _Scene:
             if self._is_particle(end):
                 continue
             if is_spring and is_fixed(self.system, end):
-                yield FixedEnd(_column(end), way)
+                turns = any(same(link.start, end) for link in self.links.values())
+                yield FixedEnd(_column(end), self._down if turns else way)
             elif not is_spring:
                 yield ParticleMark(_column(end))
                 yield from self._orbit(each, end)
@@ -133,7 +168,7 @@ class _Scene:
         turned = angle_of_link(self.system, link) if link is not None and self.rows == 2 else None
         if link is None or turned is None or each.distance in tidied(each.pull * each.distance**2).free_symbols:
             return
-        angle, zero = turned
+        angle, _ = turned
         u = scalar("u")
         size = link.length * (1 + ECCENTRICITY * cos(angle)) / (1 + ECCENTRICITY * cos(u))
         e = explicit(ImmutableDenseMatrix(tuple(tidied(c / link.length) for c in link.way.components)))
@@ -158,13 +193,35 @@ class _Scene:
         elif link.is_constant:
             yield BarMark(start, end, label=link.length)
             if not self._is_particle(link.start):
-                yield FixedEnd(start, ImmutableDenseMatrix([0] * (self.rows - 1) + [-1]), True)
+                yield FixedEnd(start, self._down, True)
+                yield from self._shaken(link.start)
+        elif self._has_spring(link):
+            up = ImmutableDenseMatrix([-link.way.components[1], link.way.components[0]]) if self.rows == 2 else None
+            yield DistanceMark(start, end, up, COIL + CLEAR, label=link.length)
         else:
             if prescribed and link.length.is_Symbol:
                 yield WayMark(end, link.length, ZERO, Rational(3, 2) * link.length, "wire")
             yield ConnectionMark(start, end, label=link.length)
+            if not any(same(link.start, place) for each in self.system.between for place in (each.start, each.end)):
+                yield PointMark(start)
         if not is_fixed(self.system, link.start) and self.rows == 3:
             yield from self._ways(i)
+
+    def _has_spring(self, link: Link) -> bool:
+        return any(
+            diff(explicit(each.energy), each.distance, 3) == 0 and same(a, link.start) and same(b, link.end)
+            for each in self.system.between
+            for a, b in _both(each.start, each.end)
+        )
+
+    def _shaken(self, support: Location) -> Iterable[Mark]:
+        """How far a support has moved, where it does so along one of the axes."""
+        moving = moving_in(self.system, *support.components)
+        rest = Location(tuple(_terms_without(c, moving) for c in support.components))
+        moved = [c for c in (support - rest).components if c != 0]
+        if self.rows == 2 and len(moved) == 1:
+            side = [0, 1] if (support - rest).components[0] != 0 else [-1, 0]
+            yield DistanceMark(_column(rest), _column(support), ImmutableDenseMatrix(side), 18.0, label=moved[0])
 
     def _round_the_vertical(self, link: Link) -> Iterable[Mark]:
         """The angle of what is seen from above, or the axis round which it is carried at a given rate."""
@@ -188,56 +245,99 @@ class _Scene:
     def _on_line(self, i: int, track: Track, is_wedge: bool) -> Iterable[Mark]:
         at, start = self._at(i), track.start + self.moved[i] if i in self.moved else track.start
         level = track.way.components[1] == 0
-        off = CLEAR
-        block: BlockMark | None = None
+        off = CLEAR + (8 if is_wedge or level and self.system.between else 0)
         if not is_wedge:
             kind = CartMark if any(same(link.start, at) for link in self.links.values()) else BlockMark
             block = kind(_column(at), ImmutableDenseMatrix([1, 0]), label=self._mass(i))
             off += (block.usual[1] if level else block.usual[0]) / 2
             yield block
-        if level and (self.system.weights or self.system.between):
-            under = UNDER[type(block)] if block is not None else 0.0
-            alike = [t.start + t.by * t.way for t in self.tracks.values() if same_height(t, track)]
-            yield FloorMark(tuple(_column(each) for each in (*alike, *self._ends_at(track))), under)
-        if track.is_unit and i not in self._second_of_ropes:
-            aside = ImmutableDenseMatrix([0, -1 if is_wedge else 1] if level else [-1, 0])
-            yield DistanceMark(_column(self._origin_of(i, start)), _column(at), aside, off + 6 * is_wedge, label=track.by)
+            if level and (self.system.weights or self.system.between):
+                yield self._floor(i, track, UNDER[kind])
+        if track.is_unit and self._is_measured(i):
+            aside = ImmutableDenseMatrix([0, -1 if is_wedge else 1] if level else [self._free_side(i), 0])
+            yield DistanceMark(_column(start), _column(at), aside, off, label=track.by)
 
-    @property
-    def _second_of_ropes(self) -> set[int]:
-        return {j for _, j in self.ropes}
+    def _free_side(self, i: int) -> int:
+        """Of what hangs: the side on which nothing hangs or lies at the other end of its string."""
+        other = next((k for pair in self.ropes if i in pair for k in pair if k != i), None)
+        return 1 if other is not None and self._numeric((self._at(other) - self._at(i)).components[0]) < 0 else -1
 
-    def _origin_of(self, i: int, start: Location) -> Location:
-        return start
+    def _is_measured(self, i: int) -> bool:
+        """Of two on a string that one from whose line's foot the coordinate is counted, else the first."""
+        for pair in self.ropes:
+            if i in pair:
+                return i == next((k for k in pair if same(self.tracks[k].start, self.tracks[k].foot)), pair[0])
+        return True
 
-    def _ends_at(self, track: Track) -> list[Location]:
-        """The fixed ends of springs at the height of a floor, to which it reaches."""
+    def _floor(self, i: int, track: Track, off: float) -> Mark:
+        """Under all that slides at this height: up to walls and pulleys, and past everything else."""
+        alike = {k: t for k, t in self.tracks.items() if _same_height(t, track)}
+        above = [self.system.particles[k].at for k in alike]
+        above += [t.start for k, t in alike.items() if self._is_measured(k)]
+        walls = self._walls_at(track)
+        corners = [alike[k].foot for k in alike for pair in self.ropes if k in pair]
+        left, right = ROOM, ROOM
+        if walls or corners:
+            at = self.system.particles[i].at.components[0]
+            before = [self._numeric(at - end.components[0]) > 0 for end in walls + corners]
+            short = -2 * WHEEL - 3 if corners else 0.0
+            left, right = short if any(before) else ROOM, short if not all(before) else ROOM
+        return FloorMark(tuple(_column(each) for each in (*above, *walls, *corners)), off, (left, right))
+
+    def _walls_at(self, track: Track) -> list[Location]:
+        """The fixed ends of springs at the height of a floor, which it does not pass."""
         ends = [end for each in self.system.between for end in (each.start, each.end)]
         height = track.start.components[1]
         return [end for end in ends if is_fixed(self.system, end) and vanishes(end.components[1] - height)]
 
     def _on_wedge(self, i: int, track: Track) -> Iterable[Mark]:
-        """A slope from where the coordinate is zero to a little past the block, down to the height of what carries it."""
-        at, way, carrier = self._at(i), _column(track.way), self.carriers[i]
-        roped = any(i in pair for pair in self.ropes)
-        far = track.start + PAST * track.by * track.way
-        top, low = (track.foot, track.foot + PAST * (at - track.foot)) if roped else (track.start, far)
-        if _rises(track) and not roped:
-            top, low = low, top
-        if carrier is not None:
-            low = _down_to(top, low, self.system.particles[carrier].at) or low
+        """A slope from where the coordinate is zero to a little past the block, down to what carries it."""
+        at, carrier = self._at(i), self.carriers[i]
+        top, low = self._slope(i, track)
         foot = Location((top.components[0], low.components[1]))
-        yield WedgeMark((_column(top), _column(low), _column(foot)), label=self._mass(carrier) if carrier is not None else None)
-        yield BlockMark(_column(at), way, stands=True, label=self._mass(i))
-        if carrier is None:
-            yield FloorMark((_column(low), _column(foot)))
+        mass = self._mass(carrier) if carrier is not None else None
+        both = next((pair for pair in self.ropes if i in pair and all(_is_slope(self.tracks[k]) for k in pair)), None)
+        ends = [self._slope(k, self.tracks[k])[1] for k in both] if both else [low, foot]
+        yield WedgeMark(tuple(_column(each) for each in (top, *ends)), label=mass)
+        yield BlockMark(_column(at), _column(track.way), stands=True, label=self._mass(i))
+        yield FloorMark(tuple(_column(end) for end in ends))
         slope = [f.args[0] for c in track.way.components for f in c.atoms(sin, cos)]
         if slope and slope[0].is_Symbol:
             yield AngleBetween(_column(low), _column(foot - low), _column(top - low), label=slope[0])
-        if track.is_unit and i not in self._second_of_ropes:
+        if track.is_unit and self._is_measured(i):
             normal = ImmutableDenseMatrix([-track.way.components[1], track.way.components[0]])
-            normal = normal if _numeric(normal[1]) > 0 else -normal
+            normal = normal if self._numeric(normal[1]) > 0 else -normal
             yield DistanceMark(_column(track.start), _column(at), normal, BLOCK[1] + CLEAR, label=track.by)
+
+    def _slope(self, i: int, track: Track) -> tuple[Location, Location]:
+        """The upper and the lower end of the line on which a block slides."""
+        carrier, far = self.carriers[i], track.start + PAST * track.by * track.way
+        roped = next((pair for pair in self.ropes if i in pair), None)
+        if roped is not None:
+            ends = [self._past(k) for k in roped if _is_slope(self.tracks[k])]
+            deepest = min(ends, key=lambda end: self._numeric(end.components[1]))
+            return track.foot, self._down_to(track.foot, self._past(i), deepest)
+        rises = self._numeric(track.way.components[1]) > 0
+        top, low = (far, track.start) if rises else (track.start, far)
+        return top, low if carrier is None else self._down_to(top, low, self.system.particles[carrier].at)
+
+    def _down_to(self, top: Location, low: Location, base: Location) -> Location:
+        """Where the line from one place to another comes to the height of a third, if that is below the first."""
+        fall, whole = top.components[1] - base.components[1], top.components[1] - low.components[1]
+        if self._numeric(fall) < 1e-9:
+            return low
+        share: Expr = tidied(fall / whole)
+        return top + share * (low - top)
+
+    def _numeric(self, value: Expr) -> float:
+        """With coordinates small, and other letters 0.6: an acute angle, and any length."""
+        small = {q: Rational(1, 5) for q in self.system.coordinates}
+        found = value.xreplace({**dict.fromkeys(value.free_symbols, Rational(3, 5)), **small})
+        return float(found.evalf())
+
+    def _past(self, i: int) -> Location:
+        """A little further down its line than a block on a string."""
+        return self.tracks[i].foot + PAST * (self.system.particles[i].at - self.tracks[i].foot)
 
     # --- what hangs on a string ---
 
@@ -245,9 +345,10 @@ class _Scene:
         one, other = (self.tracks[k].foot + self.moved[k] if k in self.moved else self.tracks[k].foot for k in (i, j))
         a, b = _column(self._at(i)), _column(self._at(j))
         if same(one, other):
-            yield CornerRopeMark(a, _column(one), b)
+            lifts = tuple(BLOCK[1] / 2 if _is_slope(self.tracks[k]) else 0.0 for k in (i, j))
+            yield CornerRopeMark(a, _column(one), b, (lifts[0], lifts[1]))
             return
-        middle, radius = Rational(1, 2) * (one + other), tidied(abs((other - one).components[0]) / 2)
+        middle, radius = Rational(1, 2) * (one + other), abs(tidied((other - one).components[0] / 2))
         wheel = WheelMark(_column(middle), radius, label=radius if not self.moved else None)
         top = _column(middle + Location((ZERO, Rational(9, 5) * radius)))
         yield RopeMark((a, wheel.centre, b), (ZERO, radius, ZERO))
@@ -292,6 +393,11 @@ class _Scene:
         for q in moving:
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-PAST * q, PAST * q)
             yield WayMark(_column(at), q, *ends, "wire" if len(moving) == 1 else "trace")
+        if len(moving) == 1 and moving[0] in at.components:
+            beside = Location(tuple(ZERO if c == moving[0] else c for c in at.components))
+            rest = Location(tuple(c.xreplace({moving[0]: ZERO}) for c in at.components))
+            yield ConnectionMark(_column(beside), _column(at), label=moving[0])
+            yield ConnectionMark(_column(rest), _column(beside))
 
     # --- what letters are drawn with ---
 
@@ -300,12 +406,23 @@ class _Scene:
         """Small displacements where a coordinate is one, and half a string where it divides it."""
         found: dict[Symbol, Expr] = {}
         for q, kind in self.system.coordinates.items():
-            lengths = self._at_zero(q) if kind != "angle" else []
+            slides = any(track.by == q and _is_slope(track) and i in self.carriers for i, track in self.tracks.items())
+            lengths = [] if kind == "angle" or slides and not self.ropes else self._at_zero(q)
             if any(lengths):
                 size = next(each for each in lengths if each != 0)
                 share = Rational(2, 5) if not all(lengths) else Rational(1, 4 + len(found))
                 found[q] = share * size
+        for i, j in self.ropes:
+            radius = self._radius(i, j)
+            long = (self.tracks[i].start - self.tracks[j].start).components[1].free_symbols - {radius}
+            if radius.is_Symbol and long:
+                found[radius] = min(long, key=str) / 5
         return found
+
+    def _radius(self, i: int, j: int) -> Expr:
+        """Half of what is between the two lines on which masses hang."""
+        between = (self.tracks[j].foot - self.tracks[i].foot).components[0]
+        return abs(tidied(between / 2))
 
     def _at_zero(self, q: Symbol) -> list[Expr]:
         """Of each component with the coordinate in it what is left where all coordinates are zero: one letter of it."""
@@ -314,7 +431,11 @@ class _Scene:
         return [min(c.xreplace(zero).free_symbols, key=str, default=ZERO) for c in holding]
 
 
-def same_height(one: Track, other: Track) -> bool:
+def _terms_without(value: Expr, letters: set[Symbol]) -> Expr:
+    return Add(*(term for term in Add.make_args(value) if not term.free_symbols & letters))
+
+
+def _same_height(one: Track, other: Track) -> bool:
     return all(track.way.components[1] == 0 for track in (one, other)) and vanishes(
         one.start.components[1] - other.start.components[1]
     )
@@ -326,22 +447,3 @@ def _both(a: Location, b: Location) -> tuple[tuple[Location, Location], tuple[Lo
 
 def _is_slope(track: Track) -> bool:
     return all(c != 0 for c in track.way.components)
-
-
-def _numeric(value: Expr) -> float:
-    """With every letter 0.6: an acute angle, and any length."""
-    return float(value.xreplace(dict.fromkeys(value.free_symbols, Rational(3, 5))).evalf())
-
-
-def _rises(track: Track) -> bool:
-    return _numeric(track.way.components[1]) > 0
-
-
-def _down_to(top: Location, low: Location, base: Location) -> Location | None:
-    """Where the line from one place to another comes to the height of a third, if that is below the first."""
-    fall, whole = top.components[1] - base.components[1], top.components[1] - low.components[1]
-    share = tidied(fall / whole)
-    return top + share * (low - top) if _numeric(fall) > 1e-9 else None
-
-
-_ = ONE

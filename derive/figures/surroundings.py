@@ -12,10 +12,11 @@ from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
 HATCH = 4.0  # points: between two hatches, and how far they reach
-STAND = 11.0  # half the length of the piece of wall that holds a fixed end
+STAND = 9.0  # half the length of the piece of wall that holds a fixed end
 ARC = (11.0, 27.0)  # the radius of an arc
 FREE = 20.0  # between the parts and the arrow of gravity
 ARROW = 24.0
+ROOM = 26.0  # from the middle of what stands on a floor to its end
 STEPS = 120
 
 
@@ -62,10 +63,11 @@ class GroundMark(Surface):
 
 @dataclass(frozen=True)
 class FloorMark(Surface):
-    """Hatched ground under places of one height, a little longer than they need, `off` points below them."""
+    """Hatched ground under places of one height, `off` points below them, longer by the `margins` on left and right."""
 
     above: tuple[Position, ...]
     off: float = 0.0
+    margins: tuple[float, float] = (ROOM, ROOM)
     layer: ClassVar[int] = -1
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -75,7 +77,7 @@ class FloorMark(Surface):
         spots = paper.spots(*self.places(paper.numbers))
         y = min(spot[1] for spot in spots) - self.off
         left, right = (choice(spot[0] for spot in spots) for choice in (min, max))
-        return hatched((left - FREE, y), (right + FREE, y), (0.0, -1.0))
+        return hatched((left - self.margins[0], y), (right + self.margins[1], y), (0.0, -1.0))
 
     def in_words(self) -> InWords:
         return "ground", {}

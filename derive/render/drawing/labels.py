@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, TypeAlias
 
-from derive.figures.pieces import Bullet, Piece, Stroke, Tag
+from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
@@ -33,7 +33,7 @@ class Placed:
 
 def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float]]) -> list[Placed]:
     """Every label of the pieces with its place; `measured` gives a label's width and height in points."""
-    drawn = [dot for piece in pieces for dot in _dots(piece)]
+    drawn = _seen(pieces)
     found: list[Placed] = []
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
     for tag in sorted(tags, key=lambda each: (not each.on, each.way is not None)):
@@ -93,6 +93,28 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
     lines = sum(left < x < right and below < y < above for x, y in drawn)
     labels = sum(left < o[2] and o[0] < right and below < o[3] and o[1] < above for o in others)
     return lines * 2.0 + labels * HEAVY
+
+
+def _seen(pieces: Sequence[Piece]) -> list[Spot]:
+    """The spots of all lines and points that no later surface hides."""
+    found: list[Spot] = []
+    for piece in pieces:
+        if isinstance(piece, Patch):
+            found = [spot for spot in found if not _within(spot, piece.spots)]
+        found += _dots(piece)
+    return found
+
+
+def _within(spot: Spot, corners: Sequence[Spot]) -> bool:
+    """Whether a line from the spot to the right meets the outline an odd number of times."""
+    x, y = spot
+    if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
+        return False
+    met = 0
+    for (a, b), (c, d) in pairwise([*corners, corners[0]]):
+        if (b > y) != (d > y) and x < a + (y - b) / (d - b) * (c - a):
+            met += 1
+    return met % 2 == 1
 
 
 def _dots(piece: Piece) -> list[Spot]:
