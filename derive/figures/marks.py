@@ -21,6 +21,7 @@ from derive.steps.record import current_run
 
 Position: TypeAlias = Any  # a column of three expressions
 InWords: TypeAlias = tuple[str, dict[str, Any]]  # by which phrase a mark is told, and what it may name
+LAST = 99  # the layer of what stands beside everything else
 SPACE, PLANE = "space", "plane"
 
 BESIDE = {"beside": True}  # of a field: it is written beside a mark, and does not decide how that is drawn

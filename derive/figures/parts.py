@@ -37,7 +37,7 @@ class _Piecewise(Surface):
         return type(self).__name__.removesuffix("Mark").lower()
 
     def in_words(self) -> InWords:
-        return self.told_as, {"label": self.label}
+        return super().in_words() or (self.told_as, {"label": self.label})
 
 
 def beside(label: Any, start: Spot, end: Spot, gap: float = 3.0) -> Tag:
@@ -67,10 +67,11 @@ class BarMark(_Stretched):
     """A rod whose mass does not count; it is seen on what it is fixed to."""
 
     layer: ClassVar[int] = 3
+    pen: ClassVar[str] = "bar"
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*self.places(paper.numbers))
-        return [Stroke(spots, "bar"), self._beside(spots, 3.0)]
+        return [Stroke(spots, self.pen), self._beside(spots, 3.0)]
 
 
 @dataclass(frozen=True)

@@ -91,6 +91,7 @@ class Paper(ABC):
     reach: float = 1.0
     middle: Vector = NOUGHT
     fixed: tuple[Vector, ...] = field(default=(), repr=False)
+    drawn: tuple[Spot, ...] = field(default=((0.0, 0.0),), repr=False)  # where there is something already, for the last
 
     def spot(self, place: Vector) -> Spot:
         right, up = self.stance.spot(place)

@@ -46,7 +46,7 @@ def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
     if isinstance(thing, Point):
         return thing.position, ()
     if isinstance(thing, Location):
-        return ImmutableDenseMatrix(thing.components), ()
+        return column_of(thing), ()
     return thing, ()
 
 
@@ -65,6 +65,10 @@ def name_of(thing: Any, label: Any) -> Any:
     if label is not None:
         return label.symbol if isinstance(label, Coordinate) else label
     return thing.symbol if isinstance(thing, Quantity) else None
+
+
+def column_of(place: Location) -> ImmutableDenseMatrix:
+    return ImmutableDenseMatrix(place.components)
 
 
 def towards(side: str, rows: int) -> Any:

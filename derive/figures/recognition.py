@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, expand, factor, sin, sqrt
+from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, diff, expand, factor, sin, sqrt
 
-from derive.algebra.expressions import TIME
+from derive.algebra.expressions import TIME, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.systems.system import Central, System
 
 ZERO = Integer(0)
 SAMPLES = (0.37, 0.83)
@@ -67,6 +67,12 @@ def moving_in(system: System, *things: Expr) -> set[Symbol]:
 
 def is_fixed(system: System, place: Location) -> bool:
     return not moving_in(system, *place.components)
+
+
+def is_spring(each: Central) -> bool:
+    """Whether its energy is of the second degree in the distance."""
+    third: Expr = diff(explicit(each.energy), each.distance, 3)
+    return third.is_zero is True
 
 
 def same(a: Location, b: Location) -> bool:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import acos, cos, hypot, pi, sin, sqrt
+from math import acos, atan2, cos, hypot, pi, sin, sqrt
 from typing import TypeAlias
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -69,6 +70,25 @@ def direction(start: Spot, end: Spot) -> Spot:
 
 def midway(a: Spot, b: Spot) -> Spot:
     return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
+
+
+def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
+    """The convex outline of spots, anticlockwise: sorted by angle about the lowest, turns to the right dropped."""
+    first = min(spots, key=lambda s: (s[1], s[0]))
+    rest = sorted(
+        {s for s in spots if s != first},
+        key=lambda s: (atan2(s[1] - first[1], s[0] - first[0]), hypot(s[0] - first[0], s[1] - first[1])),
+    )
+    outline = [first]
+    for spot in rest:
+        while len(outline) > 1 and _turns_right(outline[-2], outline[-1], spot):
+            outline.pop()
+        outline.append(spot)
+    return tuple(outline)
+
+
+def _turns_right(a: Spot, b: Spot, c: Spot) -> bool:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= 1e-12
 
 
 @dataclass(frozen=True)

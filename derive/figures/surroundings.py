@@ -7,14 +7,14 @@ from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
 from derive.figures.annotations import ASIDE
-from derive.figures.marks import InWords, Mark, Position, Surface
+from derive.figures.marks import LAST, InWords, Mark, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
 HATCH = 4.0  # points: between two hatches, and how far they reach
 STAND = 9.0  # half the length of the piece of wall that holds a fixed end
 ARC = (11.0, 27.0)  # the radius of an arc
-FREE = 20.0  # between the parts and the arrow of gravity
+FREE = 16.0  # between everything and the arrow of gravity
 ARROW = 24.0
 ROOM = 26.0  # from the middle of what stands on a floor to its end
 STEPS = 120
@@ -97,7 +97,7 @@ class FixedEnd(Surface):
     at: Position
     away: Position
     joint: bool = False
-    layer: ClassVar[int] = 3
+    layer: ClassVar[int] = 4
 
     def places(self, numbers: InNumbers) -> list[Vector]:
         return [numbers.vector(self.at)]
@@ -233,14 +233,14 @@ class DistanceMark(Mark):
 
 @dataclass(frozen=True)
 class GravityMark(Mark):
-    """An arrow downwards beside the parts: the field in which they are."""
+    """An arrow downwards beside everything else: the field in which it is."""
 
     down: Position
+    layer: ClassVar[int] = LAST
 
     def pieces(self, paper: Paper) -> list[Piece]:
         down = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.down)))
-        spots = paper.spots(*paper.fixed)
-        right, top = max(x for x, _ in spots) + FREE, max(y for _, y in spots)
+        right, top = max(x for x, _ in paper.drawn) + FREE, max(y for _, y in paper.drawn)
         start, end = (right, top), (right + ARROW * down[0], top + ARROW * down[1])
         return [Stroke((start, end), "given", head=True), Tag(self.label, midway(start, end), (1.0, 0.0))]
 

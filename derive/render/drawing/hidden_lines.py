@@ -7,10 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import atan2, hypot
 
 from derive.figures.pieces import Edge, EdgeNames, Paper, Patch, Piece, Stroke, Tag
-from derive.figures.space import NOUGHT, Spot, Vector, cross, direction, dot, mean, midway, plus, rim, size_of, unit
+from derive.figures.space import (
+    NOUGHT,
+    Spot,
+    Vector,
+    cross,
+    direction,
+    dot,
+    hull,
+    mean,
+    midway,
+    plus,
+    rim,
+    size_of,
+    unit,
+)
 
 FLAT = 0.25  # what is flatter, in terms of its radius, hides too little to be dashed
 
@@ -93,22 +106,3 @@ def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
 
 def _between(ring: Sequence[Vector], i: int, share: float) -> Vector:
     return plus(ring[i], plus(ring[i + 1], ring[i], -1.0), share)
-
-
-def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """The convex outline of spots, anticlockwise: sorted by angle about the lowest, turns to the right dropped."""
-    first = min(spots, key=lambda s: (s[1], s[0]))
-    rest = sorted(
-        {s for s in spots if s != first},
-        key=lambda s: (atan2(s[1] - first[1], s[0] - first[0]), hypot(s[0] - first[0], s[1] - first[1])),
-    )
-    outline = [first]
-    for spot in rest:
-        while len(outline) > 1 and _turns_right(outline[-2], outline[-1], spot):
-            outline.pop()
-        outline.append(spot)
-    return tuple(outline)
-
-
-def _turns_right(a: Spot, b: Spot, c: Spot) -> bool:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= 1e-12

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from derive.figures.marks import SPACE, Drawing, Mark, Surface
+from derive.figures.marks import LAST, SPACE, Drawing, Mark, Surface
 from derive.figures.pieces import Piece, Tag
 from derive.figures.space import NOUGHT, dot, mean, plus, size_of
 from derive.render.drawing.camera import Numbers, best_stance
@@ -40,5 +40,8 @@ def _pieces(drawing: Drawing, paper: OnPaper) -> list[Piece]:
         return mark.layer, dot(mean(mark.places(paper.numbers)), paper.stance.eye)
 
     ordered = sorted(drawing.marks, key=before)
-    pieces = [piece for mark in ordered for piece in mark.pieces(paper)]
+    pieces = [piece for mark in ordered if mark.layer < LAST for piece in mark.pieces(paper)]
+    if drawn := tuple(spot for piece in pieces for spot in piece.spots):
+        paper = replace(paper, drawn=drawn)
+    pieces += [piece for mark in ordered if mark.layer >= LAST for piece in mark.pieces(paper)]
     return [piece for piece in pieces if not (isinstance(piece, Tag) and piece.label is None)]

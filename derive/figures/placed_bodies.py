@@ -1,0 +1,102 @@
+"""The outlines of bodies where a system has them: turned as axes are, or in a plane by an angle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from sympy import Add, Expr, ImmutableDenseMatrix, sqrt
+
+from derive.algebra.expressions import column
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import PointMark
+from derive.figures.bodies import is_line, round_outline
+from derive.figures.marks import Mark, Position, Surface
+from derive.figures.parts import BarMark, WheelMark
+from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
+from derive.figures.positions import column_of
+from derive.figures.recognition import Link, is_fixed, moving_in
+from derive.figures.space import Vector, hull
+from derive.figures.surfaces import Polyhedron
+from derive.figures.surroundings import FixedEnd
+from derive.figures.turning import angle_marks, downwards
+from derive.mechanics.bodies.body import EdgedBody, RoundBody
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+
+
+@dataclass(frozen=True)
+class SilhouetteMark(Surface):
+    """A convex body in a plane, by the corners of its profile in any order."""
+
+    corners: tuple[Position, ...]
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(corner) for corner in self.corners]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = hull(paper.spots(*self.places(paper.numbers)))
+        return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge")]
+
+
+@dataclass(frozen=True)
+class ThickBar(BarMark):
+    """A thin rod whose mass counts, as a thick line, told as the body that it is."""
+
+    pen: ClassVar[str] = "rod"
+    layer: ClassVar[int] = 2
+
+
+def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
+    """The outline of a body of a system, the pivot that holds it, the angle by which it is turned."""
+    yield from placed_outline(placed)
+    centre: Location = placed.centre
+    rows = len(centre.components)
+    square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
+    yield PointMark(column_of(centre))
+    if square == 0 or moving_in(system, square):
+        return
+    if is_fixed(system, placed.at):
+        yield FixedEnd(column_of(placed.at), downwards(rows), True)
+    yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+
+
+def placed_outline(placed: Any) -> list[Mark]:
+    """What is seen of a body at its place; nothing of one of which only the mass and the moments are known."""
+    body = placed.body
+    words: dict[str, Any] = {
+        "name": getattr(body, "seen_as", "") or getattr(body, "name", ""),
+        "measures": _measures(body),
+    }
+
+    def at(x: Expr | int, y: Expr | int, z: Expr | int) -> ImmutableDenseMatrix:
+        """Where a point of the body is."""
+        own = ImmutableDenseMatrix(column(x, y, z) - placed.point.position)
+        return column_of(placed.at + placed.seen_in_space(own))
+
+    if isinstance(body, EdgedBody):
+        corners = tuple(at(*corner) for corner in body.corners)
+        return [Polyhedron(corners, body.faces, **words) if len(corners[0]) == 3 else SilhouetteMark(corners, **words)]
+    if not isinstance(body, RoundBody):
+        return []
+    (lower, upper), origin = body.ends, at(0, 0, 0)
+    if is_line(body):
+        return [ThickBar(at(0, 0, lower), at(0, 0, upper), **words)]
+    if len(origin) == 3:
+        return [round_outline(body, origin, at(0, 0, 1) - origin)]
+    if placed.across == 2:
+        widest = max((body.radius_at(z) for z in (lower, upper, (lower + upper) / 2)), key=_in_units)
+        return [WheelMark(origin, widest, at(1, 0, 0) - origin, **words)]
+    heights = [lower + (upper - lower) * k / 24 for k in range(25)]
+    sides = [(side * body.radius_at(z), z) for z in heights for side in (-1, 1)]
+    corners = tuple(at(0, r, z) if placed.across == 0 else at(r, 0, z) for r, z in sides)
+    return [SilhouetteMark(corners, **words)]
+
+
+def _measures(body: Any) -> tuple[tuple[str, Any], ...]:
+    return tuple(getattr(body, "measures", {}).items())
+
+
+def _in_units(length: Expr) -> float:
+    return float(length.subs(dict.fromkeys(length.free_symbols, 1)))

@@ -1,0 +1,103 @@
+"""What turns, as its formulas say: rods on pivots, ways of a length that changes, and their angles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
+
+from derive.algebra.expressions import TIME
+from derive.algebra.normal_form import vanishes
+from derive.figures.annotations import AxisOfRotation, PointMark
+from derive.figures.elements import CLEAR
+from derive.figures.marks import Mark
+from derive.figures.parts import COIL, BarMark, ConnectionMark, ParticleMark
+from derive.figures.positions import column_of
+from derive.figures.recognition import Link, angle_of_link, is_spring, moving_in, same
+from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, WayMark
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+
+ZERO = Integer(0)
+
+
+def turning_marks(system: System, link: Link, mass: Any) -> Iterable[Mark]:
+    """A particle on the way that holds it, and how that way lies."""
+    start, end = column_of(link.start), column_of(link.end)
+    rows = len(link.start.components)
+    yield ParticleMark(end, label=mass)
+    yield from angle_marks(system, link)
+    moving = moving_in(system, *link.way.components)
+    around = [q for q in system.coordinates if q in moving and system.coordinates[q] == "angle"]
+    if link.is_constant and TIME in moving and around:
+        yield WayMark(end, around[0], -pi, pi, "wire")
+        yield ConnectionMark(start, end, label=link.length)
+    elif link.is_constant:
+        yield BarMark(start, end, label=link.length)
+        if not any(same(link.start, particle.at) for particle in system.particles):
+            yield FixedEnd(start, downwards(rows), True)
+            yield from _shaken(system, link.start)
+    elif _has_spring(system, link):
+        up = ImmutableDenseMatrix([-link.way.components[1], link.way.components[0]]) if rows == 2 else None
+        yield DistanceMark(start, end, up, COIL + CLEAR, label=link.length)
+    else:
+        if TIME in moving and link.length.is_Symbol:
+            yield WayMark(end, link.length, ZERO, Rational(3, 2) * link.length, "wire")
+        yield ConnectionMark(start, end, label=link.length)
+        if not any(same(link.start, place) for each in system.between for place in (each.start, each.end)):
+            yield PointMark(start)
+
+
+def downwards(rows: int) -> ImmutableDenseMatrix:
+    return ImmutableDenseMatrix([0] * (rows - 1) + [-1])
+
+
+def angle_marks(system: System, link: Link) -> Iterable[Mark]:
+    """The angle of a way with a fixed direction, and in space that of what is seen of it from above."""
+    turned = angle_of_link(system, link)
+    if turned is not None:
+        angle, zero = turned
+        yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
+    if len(link.way.components) == 3:
+        yield from _round_the_vertical(system, link)
+
+
+def _has_spring(system: System, link: Link) -> bool:
+    return any(
+        is_spring(each) and same(a, link.start) and same(b, link.end)
+        for each in system.between
+        for a, b in ((each.start, each.end), (each.end, each.start))
+    )
+
+
+def _shaken(system: System, support: Location) -> Iterable[Mark]:
+    """How far a support has moved, where it does so along one of the axes."""
+    moving = moving_in(system, *support.components)
+    rest = Location(tuple(_terms_without(c, moving) for c in support.components))
+    moved = [c for c in (support - rest).components if c != 0]
+    if len(rest.components) == 2 and len(moved) == 1:
+        side = [0, 1] if (support - rest).components[0] != 0 else [-1, 0]
+        yield DistanceMark(column_of(rest), column_of(support), ImmutableDenseMatrix(side), 18.0, label=moved[0])
+
+
+def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
+    """The angle of what is seen from above, or the axis round which it is carried at a given rate."""
+    x, y, _ = link.way.components
+    angles = sorted({f.args[0] for c in (x, y) for f in c.atoms(sin, cos)}, key=str)
+    start, level = column_of(link.start), ImmutableDenseMatrix([x, y, 0])
+    for angle in angles:
+        if not vanishes(x * sin(angle) - y * cos(angle)):
+            continue
+        rate = diff(angle, TIME)
+        if rate != 0:
+            yield AxisOfRotation(start, ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)
+        elif moving_in(system, angle):
+            yield ConnectionMark(start, start + level)
+            yield ConnectionMark(start + level, column_of(link.end))
+            yield AngleBetween(start, ImmutableDenseMatrix([1, 0, 0]), level, True, label=angle)
+        return
+
+
+def _terms_without(value: Expr, letters: set[Symbol]) -> Expr:
+    return Add(*(term for term in Add.make_args(value) if not term.free_symbols & letters))
