@@ -6,14 +6,15 @@ from itertools import combinations
 from math import isclose
 
 import pytest
-from sympy import Rational, sqrt
+from sympy import Matrix, Rational, sqrt
 
-from derive.algebra.expressions import column
+from derive.algebra.expressions import TIME, column
 from derive.errors import Rejected
-from derive.figures import arrow, drawing, outline
+from derive.figures import arrow, drawing, outline, particle
 from derive.figures.space import dot, size_of, unit
-from derive.mechanics import Cuboid
-from derive.render.drawing.camera import Numbers, stance_from, stand_ins
+from derive.mechanics import Cuboid, coordinate, point
+from derive.render.drawing.camera import Numbers, stance_from, stand_ins, with_coordinates
+from derive.steps.record import recorded
 from tests.figures.scenery import M, a, heading, pieces_of, strokes
 from tests.mechanics.block import b, c
 
@@ -50,3 +51,24 @@ def test_a_view_is_chosen_in_which_the_angle_is_open() -> None:
     box = outline(Cuboid((a, a, a), M), named=False)
     first, second = strokes(pieces_of(drawing("one", box, arrow(one), arrow(other))), "asked")
     assert abs(heading(first) - heading(second)) > 20
+
+
+def test_a_coordinate_that_is_a_length_is_drawn_in_terms_of_the_lengths_that_are_given() -> None:
+    with recorded():
+        x, y = coordinate("x", "length"), coordinate("y", "length")
+        found = drawing("one", particle(point(x, y)), values={y: a / 4})
+    numbers = with_coordinates(found, {a: 2.0}, 2.0)
+    assert {letter.name: value for letter, value in numbers.items()} == {"a": 2.0, "x": 1.6, "y": 0.5}
+    own = with_coordinates(found, {a: 2.0, y.symbol: 9.0}, 2.0)
+    assert own[y.symbol] == 9.0
+
+
+def test_a_place_in_a_plane_has_no_depth_and_a_curve_runs_through_its_places() -> None:
+    numbers = Numbers({a: 3.0})
+    assert numbers.vector(Matrix([a, 1])) == (3.0, 1.0, 0.0)
+    curve = numbers.along(Matrix([b, a * b]), b, (0, a), 3)
+    assert curve == [(0.0, 0.0, 0.0), (1.0, 3.0, 0.0), (2.0, 6.0, 0.0), (3.0, 9.0, 0.0)]
+
+
+def test_the_time_has_a_number_while_it_is_drawn() -> None:
+    assert 0 < Numbers({}).of(TIME) < 1

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from itertools import combinations
-from math import hypot
+from math import cos, hypot, sin
 from typing import Any
 
 import pytest
 
 from derive.figures.marks import Drawing
-from derive.figures.pieces import Bullet, Stroke, Tag
+from derive.figures.pieces import Bullet, Patch, Stroke, Tag
 from derive.render.drawing.labels import Placed, placed
 from tests.figures.scenery import SCENES, pieces_of
 
@@ -86,3 +86,37 @@ def test_no_label_stands_on_another_and_every_label_is_near_what_it_names(found:
         x, y = tag.spot
         away = hypot(max(left - x, 0, x - right), max(below - y, 0, y - above))
         assert away < 25
+
+
+def test_a_label_on_what_it_names_moves_aside_for_a_line() -> None:
+    tag = Tag("a", (0.0, 0.0), (8.0, 0.0), on=True)
+    (still,) = labels(tag)
+    assert still.corner == (-still.extent[2], -still.extent[3])
+    (moved,) = labels(Stroke(((0.0, -9.0), (0.0, 9.0)), "edge"), tag)
+    assert abs(middle(moved)[0]) == 8.0
+
+
+def test_what_a_surface_hides_is_in_the_way_of_no_label() -> None:
+    line = Stroke(((0.0, -9.0), (0.0, 9.0)), "edge")
+    cover = Patch(((-20.0, -20.0), (20.0, -20.0), (20.0, 20.0), (-20.0, 20.0)))
+    tag = Tag("a", (0.0, 0.0), (8.0, 0.0), on=True)
+    assert labels(line, cover, tag) == labels(tag)
+    assert labels(cover, line, tag) != labels(tag)
+
+
+@pytest.mark.parametrize("angle", [0.2, 0.8, 1.3, 2.4])
+def test_the_label_of_a_line_does_not_touch_it(angle: float) -> None:
+    end = 40 * cos(angle), 40 * sin(angle)
+    tag = Tag("a", (end[0] / 2, end[1] / 2), (-sin(angle), cos(angle)), 3.0, (end[0] / 2, end[1] / 2))
+    (label,) = labels(Stroke(((0.0, 0.0), end), "edge"), tag)
+    left, below, right, above = label.extent
+    corners = [(x, y) for x in (left, right) for y in (below, above)]
+    sides = [-x * sin(angle) + y * cos(angle) for x, y in corners]
+    assert min(sides) == pytest.approx(3.0)
+
+
+def test_the_label_of_a_line_slides_along_it_past_another_label() -> None:
+    line = Tag("a", (20.0, 0.0), (0.0, 1.0), 3.0, (20.0, 0.0))
+    blocked = [Tag("b", (20.0, y), (8.0, 0.0), on=True) for y in (6.0, -6.0)]
+    found = labels(*blocked, line)[-1]
+    assert abs((found.extent[0] + found.extent[2]) / 2 - 20.0) > 3

@@ -12,6 +12,7 @@ from derive.render.notation.latex import latex
 from derive.render.notation.layout import Layout, Name, Row
 
 _BOLD = re.compile(r"\\bm\{((?:[^{}]|\{[^{}]*\})*)\}")
+_FUNCTION = re.compile(r"([\w})])\s*(\\(?:sin|cos|tan|log|exp)\b)")  # before which it leaves no space
 _UNKNOWN = {r"\tfrac": r"\frac", r"\lvert ": "|", r"\rvert ": "|", r"\mathopen{}": "", r"\!": "", r"\ ": r"\,"}
 
 
@@ -48,6 +49,7 @@ def _plain(items: list[Layout]) -> list[Span]:
 
 def _mathtext(layout: Layout) -> str:
     text = _BOLD.sub(r"\1", latex(layout))
+    text = _FUNCTION.sub(r"\1\\,\2", text)
     for unknown, known in _UNKNOWN.items():
         text = text.replace(unknown, known)
     return f"${text}$"

@@ -11,16 +11,21 @@ from derive.render.drawing.camera import Numbers, best_stance
 from derive.render.drawing.hidden_lines import OnPaper
 
 POINTS_PER_CM = 72 / 2.54
+TRIES = 12  # to find the scale
+SMALLEST = 15.0  # points, where parts of a fixed size leave no room
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     """The pieces in points; lines without labels fit into width x height, in centimetres."""
     paper = _paper(drawing, numbers)
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
-    for _ in range(3):  # dimension lines stand aside by points, so the size of the whole is not in proportion
+    for _ in range(TRIES):  # what has a size in points makes the size of the whole not quite proportional
         spots = [spot for piece in _pieces(drawing, paper) for spot in piece.spots]
         wide, high = (max(s[k] for s in spots) - min(s[k] for s in spots) for k in (0, 1))
-        paper = replace(paper, scale=paper.scale * min(room[0] / max(wide, 1e-9), room[1] / max(high, 1e-9)))
+        ratio = min(room[0] / max(wide, 1e-9), room[1] / max(high, 1e-9))
+        paper = replace(paper, scale=max(paper.scale * ratio, SMALLEST / paper.reach))
+        if abs(ratio - 1) < 1e-3:
+            break
     return _pieces(drawing, paper)
 
 

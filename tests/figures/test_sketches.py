@@ -1,0 +1,88 @@
+"""Sketches of whole systems: all that they have is drawn and told, and nothing fails, whatever the system."""
+
+from __future__ import annotations
+
+import json
+from math import hypot
+
+import pytest
+
+from derive.figures import particle, sketch
+from derive.figures.annotations import Axis
+from derive.figures.encoding import drawings_from_data, drawings_to_data
+from derive.figures.marks import PLANE, SPACE
+from derive.figures.parts import ConnectionMark, ParticleMark, SpringMark
+from derive.figures.pieces import Stroke
+from derive.figures.surroundings import GravityMark, WayMark
+from derive.mechanics import point
+from derive.page.depiction import alternative
+from derive.page.wording import phrases
+from derive.render.drawing.canvas import sheet_of
+from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import inline_text
+from derive.steps.record import recorded
+from tests.courses import ROOT
+from tests.figures.machines import SKETCHES, SYSTEMS, a, at, labels, of, seen
+from tests.figures.scenery import strokes
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_particle_is_drawn_with_its_mass(name: str) -> None:
+    shown = {
+        str(mark.label) for mark in SKETCHES[name].marks if type(mark).__name__ not in {"SpringMark", "GravityMark"}
+    }
+    assert {str(particle.mass) for particle in SYSTEMS[name].particles} <= shown
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_sketch_is_in_its_room_told_in_words_and_kept(name: str) -> None:
+    found = SKETCHES[name]
+    assert found.view == (SPACE if name in {"hoop", "spherical", "bowl"} else PLANE)
+    lines = [spot for piece in seen(found) if isinstance(piece, Stroke) for spot in piece.spots]
+    assert max(x for x, _ in lines) - min(x for x, _ in lines) < 5.01 * 72 / 2.54
+    assert list(drawings_from_data(json.loads(json.dumps(drawings_to_data([found]))))) == [found]
+    told = inline_text(alternative(None, found, None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    assert told.endswith(".")
+
+
+@pytest.mark.parametrize("name", ["double", "coupled", "planet"])
+def test_a_sketch_can_be_written_as_a_sheet(name: str) -> None:
+    assert sheet_of(seen(SKETCHES[name]), Notation(), "").width > 50
+
+
+def test_gravity_is_drawn_where_there_is_weight() -> None:
+    assert labels(SKETCHES["pendulum"], GravityMark) == ["g"]
+    assert of(SKETCHES["planet"], GravityMark) == []
+
+
+def test_a_planet_moves_on_an_ellipse_about_what_attracts_it() -> None:
+    """A focus is where the force comes from: the distances from both foci to the ellipse add up to the same."""
+    found = SKETCHES["planet"]
+    pieces = seen(found)
+    orbit = max(strokes(pieces, "trace"), key=lambda stroke: len(stroke.spots))
+    sun = next(piece.spot for piece in pieces if type(piece).__name__ == "Bullet")  # type: ignore[union-attr]
+    xs = [x for x, _ in orbit.spots]
+    other = (min(xs) + max(xs) - sun[0], sun[1])
+    sums = [sum(hypot(x - f[0], y - f[1]) for f in (sun, other)) for x, y in orbit.spots]
+    assert max(sums) - min(sums) < 1e-6 * max(sums)
+    assert next(at(mark.at) for mark in of(found, ParticleMark)) == [0, 0]
+    assert labels(found, ConnectionMark) == ["r"]
+
+
+def test_a_free_particle_has_axes_named_after_its_coordinates() -> None:
+    assert labels(SKETCHES["free"], Axis) == ["x", "y"]
+
+
+def test_a_bead_with_one_coordinate_is_on_the_curve_of_its_place() -> None:
+    assert [mark.pen for mark in of(SKETCHES["parabola"], WayMark)] == ["wire"]
+    assert [mark.pen for mark in of(SKETCHES["bowl"], WayMark)] == ["trace", "trace"]
+    assert [mark.pen for mark in of(SKETCHES["bent"], WayMark)] == ["wire"]
+
+
+def test_further_marks_and_numbers_can_be_added() -> None:
+    with recorded():
+        x = next(iter(SYSTEMS["coupled"].coordinates))
+        found = sketch("more", SYSTEMS["coupled"], particle(point(a, a), "P"), values={x: 0})
+    assert "P" in labels(found, ParticleMark)
+    assert dict(found.values)[x] == 0
+    assert len(of(found, SpringMark)) == 3
