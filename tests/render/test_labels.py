@@ -116,7 +116,7 @@ def test_the_label_of_a_line_does_not_touch_it(angle: float) -> None:
 
 
 def test_the_label_of_a_line_slides_along_it_past_another_label() -> None:
-    line = Tag("a", (20.0, 0.0), (0.0, 1.0), 3.0, (20.0, 0.0))
+    line = Tag("a", (20.0, 0.0), (0.0, 1.0), 3.0, (40.0, 0.0))
     blocked = [Tag("b", (20.0, y), (8.0, 0.0), on=True) for y in (6.0, -6.0)]
     found = labels(*blocked, line)[-1]
     assert abs((found.extent[0] + found.extent[2]) / 2 - 20.0) > 3
