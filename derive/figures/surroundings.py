@@ -58,7 +58,9 @@ class GroundMark(Surface):
         return hatched(a, b, solid)
 
     def in_words(self) -> InWords:
-        return "ground", {}
+        if self.solid[0] != 0:
+            return "wall", {}
+        return ("ground" if self.solid[-1] == -1 else "ceiling"), {}
 
 
 @dataclass(frozen=True)

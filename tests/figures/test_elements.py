@@ -16,6 +16,7 @@ from derive.figures import (
     block,
     bodies,
     cart,
+    ceiling,
     drawing,
     elements,
     fixed_end,
@@ -30,6 +31,7 @@ from derive.figures import (
     scenes,
     sketches,
     spring_mark,
+    wall,
     way,
     wedge,
     wheel,
@@ -57,19 +59,23 @@ def test_a_pendulum_is_told_in_words() -> None:
     theta = coordinate("theta")
     bob = hung(l, theta)
     found = drawing("one", pivot(ORIGIN), rod(ORIGIN, bob, l), angle_mark(ORIGIN, "down", bob, theta), particle(bob, m))
-    assert told(found) == ("A drawing in a vertical plane of a fixed pivot, a rod l, the angle θ and a particle m.")
+    assert told(found) == (
+        "A drawing in a vertical plane of a fixed pivot, a rod of length l, the angle θ and a particle m."
+    )
 
 
 def test_every_element_is_told_in_words_and_kept_as_data() -> None:
     disc = wheel(TOP, a)
     found = drawing(
         "all", cart(ORIGIN, M), block(TOP, m), spring_mark(ORIGIN, TOP, k), rope(ORIGIN, disc, point(1, 0), label=l),
-        disc, wedge(ORIGIN, TOP, point(1, 0)), floor(ORIGIN, TOP), fixed_end(TOP, ORIGIN), way(point(l, 0), l),
+        disc, wedge(ORIGIN, TOP, point(1, 0)), floor(ORIGIN, TOP), wall(ORIGIN, TOP),
+        ceiling(ORIGIN, TOP), fixed_end(TOP, ORIGIN), way(point(l, 0), l),
         gravity_mark(), length_mark(ORIGIN, TOP, a),
     )  # fmt: skip
     assert told(found) == (
         "A drawing in a vertical plane of a cart M, a block m, a spring k, a string l, a wheel, a wedge, hatched "
-        "ground, a fixed end, the dashed way of a place, an arrow g downwards and the length a."
+        "ground, a wall, a ceiling, a fixed end, the dashed way of a place, an arrow g downwards and "
+        "the length a."
     )
     assert list(drawings_from_data(json.loads(json.dumps(drawings_to_data([found]))))) == [found]
 
