@@ -6,24 +6,26 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from sympy import Add, Expr, ImmutableDenseMatrix, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Rational, sin, sqrt
 
 from derive.algebra.expressions import column
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import PointMark
+from derive.figures.annotations import PointMark, Support
 from derive.figures.bodies import is_line, round_outline
 from derive.figures.marks import Mark, Position, Surface
 from derive.figures.parts import BarMark, WheelMark
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, is_fixed, moving_in
+from derive.figures.recognition import Link, is_fixed, moving_in, track_of
 from derive.figures.space import Vector, hull
 from derive.figures.surfaces import Polyhedron
-from derive.figures.surroundings import FixedEnd
+from derive.figures.surroundings import AngleBetween, FixedEnd, GroundMark
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.body import EdgedBody, RoundBody
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import System
+
+FAR = Rational(8, 5)  # how much of a line is drawn, in terms of the coordinate
 
 
 @dataclass(frozen=True)
@@ -49,17 +51,55 @@ class ThickBar(BarMark):
 
 
 def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
-    """The outline of a body of a system, the pivot that holds it, the angle by which it is turned."""
-    yield from placed_outline(placed)
+    """The outline of a body of a system, what it is held by or rolls on, the angle by which it is turned."""
+    outline = placed_outline(placed)
+    yield from outline
     centre: Location = placed.centre
-    rows = len(centre.components)
-    square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
     yield PointMark(column_of(centre))
-    if square == 0 or moving_in(system, square):
-        return
+    in_space = len(centre.components) == 3
     if is_fixed(system, placed.at):
-        yield FixedEnd(column_of(placed.at), downwards(rows), True)
-    yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+        at = column_of(placed.at)
+        yield Support(at) if in_space else FixedEnd(at, downwards(2), True)
+    square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
+    if square != 0 and not moving_in(system, square):
+        yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+    elif not in_space and getattr(placed.turned, "is_Symbol", False):
+        yield from _own_angle(system, outline)
+    for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
+        yield from _ground_of(system, centre, wheel.radius)
+
+
+def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
+    """The angle of a bar at its lower end, of a disc at its centre."""
+    for mark in outline:
+        if isinstance(mark, ThickBar):
+            start, end = Location(tuple(mark.start)), Location(tuple(mark.end))
+        elif isinstance(mark, WheelMark):
+            start = Location(tuple(mark.centre))
+            end = start + mark.radius * Location(tuple(mark.pointer))
+        else:
+            continue
+        square = tidied(Add(*(c**2 for c in (end - start).components)))
+        yield from angle_marks(system, Link(start, end, sqrt(square), True))
+
+
+def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]:
+    """The line on which a disc rolls that moves along a straight line at rest, with the angle of a slope."""
+    track = track_of(system, centre)
+    if track is None or not track.is_unit or not is_fixed(system, track.start) or track.way.components[0] == 0:
+        return
+    x, y = track.way.components
+    below = Location((y, -x)) if _in_units(x) > 0 else Location((-y, x))
+    foot = track.start + radius * below
+    far: Location = (FAR * track.by + radius) * track.way
+    near: Location = -radius * track.way
+    ends = foot + near, foot + far
+    yield GroundMark(column_of(ends[0]), column_of(ends[1]), column_of(below))
+    slope = [f.args[0] for f in y.atoms(sin)]
+    if slope and slope[0].is_Symbol:
+        low, high = ends if _in_units(y) > 0 else ends[::-1]
+        level = ImmutableDenseMatrix([(high - low).components[0], 0])
+        yield AngleBetween(column_of(low), level, column_of(high - low), True, label=slope[0])
 
 
 def placed_outline(placed: Any) -> list[Mark]:
@@ -99,4 +139,4 @@ def _measures(body: Any) -> tuple[tuple[str, Any], ...]:
 
 
 def _in_units(length: Expr) -> float:
-    return float(length.subs(dict.fromkeys(length.free_symbols, 1)))
+    return float(length.subs(dict.fromkeys(length.free_symbols, 1)).evalf())

@@ -158,9 +158,8 @@ def _angles(direction: Iterable[Expr]) -> list[Expr]:
 # --- straight lines --------------------------------------------------------------------------------------------------
 
 
-def track_of(system: System, index: int) -> Track | None:
-    """The line along which a particle moves by one length, the last that was named, in a fixed direction."""
-    place = system.particles[index].at
+def track_of(system: System, place: Location) -> Track | None:
+    """The line along which a place moves by one length, the last that was named, in a fixed direction."""
     for q in reversed(list(system.coordinates)):
         if system.coordinates[q] != "length":
             continue

@@ -40,7 +40,7 @@ class Sliding:
     def __init__(self, system: System, links: Mapping[int, Link]):
         self.system, self.links = system, links
         free = [i for i in range(len(system.particles)) if i not in links]
-        tracks = {i: track for i in free if (track := track_of(system, i)) is not None}
+        tracks = {i: track for i in free if (track := track_of(system, system.particles[i].at)) is not None}
         self.carriers = {i: carrier_of(system, i, track) for i, track in tracks.items()}
         self.tracks = {i: track for i, track in tracks.items() if self._is_held(track, self.carriers[i])}
         self.ropes = ropes_of({i: track for i, track in self.tracks.items() if is_fixed(system, track.start)})

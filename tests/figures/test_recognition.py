@@ -102,21 +102,21 @@ def test_a_way_of_two_angles_that_do_not_add_has_none() -> None:
 
 
 def test_a_line_begins_where_its_coordinate_is_zero() -> None:
-    track = track_of(SYSTEMS["incline"], 0)
+    track = track_of(SYSTEMS["incline"], SYSTEMS["incline"].particles[0].at)
     assert track is not None
     assert (track.start, track.way, track.is_unit) == (ORIGIN, point(cos(alpha), -sin(alpha)), True)
-    assert track_of(SYSTEMS["parabola"], 0) is None
-    assert track_of(SYSTEMS["pendulum"], 0) is None
+    assert track_of(SYSTEMS["parabola"], SYSTEMS["parabola"].particles[0].at) is None
+    assert track_of(SYSTEMS["pendulum"], SYSTEMS["pendulum"].particles[0].at) is None
 
 
 def test_the_foot_of_a_line_is_its_place_nearest_to_the_origin() -> None:
-    track = track_of(SYSTEMS["atwood"], 1)
+    track = track_of(SYSTEMS["atwood"], SYSTEMS["atwood"].particles[1].at)
     assert track is not None
     assert track.foot == point(R, 0)
 
 
 def test_a_block_on_a_wedge_is_carried_by_it() -> None:
-    track = track_of(SYSTEMS["wedge"], 1)
+    track = track_of(SYSTEMS["wedge"], SYSTEMS["wedge"].particles[1].at)
     assert track is not None
     assert str(track.by) == "s"
     assert carrier_of(SYSTEMS["wedge"], 1, track) == 0
@@ -126,7 +126,7 @@ def test_a_block_on_a_wedge_is_carried_by_it() -> None:
 @pytest.mark.parametrize(("name", "count"), [("atwood", 1), ("one_line", 1), ("table", 1), ("roof", 1), ("coupled", 0)])
 def test_a_string_is_where_one_gains_what_the_other_loses(name: str, count: int) -> None:
     system = SYSTEMS[name]
-    tracks = {i: track for i in range(2) if (track := track_of(system, i)) is not None}
+    tracks = {i: track for i in range(2) if (track := track_of(system, system.particles[i].at)) is not None}
     assert len(ropes_of(tracks)) == count
 
 
@@ -134,7 +134,7 @@ def test_two_that_move_alike_are_on_no_string() -> None:
     with recorded():
         x = coordinate("x", "length")
         system = System(Particle(m, point(x, 0)), Particle(m, point(a + x, 0)))
-    tracks = {i: track for i in range(2) if (track := track_of(system, i)) is not None}
+    tracks = {i: track for i in range(2) if (track := track_of(system, system.particles[i].at)) is not None}
     assert ropes_of(tracks) == []
 
 
