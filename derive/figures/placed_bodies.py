@@ -57,10 +57,10 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     centre: Location = placed.centre
     yield PointMark(column_of(centre))
     in_space = len(centre.components) == 3
-    if is_fixed(system, placed.at):
+    square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
+    if square != 0 and is_fixed(system, placed.at):
         at = column_of(placed.at)
         yield Support(at) if in_space else FixedEnd(at, downwards(2), True)
-    square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
     if square != 0 and not moving_in(system, square):
         yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
     elif not in_space and getattr(placed.turned, "is_Symbol", False):
@@ -122,12 +122,12 @@ def placed_outline(placed: Any) -> list[Mark]:
         return []
     (lower, upper), origin = body.ends, at(0, 0, 0)
     if is_line(body):
-        return [ThickBar(at(0, 0, lower), at(0, 0, upper), **words)]
+        return [ThickBar(at(0, 0, lower), at(0, 0, upper), label=upper - lower, **words)]
     if len(origin) == 3:
         return [round_outline(body, origin, at(0, 0, 1) - origin)]
     if placed.across == 2:
         widest = max((body.radius_at(z) for z in (lower, upper, (lower + upper) / 2)), key=_in_units)
-        return [WheelMark(origin, widest, at(1, 0, 0) - origin, **words)]
+        return [WheelMark(origin, widest, at(1, 0, 0) - origin, label=widest, **words)]
     heights = [lower + (upper - lower) * k / 24 for k in range(25)]
     sides = [(side * body.radius_at(z), z) for z in heights for side in (-1, 1)]
     corners = tuple(at(0, r, z) if placed.across == 0 else at(r, 0, z) for r, z in sides)

@@ -58,9 +58,9 @@ class GroundMark(Surface):
         return hatched(a, b, solid)
 
     def in_words(self) -> InWords:
-        if self.solid[0] != 0:
+        if self.solid[-1] == 0:
             return "wall", {}
-        return ("ground" if self.solid[-1] == -1 else "ceiling"), {}
+        return ("ceiling" if self.solid[-1] == 1 else "ground"), {}
 
 
 @dataclass(frozen=True)
