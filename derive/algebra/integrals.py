@@ -1,6 +1,7 @@
 """Definite integrals of the few kinds that solids need, done exactly and at once.
 
-    powers              x^n
+    powers              x^q, 1/x among them
+    with powers         x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
     sines and cosines   sin(m x), cos(n x) and their products, over any limits
     chords              y^m (w^2 - y^2)^(k/2) from -w to w: what a disc of radius w gives in Cartesian coordinates
 
@@ -12,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Add, Expr, Integer, Mul, Poly, Pow, Rational, Symbol, cos, pi, sin
+from sympy import Add, Expr, Integer, Mul, Poly, Pow, Rational, Symbol, cos, exp, log, pi, sin
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR8
 
 Limits = Sequence[tuple[Symbol, Expr, Expr]]
 HALF = Rational(1, 2)
+MOST_PARTS = 12  # the power beyond which nothing is integrated by parts
 
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
@@ -54,7 +56,31 @@ def _antiderivative_of_term(term: Expr, x: Symbol) -> Expr | None:
         if rate != 0 and not rate.has(x):
             whole = -cos(inside.args[0]) if isinstance(inside, sin) else sin(inside.args[0])
             return outside * whole / rate
-    return None
+    if power[0] == 1 and power[1].is_Rational:
+        return outside * (log(x) if power[1] == -1 else x ** (power[1] + 1) / (power[1] + 1))
+    by_parts = _powers_by_parts(inside, x)
+    return None if by_parts is None else outside * by_parts
+
+
+def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:
+    """Of x^n f(m x + c), f a sine, a cosine or an exponential."""
+    f, n = inside, 0
+    for part in Mul.make_args(inside):
+        base, exponent = part.as_base_exp()
+        if base == x and exponent.is_Integer and exponent > 0:
+            n, f = int(exponent), inside / part
+    if not isinstance(f, sin | cos | exp) or n > MOST_PARTS:
+        return None
+    rate = f.args[0].diff(x)
+    return None if rate == 0 or rate.has(x) else _by_parts(n, f, x, rate)
+
+
+def _by_parts(n: int, f: Expr, x: Symbol, rate: Expr) -> Expr:
+    """x^n F less the integral of n x^(n-1) F, F the antiderivative of f."""
+    angle = f.args[0]
+    sign, other = (-cos(angle) if isinstance(f, sin) else sin(angle) if isinstance(f, cos) else f).as_coeff_Mul()
+    first = x**n * sign * other / rate
+    return first if n == 0 else first - n * sign / rate * _by_parts(n - 1, other, x, rate)
 
 
 def _term(term: Expr, x: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:

@@ -173,9 +173,10 @@ def common_factor(entries: list[Expr]) -> Expr:
     except PolynomialError:
         return Integer(1)
     top = factor(top)
+    if all(_leads_negative(entry) for entry in present):
+        top = -top
     roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))
-    common = top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
-    return -common if all(_leads_negative(entry) for entry in present) else common
+    return top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
 
 
 def _numeric_roots(expr: Expr) -> set[Expr]:

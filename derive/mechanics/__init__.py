@@ -10,6 +10,10 @@ import derive.mechanics.outcomes.told  # noqa: F401  and what else its sentence 
 from derive.algebra.direction import Direction as Direction
 from derive.mechanics.arguments import checked
 from derive.mechanics.bodies.body import *
+from derive.mechanics.bodies.flat_shapes import *
+from derive.mechanics.bodies.general import *
+from derive.mechanics.bodies.hollow_shapes import *
+from derive.mechanics.bodies.solid_shapes import *
 from derive.mechanics.bodies.solids import *
 from derive.mechanics.bodies.thin_bodies import *
 from derive.mechanics.equations.conditions import *
@@ -34,9 +38,11 @@ from derive.mechanics.equations.stability import *
 from derive.mechanics.equations.substitution import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
+from derive.mechanics.rotation.assembly import *
 from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
+from derive.mechanics.rotation.tensors import *
 from derive.mechanics.rotation.vectors import *
 from derive.mechanics.systems.brackets import *
 from derive.mechanics.systems.canonical import *

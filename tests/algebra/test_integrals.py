@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Integer, Integral, Rational, cos, integrate, nan, pi, simplify, sin, sqrt, symbols
+from sympy import Integer, Integral, Rational, cos, exp, integrate, nan, pi, simplify, sin, sqrt, symbols
 
 from derive.algebra.expressions import explicit
 from derive.algebra.integrals import antiderivative, definite, sine_and_cosine_integral
@@ -52,3 +52,16 @@ def test_a_radius_that_may_be_negative_gives_no_value() -> None:
     limits = [(y, -r, r), (z, Integer(0), 2 * h)]
     assert definite(sqrt(r**2 - y**2), limits) is None
     assert explicit(Integral(sqrt(r**2 - y**2), *limits)) is nan
+
+
+@pytest.mark.parametrize(
+    "value",
+    [x**3 * sin(2 * x), x**2 * cos(3 * x + 1), x**4 * exp(-x / 2), x * exp(x), 1 / x, x ** Rational(3, 2), x**-3],
+)
+def test_powers_with_a_sine_or_an_exponential_are_integrated_by_parts(value: Any) -> None:
+    assert (antiderivative(value, x).diff(x) - value).expand() == 0
+
+
+def test_what_has_no_simple_antiderivative_gives_none() -> None:
+    assert antiderivative(exp(-(x**2)), x) is None
+    assert antiderivative(x ** Rational(1, 2) * exp(x), x) is None

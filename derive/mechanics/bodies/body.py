@@ -6,7 +6,6 @@ at the corner from which they start; a body that is round has its axis of symmet
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, reduce
@@ -23,6 +22,7 @@ from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
+from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Level, Quantity, compared_with
@@ -54,6 +54,7 @@ class Body:
     reference: ClassVar[str] = "centre"  # the point where its own axes begin
     flat_across: ClassVar[str | None] = None  # the axis across which it is flat, if it is
     called: str = ""  # what the page calls it where there are others, "upper rod"
+    is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
     is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
 
@@ -62,12 +63,17 @@ class Body:
 
         called   "upper rod": keys begin with `upper_rod_`, letters have the index `upper`
         """
-        if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
-            help_line = 'give one or two words in small letters, "upper rod"'
-            raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))
         twin = replace(self)  # type: ignore[type-var]
-        object.__setattr__(twin, "called", called)
+        object.__setattr__(twin, "called", name_of_body(called))
         return twin
+
+    def at(self, *place: Any, of: str = "centre") -> PlacedPart:
+        """It as a part of another body, with one of its points at a place, (x, y), (x, y, z) or what `point` gives."""
+        return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
+
+    def turned(self, axis: Any, angle: Any) -> PlacedPart:
+        """It as a part of another body, turned right-handed by an angle about "x", "y" or "z", through its centre."""
+        return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def points(self) -> Mapping[str, Point]:
         """The points that it has by name, apart from its centre of mass."""
@@ -162,6 +168,18 @@ class Body:
             raise Rejected(Complaint("no-such-axis", message, help=f"use {', '.join(known[:-1])} or {known[-1]}"))
         along = named[axis.name] if axis.name is not None else column(*(axis.components or ()))
         return axis_vector(self, along, axis.name or "components", symbol, key)
+
+    def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity | None:
+        """Its centre of mass from a point, where it is not found by one integral over a region."""
+        return None
+
+    def derived_tensor(self, point: Point, symbol: str, key: str) -> Quantity | None:
+        """Its inertia tensor about a point, where that is found in a way of its own."""
+        return None
+
+    def derived_moment(self, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
+        """Its moment of inertia about an axis through a point, where that is found in a way of its own."""
+        return None
 
     def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
         return {name: column(*(int(name == other) for other in "xyz")) for name in "xyz"}
@@ -357,6 +375,9 @@ def centre_of_mass(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
     start = body.point(origin or body.reference)
+    in_its_way = body.derived_centre(start, symbol, key)
+    if in_its_way is not None:
+        return in_its_way
     region = body.within(start, coordinates)
     rho = body.density
     whole = region.with_section_put_in().mass_integral(vector("r"), rho.symbol)
@@ -390,6 +411,8 @@ def centre_of_mass(
 
 def _is_its_own_image(body: Body) -> bool:
     """Whether each particle has its like on the other side of the centre."""
+    if body.is_lopsided:
+        return False
     centre = body.middle.position
     seen = {(m, ImmutableDenseMatrix((r - centre).expand())) for m, r in body.particles()}
     return all((m, -r) in seen for m, r in seen)

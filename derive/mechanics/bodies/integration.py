@@ -43,10 +43,12 @@ class Nested:
         return _wrapped(self._parts(len(self.limits)), self.limits, Integer(1))
 
     def with_bracket(self) -> Expr:
-        """The innermost antiderivative between its limits."""
+        """The innermost antiderivative between its limits; the integral as it stands where only its value is known."""
         x, lower, upper = self.innermost
         *outside, own = self._parts(len(self.limits))
         whole = antiderivative(own, x)
+        if whole is None:
+            return self.written()
         return _wrapped(outside, self.limits[:-1], Bracket(whole, x, lower, upper))
 
     def carried_out(self) -> Nested | Expr:

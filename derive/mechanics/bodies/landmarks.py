@@ -19,6 +19,8 @@ from derive.steps.step import is_zero
 def is_where_named(body: Any, point: Point) -> bool:
     """Whether a point is where its name says; its axes are right-handed in any case."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
+    if point.name == "centre":
+        return upright and _is_centre(body, point.position)
     test = _TESTS.get(point.name)
     if not upright or test is None:
         return upright
@@ -33,7 +35,7 @@ def _is_corner(body: Any, region: Region, at: Any) -> bool:
     )
 
 
-def _is_centre(body: Any, region: Region, at: Any) -> bool:
+def _is_centre(body: Any, at: Any) -> bool:
     return is_zero(body.over_mass(lambda r: r, Point("origin", column(0, 0, 0))) - body.mass * at)
 
 
@@ -64,7 +66,6 @@ def _is_on_rim(body: Any, region: Region, at: Any) -> bool:
 _TESTS: dict[str, Callable[[Any, Region, Any], bool]] = {
     "corner": _is_corner,
     "end": _is_corner,
-    "centre": _is_centre,
     "apex": _is_apex,
     "base": _is_base,
     "rim": _is_on_rim,

@@ -85,6 +85,7 @@ def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]
     """Names of coordinates that no given letter looks like: r, or else s."""
     letters = {letter.name for letter in taken}
     others = {"x": "xi", "y": "eta", "z": "zeta", "r": "s", "theta": "phi", "u": "w"}
+    others |= {"phi": "chi", "s": "q", "v": "nu"}
     found = [others[name] if name in letters else name for name in names]
     return [scalar(name) for name in found]
 

@@ -25,6 +25,7 @@ from derive.algebra.expressions import (
     tensor,
     vector,
 )
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
@@ -63,9 +64,12 @@ def inertia_tensor(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     point = body.point(about)
-    region = body.within(point, coordinates)
     name = symbol or ("I" if about == "centre" else "J")
     key = key or "inertia_tensor"
+    in_its_way = body.derived_tensor(point, name, key)
+    if in_its_way is not None:
+        return in_its_way
+    region = body.within(point, coordinates)
     by_definition = _definition(body, point, region, name, key)
     pairs = pairs_left_by_symmetry(body, point)
     entries = {pair: _entry_by_integration(body, point, region, name, key, pair, by_definition) for pair in pairs}
@@ -83,10 +87,15 @@ def inertia_tensor(
         kind="moment of inertia",
         lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(point)],
-        telling=Telling(words={"about": point.name}),
+        telling=Telling(words={"about": point.name, **_edged(body)}),
         key=key,
         scope=Scope(about=Subject(body=body, point=point)),
     )
+
+
+def _edged(body: Body) -> dict[str, str]:
+    """Whether its axes are along edges, which start from a corner."""
+    return {"edged": "corner"} if body.reference == "corner" else {}
 
 
 def moment_of_inertia(
@@ -102,6 +111,9 @@ def moment_of_inertia(
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
     point, i = body.point(about), "xyz".index(axis)
+    in_its_way = body.derived_moment(axis, point, symbol, key)
+    if in_its_way is not None:
+        return in_its_way
     region, rho = body.within(point, None), body.density
     weight = entry_weight(region, (i, i))
     return establish(
@@ -223,6 +235,8 @@ def _without_angles(weight: Expr) -> Expr:
         lambda e: e.is_Pow and isinstance(e.base, cos) and e.exp == 2, lambda e: 1 - sin(e.base.args[0]) ** 2
     )
     plain = plain.expand()
+    term_by_term = tidied(weight).replace(lambda e: e.is_Add, tidied)
+    weight = min((weight, term_by_term), key=lambda form: form.count_ops())
     return weight if plain.atoms(sin, cos) else plain
 
 
@@ -305,7 +319,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
         parents=[body.density],
         lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(there)],
-        telling=Telling(words={"about": "centre", "start": start.name}),
+        telling=Telling(words={"about": "centre", "start": start.name, **_edged(body)}),
         key=key,
         scope=Scope(about=Subject(body=body, point=there)),
     )
@@ -368,7 +382,10 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     outward = target == other
     sign = 1 if outward else -1
     is_round = pairs_left_by_symmetry(body, other) == ROUND
-    entry = next(parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}"))
+    entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
+    if entry is None:
+        message = f"the entries of `{there.key}` are no steps of their own"
+        raise Rejected(Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` finds it elsewhere'))
     # From a point of the axis of a round body, the distance along the axis is all there is.
     apart = [k for k in range(3) if k != i and not (is_round and centre.value[k] == 0)]
 

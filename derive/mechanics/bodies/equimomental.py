@@ -1,0 +1,100 @@
+"""Particles that stand for bodies, with their mass, centre of mass and second moments, found by no integral.
+
+Slices weighed by a rule that is exact for their powers; or particles made from the second moments themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Rational, cancel, sqrt
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import column
+from derive.algebra.tidy import tidied
+from derive.steps.step import is_zero
+
+Particles = list[tuple[Expr, ImmutableMatrix]]
+
+# Places along a unit length with their weights: Simpson's rule is exact up to cubes, Boole's up to fifth powers.
+SIMPSON = ((Integer(0), Rational(1, 6)), (Rational(1, 2), Rational(2, 3)), (Integer(1), Rational(1, 6)))
+BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12, 32, 7)))
+
+
+def disc_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
+    """A disc across the z axis: half of its mass at its centre and an eighth at each end of two diameters."""
+    return [(mass / 2, column(0, 0, height)), *ring_of_particles(mass / 2, radius, height)]
+
+
+def ring_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
+    """A ring across the z axis: a quarter of its mass at each end of two diameters."""
+    rim = ((radius, 0), (-radius, 0), (0, radius), (0, -radius))
+    return [(mass / 4, column(x, y, height)) for x, y in rim]
+
+
+def sliced(
+    mass: Expr,
+    ends: tuple[Expr, Expr],
+    radius: Callable[[Expr], Expr],
+    weight: Callable[[Expr], Expr],
+    slice_of: Callable[[Expr, Expr, Expr], Particles] = disc_of_particles,
+) -> Particles:
+    """Slices across the z axis at the places of Boole's rule, with masses as the weight of each.
+
+    radius   of the slice at z
+    weight   its mass per length, but for a factor: of a solid the squared radius
+    """
+    low, high = ends
+    at = [(low + part * (high - low), share) for part, share in BOOLE]
+    total = sum((share * weight(z) for z, share in at), Integer(0))
+    found: Particles = []
+    for z, share in at:
+        part = cancel(mass * share * weight(z) / total)
+        if part != 0:
+            found += slice_of(part, radius(z), z)
+    return found
+
+
+def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
+    """What is spread evenly along z from a thin body across it: Simpson's rule, exact for squares."""
+    low, high = ends
+    return [
+        (share * mass, column(place[0], place[1], low + part * (high - low)))
+        for part, share in SIMPSON
+        for mass, place in flat
+    ]
+
+
+def stretched(particles: Iterable[tuple[Expr, ImmutableMatrix]], by: tuple[Expr, Expr, Expr]) -> Particles:
+    """The same particles where lengths along each axis are so many times as large."""
+    return [(mass, column(*(x * s for x, s in zip(place, by, strict=True)))) for mass, place in particles]
+
+
+def without(whole: Particles, removed: Particles) -> Particles:
+    """What is left of a body: that which is taken out has negative mass."""
+    return [*whole, *((-mass, place) for mass, place in removed)]
+
+
+def from_moments(mass: Expr, centre: ImmutableMatrix, second: ImmutableMatrix) -> Particles:
+    """Pairs of particles about the centre of mass with given second moments, S_ij = sum of m x_i x_j about the centre.
+
+    With S = sum of D_k l_k l_k^T, each l_k from a Cholesky decomposition, a pair of mass D_k/L^2 is at +-L l_k, where
+    L^2 is the trace of S over the mass; what mass is left is at the centre, and is never negative.
+    Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
+    """
+    left = Matrix(second)
+    trace = tidied(left.trace())
+    if is_zero(trace):
+        return [(mass, ImmutableDenseMatrix(centre))]
+    reach, found, spent = sqrt(trace / mass), [], Integer(0)
+    for k in range(3):
+        pivot = left[k, k]
+        if is_zero(pivot):
+            continue
+        along = (left[:, k] / pivot).applyfunc(tidied)
+        left = (left - pivot * along * along.T).applyfunc(tidied)
+        share = tidied(mass * pivot / trace)
+        spent += share
+        found += [(share / 2, ImmutableDenseMatrix(centre + sign * reach * along)) for sign in (1, -1)]
+    rest = tidied(mass - spent)
+    return found if rest == 0 else [*found, (rest, ImmutableDenseMatrix(centre))]

@@ -1,0 +1,440 @@
+"""Any body: where its points are, as formulas in variables between limits; its cells, its mass, its centre of mass.
+
+A curve has one variable, a surface two, a solid three. What is spread over them is uniform, or a density that is a
+formula in the same variables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from copy import copy
+from functools import cached_property
+from typing import Any, ClassVar, Self
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Symbol, cos, diff, nan, oo, sin, zoo
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import (
+    Cross,
+    Dot,
+    Factors,
+    Norm,
+    Ratio,
+    column,
+    component_names,
+    scalar,
+    vector,
+)
+from derive.algebra.integrals import definite
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import Particles, density
+from derive.mechanics.bodies.equimomental import from_moments
+from derive.mechanics.bodies.facts import CountedFrom
+from derive.mechanics.bodies.general_tensor import Integrated
+from derive.mechanics.bodies.integration import worked_integral
+from derive.mechanics.bodies.mapping import Mapped, cell, checked_limits, inside, tangents_of
+from derive.mechanics.bodies.parts import name_of_body
+from derive.mechanics.bodies.quadrature import agrees
+from derive.mechanics.bodies.regions import Bounds, Point, Region
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Form, Level, Quantity, is_zero
+from derive.steps.subject import Subject
+
+__all__ = [
+    "Sheet",
+    "Solid",
+    "Wire",
+    "cell_of",
+    "mass_by_integration",
+    "normalised_density",
+    "size_by_integration",
+    "variables",
+]
+
+ORIGIN = Point("origin", column(0, 0, 0))
+SIZES = {1: ("length", "l"), 2: ("area", "A"), 3: ("volume", "V")}
+FILLED = {1: "line density", 2: "surface density", 3: "density"}
+
+
+def variables(*names: str) -> tuple[Symbol, ...]:
+    """Letters for the variables of a body, real: `r, theta = variables("r", "theta")`."""
+    return tuple(scalar(name) for name in names)
+
+
+class GeneralBody(Integrated, Mapped):
+    """What any body has that is told by its position map."""
+
+    reference: ClassVar[str] = "origin"
+    count: ClassVar[int] = 3
+
+    def __init__(
+        self,
+        position: Sequence[Any],
+        limits: Mapping[Symbol, tuple[Any, Any]],
+        mass: Expr | None = None,
+        density: Expr | None = None,
+    ):
+        _check_map(type(self).__name__, self.count, position, limits, mass, density)
+        given = Integer(1) if density is None else Integer(0) + density
+        self._position, self._limits = checked_limits((*position, 0, 0)[:3], limits, set())
+        fresh = {u: scalar(u.name) for u in limits}
+        outside, self._profile = given.xreplace(fresh).as_independent(*fresh.values(), as_Add=False)
+        self.given_mass, self.given_density = mass, None if density is None else outside
+        next(inside(self._limits, looks=1))  # which says so, where the limits are never in order
+        self._mapped = cell(self._position, self._limits)
+        if self._mapped == 0:
+            message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
+            help_line = "a curve has one variable, a surface two, a solid three"
+            raise Rejected(Complaint("no-size", message, help=help_line))
+
+    def named(self, called: str) -> Self:
+        twin = copy(self)
+        for known in ("density", "centre", "extent", "mass", "_points_seen"):
+            twin.__dict__.pop(known, None)
+        twin.called = name_of_body(called)
+        return twin
+
+    @property
+    def is_uniform(self) -> bool:
+        return bool(self._profile == 1)
+
+    @property
+    def front(self) -> Expr:
+        """What stands before the integral of what varies, so that the whole is the density."""
+        return (
+            self.given_density if self.given_mass is None and self.given_density is not None else self.mass / self.size
+        )
+
+    @property
+    def profile(self) -> Expr:
+        """The density but for a constant, as a function of the variables."""
+        return self._profile
+
+    def map(self) -> tuple[ImmutableMatrix, Bounds]:
+        return self._position, self._limits
+
+    def region(self, point: Point, coordinates: str | None = None) -> Region:
+        """Its cells, each weighed by its share of the density."""
+        return Region(self._limits, point.seen(self._position), tidied(self._mapped * self._profile))
+
+    @property
+    def size(self) -> Expr:
+        """The integral over it of the density but for a constant: where that is uniform, its volume, area or length."""
+        return exact(self, self._profile * self._mapped, "size")
+
+    @cached_property
+    def extent(self) -> Expr | Quantity:
+        return size_by_integration(self) if self.is_uniform else self.size
+
+    @cached_property
+    def mass(self) -> Expr:
+        return self.given_mass if self.given_mass is not None else tidied(self.front * self.size)
+
+    @cached_property
+    def density(self) -> Quantity:
+        """The step that its density, or its mass, comes from."""
+        if self.given_mass is None:
+            return mass_by_integration(self)
+        return density(self) if self.is_uniform else normalised_density(self)
+
+    def points(self) -> Mapping[str, Point]:
+        return {"origin": ORIGIN}
+
+    @property
+    def flat_across(self) -> str | None:  # type: ignore[override]
+        """The axis along which it does not reach, if there is one; "x" of what is all on one of the others."""
+        return next((axis for axis, x in zip("xyz", self._position, strict=True) if x == 0), None)
+
+    @cached_property
+    def middle(self) -> Point:
+        first = [exact(self, x * self._profile * self._mapped, "centre") / self.size for x in self._position]
+        return Point("centre", ImmutableDenseMatrix(3, 1, [tidied(x) for x in first]))
+
+    def particles(self) -> Particles:
+        """Made of its moments, which are integrals: they check nothing that was integrated."""
+        return self._equimomental
+
+    @cached_property
+    def _equimomental(self) -> Particles:
+        centre = self.middle
+        r = centre.seen(self._position)
+        weight = self.mass / self.size * self._profile * self._mapped
+        second = ImmutableDenseMatrix(3, 3, lambda i, j: tidied(exact(self, weight * r[i] * r[j], "moments")))
+        return from_moments(self.mass, centre.position, second)
+
+    def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
+        return _centre_by_integration(self, start, symbol, key)
+
+
+class Wire(GeneralBody):
+    """Mass along a curve: `Wire((x, y, z), {u: (a, b)}, mass=M)`.
+
+    position   two or three formulas in the variable, lengths
+    limits     the variable with its lower and its upper limit
+    mass       mass; or
+    density    mass per length, a formula in the variable; with both it is what the density is proportional to
+    """
+
+    name: ClassVar[str] = "a wire"
+    filling: ClassVar[str] = "length"
+    count: ClassVar[int] = 1
+
+
+class Sheet(GeneralBody):
+    """Mass on a surface, flat or curved: `Sheet((x, y, z), {u: (a, b), v: (c, d)}, mass=M)`.
+
+    position   two or three formulas in the variables, lengths
+    limits     each variable with its lower and its upper limit, which may depend on those named before it
+    mass       mass; or
+    density    mass per area, a formula in the variables; with both it is what the density is proportional to
+    """
+
+    name: ClassVar[str] = "a sheet"
+    filling: ClassVar[str] = "area"
+    count: ClassVar[int] = 2
+
+
+class Solid(GeneralBody):
+    """Mass in a volume: `Solid((x, y, z), {u: (a, b), v: (c, d), w: (e, f)}, mass=M)`.
+
+    position   three formulas in the variables, lengths
+    limits     each variable with its lower and its upper limit, which may depend on those named before it
+    mass       mass; or
+    density    mass per volume, a formula in the variables; with both it is what the density is proportional to
+    """
+
+    name: ClassVar[str] = "a solid"
+    filling: ClassVar[str] = "volume"
+    count: ClassVar[int] = 3
+
+
+def _check_map(name: str, count: int, position: Any, limits: Any, mass: Any, density: Any) -> None:
+    if not isinstance(limits, Mapping) or len(limits) != count or not all(isinstance(u, Symbol) for u in limits):
+        what = {1: "one variable", 2: "two variables", 3: "three variables"}[count]
+        message = f"`{name}` needs {what} with its limits" if count == 1 else f"`{name}` needs {what} with their limits"
+        raise Rejected(Complaint("wrong-argument", message, help="write {u: (a, b), ...}, the outermost first"))
+    if not all(isinstance(ends, tuple | list) and len(ends) == 2 for ends in limits.values()):
+        raise Rejected(Complaint("wrong-argument", f"each variable of `{name}` needs a lower and an upper limit"))
+    if len(position) not in ({3} if count == 3 else {2, 3}):
+        raise Rejected(Complaint("wrong-argument", f"`{name}` needs a place as (x, y, z)"))
+    if mass is None and density is None:
+        raise Rejected(Complaint("no-mass", f"`{name}` needs a mass or a density", help="add `mass=` or `density=`"))
+
+
+def exact(body: GeneralBody, integrand: Expr, what: str) -> Expr:
+    """An integral over the variables, by what can be integrated term by term."""
+    _, limits = body.map()
+    found = definite(integrand, list(reversed(limits)))
+    if found is None or found.has(nan, zoo, oo):
+        message = f"an integral over {body.name} that its {what} needs has no antiderivative that is known here"
+        help_line = "choose variables in which it is made of powers, sines and cosines"
+        raise Rejected(Complaint("no-antiderivative", message, help=help_line))
+    return tidied(found)
+
+
+def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
+    """What a cell of the variables is in size: |r_u|^2 of a curve, |r_u x r_v|^2 of a surface, r_u . (r_v x r_w).
+
+    body   a body told by its position map
+    Second route: the squared distances of neighbouring points, of which the determinant is the square of the cell.
+    Outcomes: curve, surface, solid.
+    Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
+    """
+    position, limits = body.map()
+    names = [x for x, _, _ in limits]
+    tangents = tangents_of(position, names)
+    letters = [vector(f"r_{x.name}") for x in names]
+    n = len(names)
+
+    def size(*t: Any) -> Expr:
+        if n == 3:
+            return Dot(t[0], Cross(t[1], t[2]))
+        return Pow(Norm(t[0] if n == 1 else Cross(t[0], t[1])), 2)
+
+    size_now = cell(position, limits)
+    return establish(
+        "general.cell_of",
+        size(*letters),
+        lambda: size(*tangents),
+        {},
+        key=key,
+        routes={"chords": lambda found: (found**2 if n == 3 else found, _determinant_of_chords(position, names))},
+        outcome={1: "curve", 2: "surface", 3: "solid"}[n],
+        lines=Lines(put_in=None, means=dict(zip(letters, tangents, strict=True))),
+        telling=Telling(
+            formulas={
+                "cell": (size_now, size_now),
+                "place": (position, position),
+                **{f"u_{k}": (x, x) for k, x in enumerate(names)},
+            },
+            judged_by={"limits": limits},
+        ),
+        scope=Scope(about=Subject(body=body), coordinates=_variables_of(body)),
+    )
+
+
+def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
+    """Half the second derivatives of the squared chord to a neighbour, where the neighbour comes to the point."""
+    steps = [scalar(f"delta_{x.name}") for x in names]
+    moved = position.xreplace({x: x + s for x, s in zip(names, steps, strict=True)}) - position
+    chord = sum((x**2 for x in moved), Integer(0))
+    here = dict.fromkeys(steps, Integer(0))
+    entries = [[diff(chord, s, u).subs(here) / 2 for u in steps] for s in steps]
+    return ImmutableDenseMatrix(entries).det(method="berkowitz")
+
+
+def size_by_integration(body: GeneralBody) -> Quantity:
+    """Length, area or volume of a body, the integral of its cells.
+
+    body   a body told by its position map
+    Second route: the sum over cells in numbers, their sizes by the scalar products of their edges.
+    Outcomes: length, area, volume.
+    Source: Apostol, *Calculus*, volume 2, sections 11.3 and 12.5.
+    """
+    region = body.region(ORIGIN)
+    kind, letter = SIZES[body.count]
+    exact(body, region.element, kind)
+    return establish(
+        "general.size_by_integration",
+        Symbol(_free(body, letter, f"{letter}_0"), positive=True),
+        lambda: region.integral(Integer(1)),
+        {},
+        key=kind,
+        kind=kind,
+        parents=_cells(body),
+        routes={"quadrature": lambda found: agrees(found, [Integer(1)], *body.map())},
+        outcome=kind,
+        lines=Lines(between=worked_integral(region, Integer(1), Integer(1), Integer(1)), put_in=None),
+        scope=Scope(about=Subject(body=body)),
+    )
+
+
+def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
+    """Mass of a body of a given density, M = integral of the density over it.
+
+    body   a body told by its position map, and its density
+    Second route: the sum over cells in numbers, their sizes by the scalar products of their edges.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    region = body.region(ORIGIN)
+    front = body.front
+    return establish(
+        "general.mass_by_integration",
+        Symbol(_free(body, "M", "M_0"), positive=True),
+        lambda: Factors(front, region.integral(Integer(1))),
+        {},
+        key=key,
+        kind="mass",
+        parents=_cells(body),
+        routes={"quadrature": lambda found: agrees(found, [front * body.profile], *body.map())},
+        lines=Lines(between=_without_last(worked_integral(region, Integer(1), front, body.size)), put_in=None),
+        scope=Scope(about=Subject(body=body)),
+    )
+
+
+def _without_last(forms: list[Form]) -> list[Form]:
+    """The lines of an integral without the one that collects the mass, which is what is sought."""
+    return [form for form in forms if form.because != "mass_collected"]
+
+
+def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
+    """Density of a body of given mass that is proportional to a function of the place, rho = M p/(integral of p dV).
+
+    body   a body told by its position map, its mass, and what the density is proportional to
+    Second route: the sum of density times cell in numbers gives the mass back.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    region, p = body.region(ORIGIN), body.profile
+    return establish(
+        "general.normalised_density",
+        scalar(body.density_letter),
+        lambda mass: Factors(mass, Ratio(p, region.integral(Integer(1)))),
+        {"mass": body.mass},
+        key=key,
+        kind=FILLED[body.count],
+        parents=_cells(body),
+        routes={"mass_given_back": lambda rho: agrees(body.mass, [rho], *body.map())},
+        lines=Lines(put_in=None),
+        scope=Scope(about=Subject(body=body), coordinates=_variables_of(body)),
+        telling=Telling(formulas={"profile": (p, p)}),
+    )
+
+
+def _cells(body: GeneralBody) -> list[Quantity]:
+    """The step that finds its cells, but where the variables are lengths along axes."""
+    return [] if cell(*body.map()) == 1 else [cell_of(body)]
+
+
+def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
+    """Its variables with their kinds: an angle is in a sine or a cosine, a number has numbers as limits."""
+    position, limits = body.map()
+    angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
+    kinds = {}
+    for x, *ends in limits:
+        kinds[x] = "angle" if x in angles else "length" if any(end.free_symbols for end in ends) else "number"
+    return kinds
+
+
+def _free(body: GeneralBody, *letters: str) -> str:
+    position, limits = body.map()
+    taken = {
+        s.name for x in (*position, body.front if body.given_mass is None else body.given_mass) for s in x.free_symbols
+    }
+    taken |= {s.name for limit in limits for end in limit for s in end.free_symbols}
+    return next((letter for letter in letters if letter not in taken), letters[-1])
+
+
+def _centre_by_integration(body: GeneralBody, start: Point, symbol: str, key: str) -> Quantity:
+    """r_C = (1/M) integral of r dm, from a point; each component that does not vanish is a step."""
+    region = body.region(start)
+    names = component_names(symbol)
+    there = start.seen(body.middle.position)
+    found = {k: _component(body, start, region, k, names[k], key) for k in range(3) if not is_zero(there[k])}
+    left = [found[k].symbol if k in found else Integer(0) for k in range(3)]
+    whole = region.mass_integral(vector("r"), body.mass / body.size)
+    return establish(
+        "general.centre_of_mass",
+        vector(symbol),
+        lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
+        {"mass": body.mass},
+        key=key,
+        kind="length",
+        parents=[body.density, *found.values()],
+        routes={"quadrature": lambda r: _first_moments(body, start, r)},
+        lines=Lines(between=[Form(column(*left), "components", Level.STANDARD)], put_in=None),
+        facts=[CountedFrom(start)],
+        telling=Telling(words={"start": start.name}),
+        scope=Scope(about=Subject(body=body, point=start)),
+    )
+
+
+def _first_moments(body: GeneralBody, start: Point, found: Any) -> Any:
+    position, limits = body.map()
+    share = body.profile / body.size
+    return agrees(found, [share * x for x in start.seen(position)], position, limits)
+
+
+def _component(body: GeneralBody, start: Point, region: Region, k: int, name: Symbol, key: str) -> Quantity:
+    """x_C = (1/M) integral of x dm."""
+    x = region.position[k]
+    front, mass = body.front, body.mass
+    outside = tidied(front / mass)
+    position, limits = body.map()
+    return establish(
+        "general.centre_component",
+        name,
+        lambda: Factors(outside, region.integral(x)),
+        {},
+        key=f"{key}_{'xyz'[k]}",
+        kind="length",
+        parents=[body.density],
+        routes={
+            "quadrature": lambda found: agrees(
+                found, [body.profile / body.size * start.seen(position)[k]], position, limits
+            )
+        },
+        lines=Lines(between=_without_last(worked_integral(region, x, outside, body.size)), put_in=None),
+        telling=Telling(words={"start": start.name}),
+        scope=Scope(about=Subject(body=body, point=start)),
+    )

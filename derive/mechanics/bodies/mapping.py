@@ -1,0 +1,127 @@
+"""Bodies by a position map: where a point is, as a formula in variables between limits; the cell that they span.
+
+The cell of a curve is |r_u| du, that of a surface |r_u x r_v| du dv, that of a solid r_u . (r_v x r_w) du dv dw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from random import Random
+from typing import Any, ClassVar
+
+from sympy import Abs, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, factor, sqrt
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import Cross, Dot, explicit, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.regions import Bounds, Point, Region
+
+TRIES = 40  # draws of letters until limits are in order
+LOOKS = 6  # points at which the sign of a cell is looked at
+
+
+class Mapped(Body):
+    """A body that says where its points are, by variables between limits."""
+
+    flat_across: ClassVar[str | None] = None
+
+    def map(self) -> tuple[ImmutableMatrix, Bounds]:
+        """The position in its own axes, and the limits of its variables, outermost first."""
+        raise AttributeError(f"{type(self).__name__} must say where its points are")
+
+    def region(self, point: Point, coordinates: str | None = None) -> Region:
+        position, limits = self.map()
+        return Region(limits, point.seen(position), cell(position, limits))
+
+
+@lru_cache(maxsize=256)
+def cell(position: ImmutableMatrix, limits: Bounds) -> Expr:
+    """The factor that makes the product of the variables' differentials a length, an area or a volume."""
+    tangents = tangents_of(position, [x for x, _, _ in limits])
+    if len(limits) == 3:
+        size = tidied(Dot(tangents[0], Cross(tangents[1], tangents[2])))
+        return _counted_positive(size, limits)
+    across = tangents[0] if len(limits) == 1 else explicit(Cross(tangents[0], tangents[1]))
+    return _root_of(tidied(Dot(across, across)), limits)
+
+
+def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[ImmutableMatrix]:
+    """r_u, r_v, r_w: how the position changes with each variable."""
+    return [ImmutableDenseMatrix([diff(x, u) for x in position]) for u in names]
+
+
+def _root_of(square: Expr, limits: Bounds) -> Expr:
+    """The root of a square, without the bars of what has one sign between the limits."""
+    root = tidied(sqrt(factor(square)))
+    return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
+
+
+def _counted_positive(size: Expr, limits: Bounds) -> Expr:
+    """The size of what may be counted the wrong way round; of what has no one sign nothing can be said."""
+    if size == 0:
+        return size
+    signs = {bool(size.subs(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
+    if len(signs) > 1 and not size.free_symbols & {x for x, _, _ in limits}:
+        message = f"the letters leave open whether `{size}` is positive"
+        raise Rejected(Complaint("unknown-sign", message, help="give sizes that settle on which side it lies"))
+    if len(signs) > 1:
+        message = f"the map covers some places twice: `{size}` has no one sign between the limits"
+        raise Rejected(Complaint("folded", message, help="give limits between which it covers each place once"))
+    return size if signs == {True} else tidied(-size)
+
+
+def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dict[Symbol, Expr]]:
+    """Values of the letters and of the variables somewhere between their limits, in order of the limits."""
+    names = {x for x, _, _ in limits}
+    letters = set(others) | {s for _, *ends in limits for end in ends for s in end.free_symbols}
+    source = Random(len(letters))
+    for _ in range(looks):
+        at = letters_in_order(limits, sorted(letters - names, key=str), source)
+        for x, lower, upper in limits:
+            part = Rational(source.randint(10, 90), 100)
+            low, high = lower.subs(at), upper.subs(at)
+            at[x] = (low + part * (high - low)).evalf()
+        yield at
+
+
+def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) -> dict[Symbol, Expr]:
+    """Values of the letters for which no variable has its upper limit below the lower one."""
+    for _ in range(TRIES):
+        at: dict[Symbol, Expr] = {letter: Rational(source.randint(40, 160), 97) for letter in letters}
+        known = dict(at)
+        for x, lower, upper in limits:
+            low, high = (end.subs(known).evalf() for end in (lower, upper))
+            if not (high.is_real and low.is_real and high > low):
+                break
+            known[x] = (low + high) / 2
+        else:
+            return at
+    (x, lower, upper), *_ = limits
+    message = f"the limits of the variables are not in order, or leave nothing between: `{x}` from {lower} to {upper}"
+    raise Rejected(Complaint("limits", message, help="give each variable as (lower, upper), the lower one first"))
+
+
+def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) -> tuple[ImmutableMatrix, Bounds]:
+    """The map as it is kept: variables real and of names that no letter has, limits that depend on earlier ones alone.
+
+    position   three formulas
+    limits     variable -> (lower, upper), outermost first
+    """
+    fresh = {u: scalar(u.name) for u in limits}
+    found: list[tuple[Symbol, Expr, Expr]] = []
+    for i, (u, ends) in enumerate(limits.items()):
+        lower, upper = (Integer(0) + end for end in ends)
+        later = set(list(limits)[i:]) & (lower.free_symbols | upper.free_symbols)
+        if later:
+            name = min(str(v) for v in later)
+            message = f"the limits of `{u}` hold `{name}`, which is not further out"
+            raise Rejected(Complaint("limits", message, help="name the outermost variable first"))
+        if (upper - lower).is_nonpositive:
+            message = f"`{u}` goes from {lower} to {upper}, which leaves nothing between"
+            raise Rejected(Complaint("limits", message, help="the lower limit stands first"))
+        found.append((fresh[u], lower.xreplace(fresh), upper.xreplace(fresh)))
+    place = ImmutableDenseMatrix(3, 1, [(Integer(0) + x).xreplace(fresh) for x in position])
+    return place, tuple(found)

@@ -1,0 +1,114 @@
+"""Where a part of a body lies in the axes of the whole: a place for one of its points, a turn, or a cavity."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import Cross, Dot, column, explicit
+from derive.errors import Complaint, Rejected, Unverified
+from derive.steps.step import is_zero
+
+NO_TURN = ImmutableDenseMatrix(eye(3))
+
+
+@dataclass(frozen=True)
+class PlacedPart:
+    """A body as a part of another.
+
+    body       the part
+    of         the point of it that is held
+    position   where that point is, in the axes of the whole
+    turn       columns: the part's own axes along those of the whole
+    sign       1, or -1 for what is cut out
+    """
+
+    body: Any
+    of: str
+    position: ImmutableMatrix
+    turn: ImmutableMatrix = NO_TURN
+    sign: int = 1
+
+    @classmethod
+    def as_it_lies(cls, body: Any) -> PlacedPart:
+        return cls(body, body.reference, body.point(body.reference).position)
+
+    def at(self, *place: Any, of: str = "centre") -> PlacedPart:
+        """The same part with one of its points at a place, (x, y), (x, y, z) or what `point` gives."""
+        self.body.point(of)  # which says so, where the part has no such point
+        return replace(self, position=place_of(*place), of=of)
+
+    def turned(self, axis: Any, angle: Any) -> PlacedPart:
+        """The same part turned right-handed by an angle about "x", "y" or "z", through the point that is held."""
+        return replace(self, turn=ImmutableDenseMatrix(turn_about(axis, angle) * self.turn))
+
+    def named(self, called: str) -> PlacedPart:
+        return replace(self, body=self.body.named(called))
+
+    def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
+        """Where a place of the part, in its own axes, is in those of the whole."""
+        held = self.body.point(self.of).position
+        return ImmutableDenseMatrix((self.position + self.turn * (place - held)).expand())
+
+    @property
+    def centre(self) -> ImmutableMatrix:
+        """Its centre of mass in the axes of the whole."""
+        return self.seen(self.body.middle.position)
+
+    @property
+    def mass(self) -> Expr:
+        signed: Expr = self.sign * self.body.mass
+        return signed
+
+    @property
+    def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
+        """Its particles where they are, of negative mass for what is cut out."""
+        return [(self.sign * mass, self.seen(place)) for mass, place in self.body.particles()]
+
+
+def place_of(*place: Any) -> ImmutableMatrix:
+    """A place in the axes of a body; of two components, one in the plane of x and y."""
+    if len(place) == 1:
+        inside = getattr(place[0], "components", place[0])
+        place = tuple(inside) if isinstance(inside, tuple | list) else place
+    if len(place) not in (2, 3):
+        message = f"a place has two components or three, not {len(place)}"
+        raise Rejected(Complaint("wrong-argument", message, help="write .at(x, y, z)"))
+    return column(*(Integer(0) + x for x in (*place, 0)[:3]))
+
+
+def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
+    """The right-handed turn about an axis, as a matrix."""
+    named = {(1, 0, 0): "x", (0, 1, 0): "y", (0, 0, 1): "z"}.get(tuple(getattr(axis, "components", ())), axis)
+    if named not in ("x", "y", "z"):
+        raise Rejected(Complaint("no-such-axis", 'a turn is about "x", "y" or "z"'))
+    i = "xyz".index(named)
+    j, k = (i + 1) % 3, (i + 2) % 3
+    turn = eye(3).as_mutable()
+    turn[j, j], turn[j, k], turn[k, j], turn[k, k] = cos(angle), -sin(angle), sin(angle), cos(angle)
+    if not turns_right_handed(turn, named, angle):
+        raise Unverified(Complaint("unverified", f"the turn about {named} by {angle} is another one"))
+    return ImmutableDenseMatrix(turn)
+
+
+def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
+    """Each unit vector goes to its part along the axis, and the rest turned: v cos + n x v sin."""
+    n = column(*(int(axis == other) for other in "xyz"))
+    for k in range(3):
+        v = column(*(int(k == i) for i in range(3)))
+        along = explicit(Dot(n, v)) * n
+        if not is_zero(turn * v - along - (v - along) * cos(angle) - explicit(Cross(n, v)) * sin(angle)):
+            return False
+    return bool(axis in ("x", "y", "z"))
+
+
+def name_of_body(called: str) -> str:
+    """One or two words, of which keys and indices are made."""
+    if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
+        help_line = 'give one or two words in small letters, "upper rod"'
+        raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))
+    return called

@@ -1,0 +1,108 @@
+"""Integrals over a body in numbers, at values of its letters: a second way to what was integrated exactly.
+
+The cell is that of the edges' scalar products, the root of det(r_i . r_j), and each variable runs between its limits by
+Gauss's rule on x = m - h cos(pi t), which makes roots at the ends of an interval smooth.
+Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from math import cos, isfinite, pi, sin, sqrt
+from random import Random
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff, lambdify
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import explicit
+from derive.mechanics.bodies.mapping import letters_in_order
+from derive.mechanics.bodies.regions import Bounds
+
+LETTERS = 2  # values of the letters that are tried
+NODES = {1: 60, 2: 28, 3: 20}  # of each variable, by how many there are
+FIGURES = 7
+
+
+@lru_cache(maxsize=8)
+def _gauss(n: int) -> tuple[tuple[float, float], ...]:
+    """Places and weights between 0 and 1, the roots of Legendre's polynomial by Newton's method."""
+    found = []
+    for k in range(n):
+        x = cos(pi * (k + 0.75) / (n + 0.5))
+        slope = 1.0
+        for _ in range(50):
+            now, before = 1.0, 0.0
+            for j in range(1, n + 1):
+                now, before = ((2 * j - 1) * x * now - (j - 1) * before) / j, now
+            slope = n * (x * now - before) / (x * x - 1)
+            x, step = x - now / slope, abs(now / slope)
+            if step < 1e-16:
+                break
+        found.append(((1 - x) / 2, 1 / ((1 - x * x) * slope * slope)))
+    return tuple(found)
+
+
+def metric(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
+    """det(r_i . r_j): the square of the cell's length, area or volume."""
+    edges = ImmutableDenseMatrix.hstack(*(ImmutableDenseMatrix(diff(position, u)) for u in names))
+    return (edges.T * edges).det(method="berkowitz")
+
+
+def over_cells(
+    position: ImmutableMatrix, limits: Bounds, values: Sequence[Expr], at: dict[Symbol, Expr]
+) -> list[float]:
+    """The integrals of some functions of the variables over the body, each letter having its value."""
+    names = [x for x, _, _ in limits]
+    ends = [lambdify(names[:i], [lower.subs(at), upper.subs(at)], "math") for i, (_, lower, upper) in enumerate(limits)]
+    inside = [value.subs(at) for value in (metric(position, names), *values)]
+    integrand: Callable[..., list[float]] = lambdify(names, inside, "math", cse=True)
+    totals = [0.0] * len(values)
+    rule = _gauss(NODES[len(limits)])
+
+    def further(places: tuple[float, ...], weight: float) -> None:
+        if len(places) == len(names):
+            square, *found = integrand(*places)
+            size = weight * sqrt(max(square, 0.0))
+            for i, value in enumerate(found):
+                totals[i] += size * value
+            return
+        low, high = ends[len(places)](*places)
+        half = (high - low) / 2
+        for t, share in rule:
+            further((*places, low + half * (1 - cos(pi * t))), weight * share * half * pi * sin(pi * t))
+
+    further((), 1.0)
+    return totals
+
+
+def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bounds) -> Verdict:
+    """Whether an exact value, or each entry of a matrix, is what the sums over cells give.
+
+    integrands   one for each entry, functions of the variables and the letters
+    """
+    entries = list(value) if hasattr(value, "shape") else [value]
+    wanted = list(integrands) if hasattr(integrands, "__iter__") else [integrands]
+    entries, wanted = [explicit(e) for e in entries], [explicit(f) for f in wanted]
+    names = {x for x, _, _ in limits}
+    letters = {s for e in (*entries, *wanted, *position) for s in e.free_symbols} - names
+    letters |= {s for _, *ends in limits for end in ends for s in end.free_symbols} - names
+    source = Random(len(letters))
+    for _ in range(LETTERS if letters else 1):
+        at = letters_in_order(limits, sorted(letters, key=str), source)
+        sizes = [abs(f) for f in wanted]
+        sums = over_cells(position, limits, [*wanted, *sizes], at)
+        for entry, total, size in zip(entries, sums, sums[len(wanted) :], strict=False):
+            found = complex(entry.subs(at).evalf()) if not entry.subs(at).free_symbols else complex("nan")
+            if not isfinite(found.real) or abs(found - total) > 10**-FIGURES * max(size, 1e-30):
+                where = tuple((str(name), str(number)) for name, number in at.items())
+                return Verdict(Grade.REFUTED, f"{found.real:.6g} against {total:.6g}", where)
+    return Verdict(Grade.SAMPLED, f"{LETTERS if letters else 1} points to {FIGURES} figures")
+
+
+def squared_distance(place: ImmutableMatrix, i: int, j: int) -> Expr:
+    """r.r delta_ij - x_i x_j."""
+    whole = sum((x**2 for x in place), Integer(0)) if i == j else Integer(0)
+    return whole - place[i] * place[j]

@@ -1,0 +1,101 @@
+"""What must be true for each word that chooses a sentence about bodies told by a map, and about those made of parts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from derive.algebra.expressions import explicit
+from derive.mechanics.bodies.mapping import inside
+from derive.mechanics.bodies.parts import turns_right_handed
+from derive.mechanics.outcomes.of_bodies import TENSORS
+from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
+from derive.steps.step import is_zero
+
+
+def _with_variables(n: int) -> Predicate:
+    return lambda facts: len(facts.inputs["limits"]) == n
+
+
+def _cell_is_positive(facts: Judged, outcome: str) -> bool:
+    """The cell that is told has the square that was found, or is the product or its opposite, and has one sign."""
+    size, limits = facts.inputs["cell"], facts.inputs["limits"]
+    found = explicit(facts.result)
+    squares = (found**2 if outcome == "solid" else found, size**2)
+    looked = inside(limits, size.free_symbols)
+    return is_zero(squares[0] - squares[1]) and all(bool(size.subs(at).evalf() > 0) for at in looked)
+
+
+def _of_filling(filling: str) -> Predicate:
+    return lambda facts: facts.subject.body.filling == filling
+
+
+def _entry(*pairs: str) -> Predicate:
+    return lambda facts: facts.symbol.name[-2:] in pairs
+
+
+def _all_is_added(facts: Judged) -> bool:
+    return all(part.sign > 0 for part in facts.subject.body.parts)
+
+
+def _moved(moved: bool, turned: bool) -> Predicate:
+    """Whether there is a way to the part, and whether its axes are not those of the whole."""
+
+    def is_so(facts: Judged) -> bool:
+        way, turn = facts.inputs.get("way"), facts.inputs["turn"]
+        return (way is not None and not is_zero(way)) == moved and (not turn.is_Identity) == turned
+
+    return is_so
+
+
+_TABLE: dict[str, dict[str, Predicate]] = {
+    "general.cell_of": {"curve": _with_variables(1), "surface": _with_variables(2), "solid": _with_variables(3)},
+    "general.size_by_integration": {word: _of_filling(word) for word in ("length", "area", "volume")},
+    "general.entry": {"moment": _entry("xx", "yy", "zz"), "product": _entry("xy", "xz", "yz")},
+    "general.inertia_tensor": TENSORS,
+    "tensors.turned_tensor": TENSORS,
+    "assembly.inertia_tensor": TENSORS,
+    "assembly.share_of_mass": {
+        "part": lambda facts: bool(facts.inputs["sign"] == 1),
+        "hole": lambda facts: bool(facts.inputs["sign"] == -1),
+    },
+    "assembly.centre_of_mass": {"generic": _all_is_added, "cut_out": lambda facts: not _all_is_added(facts)},
+    "assembly.part_tensor": {
+        "turned_there": _moved(False, True),
+        "moved": _moved(True, False),
+        "turned_moved": _moved(True, True),
+    },
+    "tensors.tensor_entry": {
+        "moment": lambda facts: len(set(facts.words["entry"])) == 1,
+        "product": lambda facts: len(set(facts.words["entry"])) == 2,
+    },
+    "tensors.principal_angle": {"generic": lasts, "zero": vanishes},
+}
+
+for _rule, _predicates in _TABLE.items():
+    outcomes_of(_rule, _predicates)
+
+
+def _edges_along_the_axes(facts: Judged, outcome: str) -> bool:
+    """Where edges are spoken of every coordinate has limits of its own."""
+    if "edged" not in facts.words:
+        return True
+    body = facts.subject.body
+    region = body.region(body.point(body.reference))
+    ends = {s for _, *limits in region.limits for end in limits for s in end.free_symbols}
+    return not ends & set(region.names) and region.element == 1
+
+
+def _turned_as_told(facts: Judged, outcome: str) -> bool:
+    return turns_right_handed(facts.inputs["turn"], facts.words["along"], facts.inputs["angle"])
+
+
+_TOLD: dict[str, Any] = {
+    "general.cell_of": _cell_is_positive,
+    "tensors.turned_tensor": _turned_as_told,
+    "inertia.inertia_tensor": _edges_along_the_axes,
+    "inertia.moved_to": _edges_along_the_axes,
+}
+
+for _rule, _told in _TOLD.items():
+    told_by(_rule, _told)

@@ -1,0 +1,443 @@
+"""A body made of bodies: parts anywhere, turned, or cut out; its mass, its centre of mass, its tensor about any point.
+
+The tensor of each part is that about its own centre, turned as the part is, and moved by the theorem of parallel axes;
+those of all parts are added, that of a cavity subtracted.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, ClassVar, Self
+
+from sympy import Add, Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatMul, Pow, Symbol, eye
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import (
+    Cross,
+    Dot,
+    Factors,
+    Outer,
+    Ratio,
+    Terms,
+    column,
+    component_names,
+    explicit,
+    scaled,
+    tensor,
+    vector,
+)
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import Body, Particles
+from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
+from derive.mechanics.bodies.general_tensor import shape_of
+from derive.mechanics.bodies.parts import PlacedPart, name_of_body, place_of
+from derive.mechanics.bodies.regions import Point, Region
+from derive.mechanics.rotation.inertia import inertia_tensor
+from derive.mechanics.rotation.tensors import seen_particles, tensor_entry
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.subject import NOTHING, Subject
+
+__all__ = ["Composite", "PointMass", "PointMasses", "minus"]
+
+ORIGIN = Point("origin", column(0, 0, 0))
+EVERYTHING_BUT_ROTATION = ("body", "point", "axes", "mass")
+
+
+@dataclass(frozen=True)
+class PointMass(Body):
+    """A particle as a part of a body.
+
+    mass   mass
+    """
+
+    mass: Expr
+    name: ClassVar[str] = "a particle"
+
+    def points(self) -> Mapping[str, Point]:
+        return {}
+
+    def point(self, name: str) -> Point:
+        if name != "centre":
+            raise Rejected(Complaint("no-such-point", f'a particle has no point "{name}"'))
+        return Point("centre", ORIGIN.position)
+
+    def particles(self) -> Particles:
+        return [(self.mass, ORIGIN.position)]
+
+    def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
+        return self.mass * explicit(integrand(point.seen(ORIGIN.position)))
+
+
+def minus(part: Body | PlacedPart) -> PlacedPart:
+    """What is cut out of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
+    placed = part if isinstance(part, PlacedPart) else _placed(part)
+    return replace(placed, sign=-placed.sign)
+
+
+def _placed(part: Any) -> PlacedPart:
+    if isinstance(part, PlacedPart):
+        return part
+    if not isinstance(part, Body):
+        message = f"`Composite` is made of bodies, not of {type(part).__name__}"
+        raise Rejected(Complaint("wrong-argument", message, help="write Composite(Rod(l, m).at(0, 0, -l/2), ...)"))
+    if isinstance(part, PointMass):
+        return PlacedPart(part, "centre", ORIGIN.position)
+    return PlacedPart.as_it_lies(part)
+
+
+class Composite(Body):
+    """A body made of parts: `Composite(Rod(l, m).at(0, 0, -l/2), Ball(R, M).at(0, 0, -l), points={"pivot": (0, 0)})`.
+
+    parts    bodies as they lie, or `.at(x, y, z)` with their centre of mass, or `of=` another of their points, there;
+             `.turned("x", angle)` about that point; `minus(part)` is cut out
+    mass     of the whole, where it is uniform and the masses of the parts go by their sizes
+    points   names for places of the whole, such as a pivot
+    Two parts of one sort have names of their own: `Rod(l, m).named("upper rod").at(...)`.
+    Errors: no part; parts that cannot be told apart; a mass that vanishes; parts of different sorts with one mass.
+    """
+
+    name: ClassVar[str] = "a body of several parts"
+    reference: ClassVar[str] = "origin"
+
+    def __init__(
+        self, *parts: Body | PlacedPart, mass: Expr | None = None, points: Mapping[str, Sequence[Any]] | None = None
+    ):
+        placed = [_placed(part) for part in parts]
+        if not placed:
+            raise Rejected(Complaint("parts", "a composite body needs parts"))
+        self.parts = _told_apart(placed)
+        self.shares: tuple[Quantity, ...] = ()
+        self._places = {name: Point(name, place_of(*place)) for name, place in (points or {}).items()}
+        if mass is not None:
+            self.shares, self.parts = _shared(self, mass)
+        self.given_mass = mass
+        if is_zero(self.mass):
+            raise Rejected(Complaint("no-mass", "what is cut out of this body has all of its mass"))
+
+    def named(self, called: str) -> Self:
+        twin = copy(self)
+        for known in ("whole_mass", "centre", "_points_seen"):
+            twin.__dict__.pop(known, None)
+        twin.called = name_of_body(called)
+        return twin
+
+    @cached_property
+    def mass(self) -> Expr:
+        return self.given_mass_or_sum
+
+    @property
+    def given_mass_or_sum(self) -> Expr:
+        given = getattr(self, "given_mass", None)
+        return given if given is not None else tidied(sum((part.mass for part in self.parts), Integer(0)))
+
+    def points(self) -> Mapping[str, Point]:
+        return {"origin": ORIGIN, **self._places}
+
+    def particles(self) -> Particles:
+        return [particle for part in self.parts for particle in part.particles]
+
+    def region(self, point: Point, coordinates: str | None = None) -> Region:
+        raise Rejected(Complaint("no-region", "a body of several parts is not integrated over as a whole"))
+
+    def over_mass(self, integrand: Callable[[ImmutableMatrix], Any], point: Point) -> Any:
+        """Part by part, that of what is cut out subtracted."""
+        total: Any = None
+        for part in self.parts:
+            found = part.body.over_mass(lambda r, part=part: integrand(point.seen(part.seen(r))), ORIGIN)
+            total = part.sign * found if total is None else total + part.sign * found
+        return total
+
+    @property
+    def flat_across(self) -> str | None:  # type: ignore[override]
+        """The axis along which no part of it reaches, if there is one; "x" of what is all on one of the others."""
+        return next((axis for k, axis in enumerate("xyz") if all(is_zero(r[k]) for _, r in self.particles())), None)
+
+    @cached_property
+    def whole_mass(self) -> Quantity:
+        """The step that adds up the masses."""
+        return _total_mass(self)
+
+    @property
+    def density(self) -> Quantity:
+        """The step on which its mass rests."""
+        return self.shares[0] if self.shares else self.whole_mass
+
+    def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
+        return _centre_of_parts(self, start, symbol, key)
+
+    def derived_tensor(self, point: Point, symbol: str, key: str) -> Quantity:
+        return _tensor_of_parts(self, point, symbol, key)
+
+    def derived_moment(self, axis: str, point: Point, symbol: str, key: str) -> Quantity:
+        whole = _tensor_of_parts(self, point, "K", f"{key}_tensor")
+        return tensor_entry(whole, axis + axis, symbol, key)
+
+
+def PointMasses(*masses: tuple[Expr, Sequence[Any]]) -> Composite:
+    """Particles held together without mass between them: `PointMasses((m, (a, 0, 0)), (2*m, (0, a, a)))`."""
+    return Composite(*(_placed(PointMass(Integer(0) + mass)).at(*place) for mass, place in masses))
+
+
+def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
+    """Each part that is more than a particle under a name: its own, or that of its sort."""
+    found = [
+        part if isinstance(part.body, PointMass) or part.body.called else part.named(_noun(part.body)) for part in parts
+    ]
+    names = [part.body.called for part in found if not isinstance(part.body, PointMass)]
+    for taken in (names, [name.partition(" ")[0] for name in names]):
+        twice = next((name for name, times in Counter(taken).items() if times > 1), None)
+        if twice is not None:
+            message = f"two parts are both called `{twice}`"
+            help_line = 'give them names that begin differently: Rod(l, m).named("upper rod")'
+            raise Rejected(Complaint("parts", message, help=help_line))
+    return tuple(found)
+
+
+def _noun(body: Body) -> str:
+    """a thick shell: thick shell."""
+    return body.name.partition(" ")[2].replace("-", " ")
+
+
+def _index(part: PlacedPart) -> str:
+    return str(part.body.called).partition(" ")[0]
+
+
+def _shared(body: Composite, mass: Expr) -> tuple[tuple[Quantity, ...], tuple[PlacedPart, ...]]:
+    """The masses of the parts of a uniform body, as their sizes."""
+    if len({part.body.filling for part in body.parts}) > 1 or any(isinstance(p.body, PointMass) for p in body.parts):
+        message = "one mass is not shared out to volumes, areas, lengths and particles together"
+        raise Rejected(Complaint("parts", message, help="give each part a mass of its own"))
+    shares = tuple(_share_of_mass(body, part, mass) for part in body.parts)
+    parts = []
+    for part, share in zip(body.parts, shares, strict=True):
+        of_part = replace(part.body, mass=share.value)
+        object.__setattr__(of_part, "called", part.body.called)
+        parts.append(replace(part, body=of_part))
+    return shares, tuple(parts)
+
+
+def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
+    """Mass of a part of a uniform body, M times its size over that of the whole.
+
+    body   the whole
+    part   one of its parts, or what is cut out
+    mass   of the whole
+    Second route: the density of the whole integrated over the part.
+    Outcomes: part, hole.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    sizes = [other.sign * other.body.size for other in body.parts]
+
+    def size_of(one: PlacedPart) -> Expr:
+        own = one.body
+        return explicit(own.region(own.point(own.reference)).with_section_put_in().integral(Integer(1)))
+
+    def by_integration(found: Expr) -> tuple[Expr, Expr]:
+        return found * sum((other.sign * size_of(other) for other in body.parts), Integer(0)), mass * size_of(part)
+
+    return establish(
+        "assembly.share_of_mass",
+        Symbol(f"m_{_index(part)}", positive=True),
+        lambda M: Factors(M, Ratio(part.body.size, sizes[0] if len(sizes) == 1 else Terms(*sizes))),
+        {"mass": mass},
+        key=f"{part.body.called.replace(' ', '_')}_mass",
+        kind="mass",
+        routes={"integration": by_integration},
+        outcome="hole" if part.sign < 0 else "part",
+        lines=Lines(put_in=None),
+        telling=Telling(words={"part": part.body.called}, judged_by={"sign": Integer(part.sign)}),
+    )
+
+
+def _total_mass(body: Composite) -> Quantity:
+    """Mass of the whole, the sum of the masses of the parts.
+
+    body   its parts
+    Second route: the integral of dm over all parts.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    masses = [part.mass for part in body.parts]
+    taken = {s.name for mass in masses for s in mass.free_symbols}
+    return establish(
+        "assembly.total_mass",
+        Symbol(next(name for name in ("M", "M_0", "M_total", "M_whole") if name not in taken), positive=True),
+        lambda *found: Terms(*found) if len(found) > 1 else found[0],
+        {f"part_{i}": mass for i, mass in enumerate(masses)},
+        key="total_mass",
+        kind="mass",
+        routes={"integration": lambda M: (M, body.over_mass(lambda r: Integer(1), ORIGIN))},
+        lines=Lines(put_in=None, result=len(Add.make_args(body.mass)) < len(masses)),
+        scope=Scope(about=Subject(body=body)),
+    )
+
+
+def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Quantity:
+    """Centre of mass, r_C = (m_1 r_1 + m_2 r_2 + ...)/M, from a point.
+
+    body    its parts
+    start   the point
+    Second route: the integral of r dm over all parts.
+    Outcomes: generic, cut_out.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    """
+    terms = [scaled(part.mass, start.seen(part.centre)) for part in body.parts]
+    whole = terms[0] if len(terms) == 1 else MatAdd(*terms)
+    return establish(
+        "assembly.centre_of_mass",
+        vector(symbol),
+        lambda M: MatMul(Pow(M, -1), whole, evaluate=False),
+        {"mass": body.mass if body.shares else body.whole_mass},
+        key=key,
+        kind="length",
+        parents=list(body.shares),
+        routes={"integration": lambda r: (body.mass * r, body.over_mass(lambda at: at, start))},
+        outcome="cut_out" if any(part.sign < 0 for part in body.parts) else "generic",
+        lines=Lines(put_in=Level.FULL),
+        facts=[CountedFrom(start)],
+        telling=Telling(words={"start": start.name}),
+        scope=Scope(about=Subject(body=body, point=start), differ=EVERYTHING_BUT_ROTATION),
+    )
+
+
+def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Quantity:
+    """Inertia tensor of the whole about a point, the sum of those of the parts.
+
+    body    its parts
+    point   the point, and the axes
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
+    Outcomes: isotropic, two_equal, diagonal, generic.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    centre = [body.centre] if point.name == "centre" else []
+    extended = [part for part in body.parts if not isinstance(part.body, PointMass)]
+    moved = [_tensor_of_part(body, part, point, symbol, key) for part in extended]
+    at_points = [part for part in body.parts if isinstance(part.body, PointMass)]
+
+    def law(*found: Any) -> Any:
+        terms = [one if part.sign > 0 else scaled(Integer(-1), one) for part, one in zip(extended, found, strict=True)]
+        terms += [scaled(part.mass, _of_unit_mass(point.seen(part.centre))) for part in at_points]
+        return terms[0] if len(terms) == 1 else MatAdd(*terms)
+
+    return establish(
+        "assembly.inertia_tensor",
+        tensor(symbol),
+        law,
+        {f"part_{i}": _for_the_whole(one) for i, one in enumerate(moved)},
+        key=key,
+        kind="moment of inertia",
+        parents=centre,
+        routes={"particles": lambda found: _moments_about_any_axis(found, body, point)},
+        outcome=shape_of,
+        lines=Lines(put_in=Level.STANDARD if not extended else Level.FULL),
+        facts=[OfBody(body), AboutPoint(point)],
+        telling=Telling(words={"about": point.name}),
+        scope=Scope(about=Subject(body=body, point=point), differ=EVERYTHING_BUT_ROTATION),
+    )
+
+
+def _for_the_whole(part: Quantity) -> Quantity:
+    """What is known of a part, as something about the whole: the sum has the names of the whole."""
+    return replace(part, subject=NOTHING)
+
+
+def _of_unit_mass(d: Any) -> Any:
+    """d.d 1 - d d, of a way that is known."""
+    square = sum((x**2 for x in d), Integer(0))
+    return ImmutableDenseMatrix(3, 3, lambda i, j: square * int(i == j) - d[i] * d[j])
+
+
+def _steiner(mass: Expr, d: Any) -> Any:
+    """m (d.d 1 - d d)."""
+    return scaled(mass, MatAdd(scaled(Dot(d, d), Identity(3)), scaled(Integer(-1), Outer(d, d))))
+
+
+def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str, key: str) -> Quantity:
+    """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d).
+
+    body    the whole
+    part    one of its parts, turned by R, its centre of mass at d from the point
+    point   the point, and the axes
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part where it is.
+    Outcomes: turned_there (its centre is at the point), moved, turned_moved.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
+    """
+    own = inertia_tensor(part.body, "centre", key="own_tensor")
+    turn = ImmutableDenseMatrix((point.axes.T * part.turn).applyfunc(tidied))
+    is_turned, d = turn != eye(3), point.seen(part.centre)
+    if not is_turned and is_zero(d):
+        return own
+    way = None if is_zero(d) else _way_to_part(part, point, d)
+    here = replace(part, sign=1)
+
+    def law(I: Any, *to_it: Any) -> Any:
+        along = MatMul(turn, I, turn.T, evaluate=False) if is_turned else I
+        return MatAdd(along, _steiner(part.body.mass, to_it[0])) if to_it else along
+
+    def any_axis(found: Any) -> tuple[Expr, Expr]:
+        return _about_any_axis(found, [(m, point.seen(r)) for m, r in here.particles])
+
+    return establish(
+        "assembly.part_tensor",
+        tensor("J" if symbol.startswith("J") else "I'"),
+        law,
+        {"own": own, **({"way": way} if way else {})},
+        key=f"part_of_{key}",
+        kind="moment of inertia",
+        routes={"particles": any_axis},
+        outcome=_PLACED[is_turned, way is not None],
+        lines=Lines(put_in=Level.FULL),
+        telling=Telling(words={"about": point.name}, judged_by={"turn": turn}),
+        scope=Scope(about=Subject(body=part.body, point=point), differ=EVERYTHING_BUT_ROTATION),
+    )
+
+
+_PLACED = {
+    (False, True): "moved",
+    (True, False): "turned_there",
+    (True, True): "turned_moved",
+}
+
+
+def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
+    """Where the centre of mass of a part is, from a point of the whole.
+
+    part    the part
+    point   the point
+    d       what its place and its turn make of its own centre of mass
+    Second route: the mean position of its particles where they are.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
+    """
+
+    def mean() -> Any:
+        total = column(0, 0, 0)
+        for mass, place in replace(part, sign=1).particles:
+            total = total + mass * point.seen(place)
+        return total / part.body.mass
+
+    return establish(
+        "assembly.way_to_part",
+        vector("d"),
+        lambda: d,
+        {},
+        key="way_from_" + point.name.replace(" ", "_"),
+        kind="length",
+        routes={"particles": lambda found: (found, mean())},
+        telling=Telling(words={"about": point.name}),
+        scope=Scope(about=Subject(body=part.body, point=point)),
+    )
+
+
+def _moments_about_any_axis(found: Any, body: Composite, point: Point) -> tuple[Expr, Expr]:
+    return _about_any_axis(found, seen_particles(body, point))
+
+
+def _about_any_axis(found: Any, particles: Sequence[tuple[Expr, Any]]) -> tuple[Expr, Expr]:
+    n = column(*component_names("n"))
+    arms = [(mass, explicit(Cross(n, r))) for mass, r in particles]
+    return explicit(Dot(n, found * n)), sum((mass * explicit(Dot(arm, arm)) for mass, arm in arms), Integer(0))

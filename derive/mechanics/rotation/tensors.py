@@ -1,0 +1,334 @@
+"""What one asks of a tensor of inertia: its components along other axes, its moment about any axis, its entries.
+
+For flat bodies also the theorem of perpendicular axes, and the angle of the principal axes in the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, atan2, sqrt, tan
+from sympy.matrices import ImmutableMatrix
+from sympy.simplify.fu import TR8
+
+from derive.algebra.expressions import (
+    Cross,
+    Dot,
+    Factors,
+    Norm,
+    Ratio,
+    Root,
+    Terms,
+    applied,
+    column,
+    explicit,
+    scalar,
+    tensor,
+    vector,
+)
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.facts import AboutPoint, OfBody
+from derive.mechanics.bodies.general_tensor import shape_of
+from derive.mechanics.bodies.parts import turn_about
+from derive.mechanics.bodies.regions import Point
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Level, Quantity, compared_with, entry_name, is_zero, require_kind, value_behind
+from derive.steps.subject import Subject
+
+__all__ = [
+    "moment_about",
+    "perpendicular_axes",
+    "principal_angle",
+    "radius_of_gyration",
+    "tensor_entry",
+    "turned_tensor",
+]
+
+MOMENT = "moment of inertia"
+
+
+def seen_particles(body: Any, point: Point) -> list[tuple[Expr, ImmutableMatrix]]:
+    """The particles that stand for a body, from a point and along its axes."""
+    return [(mass, ImmutableDenseMatrix(point.axes.T * (place - point.position))) for mass, place in body.particles()]
+
+
+def tensor_of_particles(particles: Sequence[tuple[Expr, Any]]) -> ImmutableMatrix:
+    """The sum of m (r.r 1 - r r)."""
+
+    def entry(i: int, j: int) -> Expr:
+        whole: Expr = Integer(0)
+        for mass, r in particles:
+            whole += mass * ((sum((x**2 for x in r), Integer(0)) if i == j else Integer(0)) - r[i] * r[j])
+        return whole
+
+    return ImmutableDenseMatrix(3, 3, entry)
+
+
+def central_tensor(body: Any) -> ImmutableMatrix:
+    """The tensor about the centre of mass along the body's own axes, as its particles have it; no step, but a value."""
+    return ImmutableDenseMatrix(tensor_of_particles(seen_particles(body, body.middle)).applyfunc(tidied))
+
+
+def turned_tensor(
+    inertia: Quantity, axis: str, angle: Expr, symbol: str | None = None, key: str = "turned_tensor"
+) -> Quantity:
+    """The same tensor along axes that are turned, I' = R^T I R, the columns of R being the new axes.
+
+    inertia   tensor (3, 3), kg m^2
+    axis      "x", "y" or "z": about which the axes are turned, right-handed
+    angle     by which
+    Second route: the sum of m (r.r 1 - r r) over the body's equimomental particles, as the turned axes see them; the
+    trace, which no turn changes.
+    Outcomes: isotropic, two_equal, diagonal, generic.
+    Errors: no such axis; it is no tensor of inertia of a body.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
+    """
+    require_kind("turned_tensor", "inertia", inertia, MOMENT)
+    body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
+    turn = turn_about(axis, angle)
+    there = replace(point, axes=ImmutableDenseMatrix(point.axes * turn))
+    name = symbol or f"{inertia.symbol.name.partition('_')[0]}'"
+    return establish(
+        "tensors.turned_tensor",
+        tensor(name),
+        lambda I: MatMul(turn.T, I, turn, evaluate=False),
+        {"inertia": inertia},
+        key=key,
+        kind=MOMENT,
+        routes={
+            "particles": compared_with(lambda: tensor_of_particles(seen_particles(body, there))),
+            "trace": lambda found: (found.trace(), inertia.value.trace()),
+        },
+        outcome=shape_of,
+        lines=Lines(put_in=Level.STANDARD, arranged=_shorter_sums),
+        facts=[OfBody(body), AboutPoint(there)],
+        telling=Telling(
+            words={"about": point.name, "along": axis},
+            formulas={"angle": (angle, angle)},
+            judged_by={"turn": turn},
+        ),
+        scope=Scope(about=Subject(body=body, point=there, axes=there.axes), differ={"point", "axes"}),
+    )
+
+
+def moment_about(
+    inertia: Quantity, direction: Sequence[Any] | Quantity, symbol: str = "I_n", key: str = "moment_about"
+) -> Quantity:
+    """Moment of inertia about an axis of any direction through the point of the tensor, I_n = n.I n, n = d/|d|.
+
+    inertia     tensor (3, 3), kg m^2
+    direction   d, three components, or a vector along the axis; the unit vector has the index of the symbol
+    Second route: the sum of m |n x r|^2 over the body's equimomental particles.
+    Errors: the direction vanishes; it is no tensor of a body.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    require_kind("moment_about", "inertia", inertia, MOMENT)
+    body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
+    along = direction.value if isinstance(direction, Quantity) else column(*(Integer(0) + x for x in direction))
+    if is_zero(along):
+        raise Rejected(Complaint("zero-vector", "an axis along a vector that vanishes has no direction"))
+    unit = ImmutableDenseMatrix((along / tidied(Norm(along))).applyfunc(tidied))
+
+    def by_distances() -> Expr:
+        arms = ((mass, explicit(Cross(unit, r))) for mass, r in seen_particles(body, point))
+        return sum((mass * explicit(Dot(arm, arm)) for mass, arm in arms), Integer(0))
+
+    n = _unit_vector(direction, body, symbol.partition("_")[2] or "n", key)
+    return establish(
+        "tensors.moment_about",
+        scalar(symbol),
+        lambda I, n: Dot(n, applied(I, n)),
+        {"inertia": inertia, "direction": n},
+        key=key,
+        kind=MOMENT,
+        routes={"particles": compared_with(by_distances)},
+        lines=Lines(put_in=Level.STANDARD),
+        telling=Telling(words={"about": point.name}),
+        scope=Scope(about=Subject(body=body, point=point)),
+    )
+
+
+def _unit_vector(direction: Any, body: Any, letter: str, key: str) -> Quantity:
+    """The unit vector along an axis, n = d/|d|."""
+    along = value_behind(direction) if isinstance(direction, Quantity) else column(*direction)
+    given = {"along": direction} if isinstance(direction, Quantity) else {"along": along}
+    return establish(
+        "tensors.unit_vector",
+        vector(letter),
+        lambda d: MatMul(Pow(Norm(d), -1), d, evaluate=False),
+        given,
+        key=f"{key}_direction",
+        routes={"unit": lambda n: (Dot(n, n), Integer(1)), "along": lambda n: (Dot(n, along), Norm(along))},
+        lines=Lines(put_in=None),
+        scope=Scope(about=Subject(body=body)),
+    )
+
+
+def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: str | None = None) -> Quantity:
+    """One entry of a tensor, a moment of inertia such as I_zz or a product such as I_xy, with its minus sign.
+
+    inertia   tensor (3, 3), kg m^2
+    entry     "xx", "xy", ...
+    Second route: the sum of m (r.r delta_ij - x_i x_j) over the body's equimomental particles.
+    Outcomes: moment, product.
+    Errors: no such entry; it is no tensor of a body.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    require_kind("tensor_entry", "inertia", inertia, MOMENT)
+    if len(entry) != 2 or set(entry) - set("xyz"):
+        message = f'a tensor has no entry "{entry}"'
+        raise Rejected(Complaint("no-such-entry", message, help='they are "xx", "xy" and so on'))
+    body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
+    i, j = ("xyz".index(letter) for letter in sorted(entry))
+    name = symbol or entry_name(inertia.symbol.name, i, j).name
+    return establish(
+        "tensors.tensor_entry",
+        scalar(name),
+        lambda: inertia.value[i, j],
+        {},
+        key=key or f"{inertia.key}_entry_{entry}",
+        kind=MOMENT,
+        parents=[inertia],
+        routes={"particles": compared_with(lambda: tensor_of_particles(seen_particles(body, point))[i, j])},
+        outcome="moment" if i == j else "product",
+        telling=Telling(words={"about": point.name, "entry": entry}, points_to={"inertia": inertia}),
+        scope=Scope(about=Subject(body=body, point=point, axis="xyz"[i] if i == j else None)),
+    )
+
+
+def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "principal_angle") -> Quantity:
+    """Angle from x of the principal axes in the plane of x and y, tan 2 theta = 2 I_xy/(I_xx - I_yy).
+
+    inertia   tensor (3, 3), kg m^2, of which I_xz and I_yz vanish
+    Second route: along axes turned by that angle the particles of the body have no product of inertia.
+    Outcomes: generic, zero (x and y are principal axes).
+    Errors: I_xz or I_yz does not vanish; I_xx and I_yy are equal, so that the angle is half a right angle, or any.
+    Source: Fowles, Cassiday, *Analytical Mechanics*, section 9.2.
+    """
+    require_kind("principal_angle", "inertia", inertia, MOMENT)
+    body, point, I = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point, inertia.value
+    if not (is_zero(I[0, 2]) and is_zero(I[1, 2])):
+        message = (
+            f"the z axis is no principal axis of `{inertia.key}`, so that two others are not in the plane of x and y"
+        )
+        raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` finds them in space"))
+    if is_zero(I[0, 0] - I[1, 1]):
+        what = (
+            "every axis in their plane is principal"
+            if is_zero(I[0, 1])
+            else "the principal axes halve the right angles"
+        )
+        message = f"the moments of `{inertia.key}` about x and y are equal, so that {what}"
+        raise Rejected(Complaint("equal-moments", message, help="`principal_axes` gives the axes"))
+    entries = {f"{'xyz'[i]}{'xyz'[j]}": _entry_of(inertia, i, j) for i, j in ((0, 1), (0, 0), (1, 1))}
+    angle = scalar(symbol)
+
+    def no_product(found: Expr) -> tuple[Expr, Expr]:
+        """x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta, over the cosine."""
+        left = (m * (r[0] * r[1] - (r[0] ** 2 - r[1] ** 2) / 2 * found) for m, r in seen_particles(body, point))
+        return sum(left, Integer(0)), Integer(0)
+
+    return establish(
+        "tensors.principal_angle",
+        tan(2 * angle),
+        lambda xy, xx, yy: Ratio(Factors(2, xy), Terms(xx, -yy)),
+        entries,
+        key=key,
+        kind="number",
+        parents=[inertia],
+        routes={"particles": no_product},
+        outcome=lambda found: "zero" if found == 0 else "generic",
+        lines=Lines(means={angle: atan2(2 * I[0, 1], I[0, 0] - I[1, 1]) / 2}),
+        telling=Telling(words={"about": point.name}, points_to={"inertia": inertia}),
+        scope=Scope(about=Subject(body=body, point=point)),
+    )
+
+
+def _entry_of(inertia: Quantity, i: int, j: int) -> Quantity | Expr:
+    """The step that an entry is, where it is one; else its value."""
+    name = entry_name(inertia.symbol.name, i, j)
+    value: Expr = inertia.value[i, j]
+    return next((parent for parent in inertia.parents if parent.symbol == name), value)
+
+
+def _shorter_sums(matrix: Any) -> ImmutableMatrix:
+    """Each entry multiplied out, with products of sines and cosines or with sums of them, whichever is shorter."""
+    return ImmutableDenseMatrix(matrix.applyfunc(_shorter))
+
+
+def _shorter(entry: Expr) -> Expr:
+    plain = explicit(entry).expand()
+    return min((tidied(form) for form in (plain, TR8(plain).expand())), key=lambda f: (f.count_ops(), str(f)))
+
+
+def perpendicular_axes(
+    first: Quantity, second: Quantity, symbol: str | None = None, key: str = "perpendicular_axes"
+) -> Quantity:
+    """Moment of a flat body about the axis across it, I_z = I_x + I_y, of those about two axes in its plane.
+
+    first, second   moments of inertia about two perpendicular axes in the plane, through one point, kg m^2
+    Second route: the squared distance from the axis across, summed over the body's equimomental particles.
+    Errors: the body is not flat, or one of the axes is across it.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical
+    Mechanics*, section 8.2.
+    """
+    body, point = first.subject.body, first.subject.point
+    axes = {first.subject.axis, second.subject.axis}
+    across = getattr(body, "flat_across", None)
+    if across is None or axes != set("xyz") - {across}:
+        message = "the theorem of perpendicular axes is about a flat body and two axes in its plane"
+        raise Rejected(Complaint("not-flat", message, help='`moment_of_inertia(body, "x")` and `"y"` of a flat body'))
+    k = "xyz".index(across)
+
+    def squares() -> Expr:
+        seen = seen_particles(body, point)
+        return sum((m * sum((x**2 for i, x in enumerate(r) if i != k), Integer(0)) for m, r in seen), Integer(0))
+
+    return establish(
+        "tensors.perpendicular_axes",
+        scalar(symbol or f"I_{across}"),
+        lambda a, b: Terms(a, b),
+        {"first": first, "second": second},
+        key=key,
+        kind=MOMENT,
+        routes={"particles": compared_with(squares)},
+        lines=Lines(put_in=Level.STANDARD),
+        telling=Telling(words={"about": point.name, "across": across}),
+        scope=Scope(about=Subject(body=body, point=point, axis=across)),
+    )
+
+
+def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_of_gyration") -> Quantity:
+    """Radius of gyration, k = sqrt(I/M): where the whole mass would have the same moment.
+
+    moment   moment of inertia of a body about an axis, kg m^2
+    Second route: the mean squared distance from the axis of the body's equimomental particles.
+    Errors: the moment is that of no body about an axis.
+    Source: Fowles, Cassiday, *Analytical Mechanics*, section 8.3.
+    """
+    require_kind("radius_of_gyration", "moment", moment, MOMENT)
+    body, point, axis = moment.subject.body, moment.subject.point, moment.subject.axis
+    if body is None or not isinstance(axis, str) or axis not in ("x", "y", "z"):
+        message = f"`{moment.key}` is not the moment of a body about one of its axes"
+        raise Rejected(Complaint("wrong-argument", message, help='use `moment_of_inertia(body, "z")`'))
+    i = "xyz".index(axis)
+
+    def mean_square(k: Expr) -> tuple[Expr, Expr]:
+        seen = seen_particles(body, point)
+        whole = sum((m * sum((x**2 for j, x in enumerate(r) if j != i), Integer(0)) for m, r in seen), Integer(0))
+        return k**2, whole / sum((m for m, _ in seen), Integer(0))
+
+    return establish(
+        "tensors.radius_of_gyration",
+        scalar(symbol, nonnegative=True),
+        lambda I, mass: Root(Ratio(I, mass)),
+        {"moment": moment, "mass": body.mass},
+        key=key,
+        kind="length",
+        routes={"particles": mean_square},
+        lines=Lines(put_in=None, arranged=lambda value: tidied(sqrt(tidied(value**2)))),
+        scope=Scope(about=Subject(body=body, point=point, axis=axis)),
+    )
