@@ -43,6 +43,7 @@ def equation(left: Expr, moving: Any, right: Expr = NONE, key: str = "motion") -
         None,
         lambda: Relation(left, "=", right),
         {},
+        outcome="equation",
         definition=True,
         key=key,
         scope=Scope(coordinates=moving.letters),

@@ -177,6 +177,7 @@ def test_only_quadratic_equations_have_these_roots() -> None:
         None,
         lambda: Relation(x**3 - 1, "=", 0),
         {},
+        outcome="equation",
         key="cubic",
         definition=True,
         lines=Lines(arranged=explicit),
