@@ -60,7 +60,10 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
     if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
-        return Mul(Rational(1, 2), spread(2 * coefficient), *(s**n for s, n in rates), evaluate=False)
+        inside, whole = spread(2 * coefficient), factor(coefficient)
+        if int(inside.count_ops()) > int(whole.count_ops()):  # (3/4) m (R - a)^2 q_dot^2
+            return Mul(whole, *(s**n for s, n in rates))
+        return Mul(Rational(1, 2), inside, *(s**n for s, n in rates), evaluate=False)
     return Mul(_shorter_as_product(spread(coefficient)), *(s**n for s, n in rates))
 
 

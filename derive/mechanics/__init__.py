@@ -51,9 +51,16 @@ from derive.mechanics.systems.coordinates import *
 from derive.mechanics.systems.cyclic import *
 from derive.mechanics.systems.effective import *
 from derive.mechanics.systems.energy import *
+from derive.mechanics.systems.constraint import *
+from derive.mechanics.systems.constraints import *
+from derive.mechanics.systems.coordinates import *
+from derive.mechanics.systems.cyclic import *
+from derive.mechanics.systems.energies import *
+from derive.mechanics.systems.forces import *
 from derive.mechanics.systems.lagrangian import *
 from derive.mechanics.systems.phase_space import *
 from derive.mechanics.systems.places import *
+from derive.mechanics.systems.rigid import *
 from derive.mechanics.systems.rolling import *
 from derive.mechanics.systems.symmetry import *
 from derive.mechanics.systems.system import *

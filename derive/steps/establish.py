@@ -153,7 +153,7 @@ def establish(
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
     _check_names(key, list(quantities.values()))
     together = united(key, [(q.key, q.subject) for q in quantities.values()], scope.differ, same_value)
-    body = together.body or (scope.about.body if isinstance(scope.about, Subject) else None)
+    body = (scope.about.body if isinstance(scope.about, Subject) else None) or together.body
     plain_symbol, words, called = symbol, telling.words, getattr(body, "called", "")
     if called:
         key, symbol = with_name(called, key, symbol)

@@ -15,7 +15,7 @@ from derive.mechanics import (
 
 
 def solve(moments: MomentsOfInertia):
-    body = RigidBody(moments)  # principal axes, about the centre of mass
+    body = RigidBody(moments=moments)  # principal axes, about the centre of mass
     omega = changing_angular_velocity()
     L = angular_momentum(body.tensor, omega)  # I w
 

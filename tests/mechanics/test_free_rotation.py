@@ -38,7 +38,7 @@ GENERAL = (I_x, I_y, I_z)
 @cache
 def found(moments: tuple[Expr, Expr, Expr] = GENERAL, torque: tuple[Expr, Expr, Expr] = NONE) -> dict[str, Quantity]:
     """Everything about a body of these moments, by key."""
-    body, omega = RigidBody(moments), changing_angular_velocity()
+    body, omega = RigidBody(moments=moments), changing_angular_velocity()
     L = angular_momentum(body.tensor, omega)
     equations = euler_equations(rate_in_space(L, omega), torque)
     in_body = rate_in_body(L, omega, equations)
@@ -245,7 +245,7 @@ def momentum_in_space(state: list[float], moments: tuple[Expr, ...]) -> list[flo
 
 
 def test_the_particles_have_the_moments_of_the_body() -> None:
-    body = RigidBody(GENERAL)
+    body = RigidBody(moments=GENERAL)
     for i, moment in enumerate(GENERAL):
         across = sum(mass * sum(x**2 for k, x in enumerate(place) if k != i) for mass, place in body.particles())
         assert expand(across - moment) == 0
@@ -254,16 +254,16 @@ def test_the_particles_have_the_moments_of_the_body() -> None:
 @pytest.mark.parametrize("moments", [(Integer(1), Integer(2), Integer(4)), (3 * A, A, A), (A, Rational(5, 2) * A, A)])
 def test_no_body_has_a_moment_above_the_other_two_together(moments: tuple[Expr, Expr, Expr]) -> None:
     with pytest.raises(Rejected) as refusal:
-        RigidBody(moments)
+        RigidBody(moments=moments)
     assert refusal.value.complaints[0].code == "no-such-body"
 
 
 def test_a_flat_body_may_have_one_moment_equal_to_the_other_two_together() -> None:
-    assert RigidBody((A, 2 * A, 3 * A)).second_moments == (2 * A, A, 0)
+    assert RigidBody(moments=(A, 2 * A, 3 * A)).second_moments == (2 * A, A, 0)
 
 
 def test_a_body_may_turn_about_a_fixed_point() -> None:
-    body = RigidBody(GENERAL, about="fixed_point")
+    body = RigidBody(moments=GENERAL, about="fixed_point")
     held = changing_angular_velocity(through="fixed_point")
     assert dict(angular_momentum(body.tensor, held).step.words)["about"] == "fixed_point"
     with pytest.raises(Rejected):
@@ -284,7 +284,7 @@ def test_equations_of_another_body_are_refused() -> None:
 
 
 def test_a_steady_angular_velocity_has_no_rates() -> None:
-    body = RigidBody(GENERAL, about="centre_of_mass")
+    body = RigidBody(moments=GENERAL, about="centre_of_mass")
     steady = any_angular_velocity(through="centre_of_mass")
     L = angular_momentum(body.tensor, steady)
     assert not any(s.name.endswith("_dot") for s in rate_in_space(L, steady).value.free_symbols)

@@ -136,7 +136,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         "depends on the time t",
     ),
     "the torque of any angular velocity that changes": (
-        lambda: torque(w := changing_angular_velocity(), angular_momentum(RigidBody((a, b, l)).tensor, w)),
+        lambda: torque(w := changing_angular_velocity(), angular_momentum(RigidBody(moments=(a, b, l)).tensor, w)),
         "depends on omega_x",
     ),
     "the energy of a block that grows": (
@@ -153,7 +153,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         ),
         "constant inertia tensor",
     ),
-    "moments of a rigid body that change": (lambda: RigidBody((a * TIME, b, l)), "depends on the time t"),
+    "moments of a rigid body that change": (lambda: RigidBody(moments=(a * TIME, b, l)), "depends on the time t"),
     "a moment about the end": (
         lambda: energy(rolled(), M, moment_of_inertia(Rod(l, M), axis="x", about="end"), THETA),
         "is about the end",
@@ -222,7 +222,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     "the small oscillations of an equation of Euler's": (
         lambda: linearised(
             euler_equations(
-                rate_in_space(angular_momentum(RigidBody((a, b, l)).tensor, w := changing_angular_velocity()), w)
+                rate_in_space(angular_momentum(RigidBody(moments=(a, b, l)).tensor, w := changing_angular_velocity()), w)
             )[0]
         ),
         "is not an equation of one coordinate",

@@ -23,6 +23,7 @@ from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.parts import PlacedPart, name_of_body
+from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Level, Quantity, compared_with
@@ -40,7 +41,7 @@ _DENSITIES = {
 }
 
 
-class Body:
+class Body(Placeable):
     """What all uniform bodies share.
 
     A kind of body says which points it has, over which region one integrates, how large it is, and which few

@@ -7,9 +7,9 @@ acceleration is that of a place in a turning body, and no tensor is used.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Symbol, diag
 from sympy.matrices import ImmutableMatrix
@@ -36,6 +36,7 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
+from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.equations.conservation import Acting, highest_rates
 from derive.mechanics.rotation.vectors import RateByParticles, Through
@@ -53,27 +54,76 @@ __all__ = [
     "rate_in_space",
 ]
 
+_POINTS = ("centre_of_mass", "fixed_point")
 NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 
 
 @dataclass(frozen=True)
-class RigidBody:
+class RigidBody(Placeable):
     """A rigid body of any shape. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
-    moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes
-    about     the point they are about: "centre_of_mass", or "fixed_point" if a point of it is held
+    mass      kg, where more is asked than its free rotation
+    moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes. For a motion in a
+              plane the one about the axis across it
+    centre    where its centre of mass is, from the point where its axes begin, the "pivot", m
+    about     the point the moments are about: "centre_of_mass", or "fixed_point", the pivot; that is so where a centre
+              is given and nothing is said
     """
 
-    moments: tuple[Expr, Expr, Expr]
-    about: str = "centre_of_mass"
+    mass: Expr | None = None
+    moments: tuple[Expr, Expr, Expr] | Expr = ()  # type: ignore[assignment]
+    centre: tuple[Expr, ...] = (Integer(0), Integer(0), Integer(0))
+    about: str = ""
+    name: ClassVar[str] = "a rigid body"
+    called: str = ""
+    is_plane: ClassVar[bool] = False  # whether only the moment across a plane is known
 
     def __post_init__(self) -> None:
+        if not isinstance(self.moments, tuple | list):
+            object.__setattr__(self, "is_plane", True)
+            object.__setattr__(self, "moments", (self.moments / 2, self.moments / 2, self.moments))
+        object.__setattr__(self, "centre", (*self.centre, *(Integer(0),) * (3 - len(self.centre))))
+        object.__setattr__(self, "about", self.about or ("fixed_point" if any(self.centre) else "centre_of_mass"))
+        if len(self.moments) != 3:
+            raise Rejected(Complaint("wrong-argument", "`RigidBody` needs three moments, or the one across a plane"))
+        if self.about not in _POINTS:
+            known = " or ".join(f'"{point}"' for point in _POINTS)
+            raise Rejected(Complaint("wrong-argument", f"the moments of a `RigidBody` are about {known}"))
         for moment in self.moments:
             require_constant("RigidBody", "moment of inertia", moment)
+        if self.mass is not None:
+            require_constant("RigidBody", "mass", self.mass)
         for axis, spread in zip(AXES, self.second_moments, strict=True):
             if spread.is_negative:
                 message = f"no body has such moments: that about {axis} is more than the other two together"
                 raise Rejected(Complaint("no-such-body", message))
+
+    def named(self, called: str) -> RigidBody:
+        """The same body under a name of its own, "upper rod", for a page that has another."""
+        twin = replace(self, moments=self.moments[2] if self.is_plane else self.moments)
+        object.__setattr__(twin, "called", called)
+        return twin
+
+    @property
+    def middle(self) -> Point:
+        return Point("centre", column(*self.centre))
+
+    def point_called(self, name: str) -> Point:
+        points = {"pivot": Point("pivot", column(0, 0, 0)), "centre": self.middle}
+        if name not in points:
+            known = ", ".join(f'"{known}"' for known in points)
+            raise Rejected(Complaint("no-such-point", f'{self.name} has no point "{name}"', help=f"it has {known}"))
+        return points[name]
+
+    @cached_property
+    def central_second_moments(self) -> ImmutableMatrix:
+        """The integrals of r_i r_j over the mass, r from the centre of mass: less M c_i c_j where they are about the
+        pivot."""
+        about_point = ImmutableDenseMatrix(diag(*self.second_moments))
+        if self.about == "centre_of_mass" or not any(self.centre):
+            return about_point
+        c = column(*self.centre)
+        return ImmutableDenseMatrix(about_point - self.mass * c * c.T)
 
     @cached_property
     def second_moments(self) -> tuple[Expr, Expr, Expr]:

@@ -94,6 +94,10 @@ def _of_square(sign: int | None) -> Predicate:
     return always_sign(sign, lambda facts: facts.inputs["squared"])
 
 
+def _free_bodies(facts: Judged) -> int:
+    return sum(not placed.is_held for placed in facts.subject.body.bodies)
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "coordinates.rate_of": {"generic": lasts, "zero": vanishes},
     "rolling.rolled_centre": {"across": _even_in(-1), "up": _even_in(1)},
@@ -102,8 +106,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "particle": lambda facts: "inertia" not in facts.inputs,
     },
     "systems.squared_speed": {
-        "alone": lambda facts: len(facts.subject.body.particles) == 1,
-        "of_several": lambda facts: len(facts.subject.body.particles) > 1,
+        "alone": lambda facts: len(facts.subject.body.particles) == 1 and _free_bodies(facts) == 0,
+        "centre": lambda facts: not facts.subject.body.particles and _free_bodies(facts) <= 1,
+        "of_several": lambda facts: len(facts.subject.body.masses) > 1,
     },
     "systems.potential_energy": {"generic": lasts, "zero": vanishes},
     "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},

@@ -18,7 +18,8 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
-from derive.mechanics.systems.system import System, kinetic_energy_of, potential_energy_of
+from derive.mechanics.systems.energies import kinetic_energy_of, potential_energy_of
+from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind

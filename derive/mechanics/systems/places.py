@@ -62,10 +62,12 @@ X, Y, Z = point(1, 0, 0), point(0, 1, 0), point(0, 0, 1)
 class Axes:
     """Three axes at right angles, by their unit vectors in space, which are the columns of a rotation matrix.
 
+    turns   those that led to them, in order: the number of the axis, and the angle
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
     """
 
     in_space: ImmutableMatrix
+    turns: tuple[tuple[int, Expr], ...] = ()
 
     def turned(self, about: Location, angle: Any) -> Axes:
         """These axes turned about one of themselves, X, Y or Z, by an angle: a coordinate, a constant or `rate*t`."""
@@ -73,11 +75,7 @@ class Axes:
             message = "axes are turned about one of themselves: X, Y or Z"
             raise Rejected(Complaint("wrong-argument", message))
         i = (X, Y, Z).index(about)
-        j, k = (i + 1) % 3, (i + 2) % 3
-        c, s = cos(angle), sin(angle)
-        turn = eye(3).as_mutable()
-        turn[j, j], turn[j, k], turn[k, j], turn[k, k] = c, -s, s, c
-        turned = Axes(ImmutableDenseMatrix(self.in_space * turn))
+        turned = Axes(ImmutableDenseMatrix(self.in_space * turn_about(i, angle)), (*self.turns, (i, 0 + angle)))
         _check_turned(self, turned, about, angle)
         return turned
 
@@ -90,6 +88,15 @@ class Axes:
         if not equal(ImmutableDenseMatrix(self.in_space.T * found), ImmutableDenseMatrix(along.components)):
             raise Unverified(Complaint("unverified", "`place`: along the axes it has other components"))
         return Location(tuple(found))
+
+
+def turn_about(axis: int, angle: Any) -> ImmutableMatrix:
+    """The matrix of a right-handed turn about the first, second or third axis."""
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    c, s = cos(angle), sin(angle)
+    turn = eye(3).as_mutable()
+    turn[j, j], turn[j, k], turn[k, j], turn[k, k] = c, -s, s, c
+    return ImmutableDenseMatrix(turn)
 
 
 def _check_turned(before: Axes, after: Axes, about: Location, angle: Any) -> None:

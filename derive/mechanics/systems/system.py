@@ -1,4 +1,4 @@
-"""A mechanical system: particles and the forces on them, its kinetic and its potential energy.
+"""A mechanical system: particles and bodies, the forces on them, and the conditions on their motion.
 
 Places are formulas in the coordinates, so that whatever ties particles together is built into them. The energies are
 made of the places alone; so are the mass points and forces by which every second route goes (d'Alembert's principle).
@@ -6,25 +6,26 @@ made of the places alone; so are the mass points and forces by which every secon
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, factor, sqrt
 
-from derive.algebra.collect import by_rates, by_terms
-from derive.algebra.expressions import TIME, Factors, Relation, Terms, TimeRate, bound, explicit, scalar
+from derive.algebra.expressions import TIME, Factors, Relation, Terms, column
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
+from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
+from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
-from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, coordinates_in, require_constant
-from derive.steps.step import Quantity, compared_with
-from derive.steps.subject import Subject
+from derive.steps.step import Fact, Quantity
 
-__all__ = ["Particle", "System", "central", "kinetic_energy_of", "potential_energy_of", "spring", "weight"]
+__all__ = ["Particle", "System", "central", "spring", "weight"]
 
 HALF, ZERO = Rational(1, 2), Integer(0)
 DISTANCE = Dummy("r", positive=True)
@@ -111,23 +112,60 @@ def central(energy: Expr, distance: Symbol, start: Location, end: Location) -> C
     return Central(start, end, distance, energy, diff(energy, distance))
 
 
-PartOfSystem: TypeAlias = Particle | Weight | Central
+PartOfSystem: TypeAlias = (
+    Particle | PlacedBody | Weight | Central | StoredEnergy | Charge | GivenForce | Damper | Constraint | Quantity
+)
+_PARTS = (Particle, PlacedBody, Weight, Central, StoredEnergy, Charge, GivenForce, Damper, Constraint, Quantity)
+
+
+@dataclass(frozen=True)
+class KnownCoordinate(Fact):
+    """A coordinate that a condition makes a function of others, with the function."""
+
+    missing = "is not a condition that gives a coordinate by others"
+    coordinate: Symbol
+    function: Expr
 
 
 class System:
-    """Particles and the forces on them."""
+    """Particles and bodies, the forces on them, and the conditions on their motion.
 
-    def __init__(self, *parts: PartOfSystem):
+    name   "first": keys of its steps begin with `first_`, letters have the index `first`
+    """
+
+    def __init__(self, *parts: PartOfSystem, name: str = ""):
+        unknown = [part for part in parts if not isinstance(part, _PARTS)]
+        if unknown:
+            made_of = "particles, placed bodies, a weight, springs and other forces, and constraints"
+            message = f"`System` is made of {made_of}, not of {type(unknown[0]).__name__}"
+            help_line = "put a body somewhere with `.placed` or `.held`" if isinstance(unknown[0], Placeable) else None
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
+        if name and not re.fullmatch(r"[a-z]+( [a-z]+)?", name):
+            help_line = 'give one or two words in small letters, "first"'
+            raise Rejected(Complaint("name", f"`{name}` is not a name for a system", help=help_line))
+        self.called = name
+        self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
+        known = {fact.coordinate: fact.function for fact in (q.needed(KnownCoordinate) for q in self.conditions)}
+        parts = tuple(_with_known(part, known) for part in parts) if known else parts
         self.particles = tuple(part for part in parts if isinstance(part, Particle))
+        self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
         self.weights = tuple(part for part in parts if isinstance(part, Weight))
         self.between = tuple(part for part in parts if isinstance(part, Central))
-        unknown = [part for part in parts if not isinstance(part, Particle | Weight | Central)]
-        if unknown:
-            made_of = "particles, a weight, springs and other central forces"
-            message = f"`System` is made of {made_of}, not of {type(unknown[0]).__name__}"
-            raise Rejected(Complaint("wrong-argument", message))
-        if not self.particles:
-            raise Rejected(Complaint("wrong-argument", "a `System` needs a particle"))
+        self.charges = tuple(part for part in parts if isinstance(part, Charge))
+        charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
+        self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
+        deflected = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
+        self.given_forces = (*(part for part in parts if isinstance(part, GivenForce)), *deflected)
+        self.dampers = tuple(part for part in parts if isinstance(part, Damper))
+        self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
+        self._check()
+
+    def _check(self) -> None:
+        if not self.particles and not self.bodies:
+            raise Rejected(Complaint("wrong-argument", "a `System` needs a particle or a body that is placed or held"))
+        for placed in self.bodies:
+            if placed.body.mass is None:
+                raise Rejected(Complaint("wrong-argument", f"`System` needs the mass of {placed.body.name}"))
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` has one weight, that of all its particles"))
         if len({len(place.components) for place in self.places}) > 1:
@@ -136,11 +174,35 @@ class System:
         if not self.coordinates:
             message = "nothing in this `System` moves: its places depend on no coordinate"
             raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
+        self._check_what_acts()
+        letters = [each.force.name for each in self.constraints]
+        if len(set(letters)) < len(letters):
+            message = "two constraints of this `System` have forces of one letter"
+            raise Rejected(Complaint("letter-clash", message, help='give them letters, `constraint(..., force="N")`'))
+
+    def _check_what_acts(self) -> None:
+        """Forces and constraints are those of what moves here, and of nothing else."""
+        acting = [ImmutableDenseMatrix([e.energy]) for e in self.stored]
+        acting += [ImmutableDenseMatrix(each.at) for each in (*self.given_forces, *self.dampers)]
+        acting += [ImmutableDenseMatrix([each.residual]) for each in self.constraints]
+        for values in acting:
+            for q in coordinates_in(values):
+                if q not in self.coordinates:
+                    message = f"a force or constraint of this `System` depends on {q.name}, but nothing in it moves so"
+                    raise Rejected(Complaint("wrong-argument", message))
 
     @property
     def places(self) -> list[Location]:
-        """Those of its particles, and the ends of what acts between them."""
-        return [particle.at for particle in self.particles] + [end for s in self.between for end in (s.start, s.end)]
+        """Those of its particles and bodies, and the ends of what acts between them."""
+        at = [particle.at for particle in self.particles] + [placed.centre for placed in self.bodies]
+        at += [each.at for each in self.charges]
+        return at + [end for s in self.between for end in (s.start, s.end)]
+
+    @property
+    def masses(self) -> list[tuple[Expr, Location]]:
+        """The masses of its particles and bodies, with the places of their centres of mass."""
+        own = [(particle.mass, particle.at) for particle in self.particles]
+        return own + [(placed.body.mass, placed.centre) for placed in self.bodies]
 
     @property
     def gravity(self) -> Expr:
@@ -148,116 +210,71 @@ class System:
 
     @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Those that its places depend on, with their kinds."""
-        return coordinates_in(ImmutableDenseMatrix([c for place in self.places for c in place.components]))
+        """Those that its places and the turning of its bodies depend on, with their kinds."""
+        entries = [c for place in self.places for c in place.components]
+        return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
 
     @cached_property
     def matter(self) -> Matter:
-        """Its mass points, and the forces on them."""
-        points = tuple(MassPoint(particle.mass, particle.at.components) for particle in self.particles)
-        loads = [self._weight_of(particle) for particle in self.particles] if self.weights else []
+        """Its mass points, and the forces on them that have a potential energy."""
+        moving = list(self.coordinates)
+        points = [MassPoint(particle.mass, particle.at.components) for particle in self.particles]
+        points += [point for placed in self.bodies for point in mass_points(placed)]
+        loads = [self._weight_of(mass, at) for mass, at in self.masses] if self.weights else []
         loads += [load for each in self.between for load in each.pulls()]
-        return Matter(points, tuple(loads), tuple(self.coordinates))
+        loads += [load for each in self.stored for load in each.loads(moving)]
+        return Matter(tuple(points), tuple(loads), tuple(moving))
 
-    def _weight_of(self, particle: Particle) -> Load:
-        *across, _ = particle.at.components
-        down = -particle.mass * self.weights[0].gravity
-        return Load((*(ZERO for _ in across), down), particle.at.components)
+    @cached_property
+    def other_loads(self) -> tuple[Load, ...]:
+        """The forces without a potential energy: given ones, those of magnetic fields, and drag."""
+        moving = list(self.coordinates)
+        return tuple(each.load(moving) for each in (*self.given_forces, *self.dampers))
+
+    def _weight_of(self, mass: Expr, at: Location) -> Load:
+        *across, _ = at.components
+        return Load((*(ZERO for _ in across), -mass * self.weights[0].gravity), at.components)
+
+
+def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
+    """A part of a system with some of the coordinates given by others."""
+    if isinstance(part, PlacedBody):
+        return part.moved(known)
+    if isinstance(part, Particle):
+        return replace(part, at=_moved(part.at, known))
+    if isinstance(part, Central):
+        return replace(part, start=_moved(part.start, known), end=_moved(part.end, known))
+    if isinstance(part, Charge):
+        return replace(part, at=_moved(part.at, known))
+    if isinstance(part, StoredEnergy):
+        return StoredEnergy(part.energy.subs(known))
+    if isinstance(part, GivenForce | Damper):
+        return replace(part, at=tuple(c.subs(known) for c in part.at))
+    return part
+
+
+def _moved(place: Location, known: Mapping[Symbol, Expr]) -> Location:
+    return Location(tuple(c.subs(known) for c in place.components))
+
+
+def mass_points(placed: PlacedBody) -> list[MassPoint]:
+    """The mass of a body at its centre of mass, and second moments on unit vectors that turn as it does.
+
+    The moments are those of its particles, so that no inertia tensor is used.
+    """
+    spread = central_second_moments(placed.body)
+    points = [MassPoint(placed.body.mass, placed.centre.components)]
+    axes = placed.in_plane if placed.is_plane else (0, 1, 2)
+    arms = {i: column(*(int(i == k) for k in range(3))) for i in axes}
+    for i in axes:
+        alone = spread[i, i] - sum((spread[i, j] for j in axes if j != i), ZERO)
+        points.append(MassPoint(alone, placed.seen_in_space(arms[i]).components))
+        pairs = [j for j in axes if j > i and spread[i, j] != 0]
+        points += [MassPoint(spread[i, j], placed.seen_in_space(arms[i] + arms[j]).components) for j in pairs]
+    return [point for point in points if point.mass != 0]
 
 
 def _is_so(condition: Relation, coordinates: Mapping[Symbol, str]) -> bool:
     """Whether it is a length that is positive where all coordinates are zero."""
     at_rest = condition.residual.xreplace(dict.fromkeys(coordinates, ZERO))
     return bool(condition.mark == ">" and at_rest.is_positive)
-
-
-def _numbered(letter: str, i: int, system: System) -> Symbol:
-    """v of the only particle, else v_1, v_2, ..."""
-    return scalar(f"{letter}_{i + 1}" if len(system.particles) > 1 else letter)
-
-
-def _squared_speed(system: System, i: int) -> Quantity:
-    """Square of the speed of a particle, v^2 = x_dot^2 + y_dot^2."""
-    moving = list(system.coordinates)
-    place = system.particles[i].at.components
-    matter = Matter((MassPoint(Integer(2), place),), (), tuple(moving))
-    return establish(
-        "systems.squared_speed",
-        Pow(_numbered("v", i, system), 2),
-        lambda *at: Terms(*(Pow(TimeRate(c, *moving), 2) for c in at)),
-        {f"place_{k}": c for k, c in enumerate(place)},
-        key=_numbered("squared_speed", i, system).name,
-        outcome="of_several" if len(system.particles) > 1 else "alone",
-        routes={"functions_of_time": compared_with(matter.kinetic_energy)},
-        lines=Lines(
-            put_in=None,
-            arranged=lambda value: by_rates(value, moving),
-            means={_numbered("v", i, system): _speed(place, moving)},
-        ),
-        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
-    )
-
-
-def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
-    return sqrt(Add(*(explicit(TimeRate(c, *moving)) ** 2 for c in place)))
-
-
-def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
-    """Kinetic energy of a system, T = sum of (1/2) m v^2 over its particles.
-
-    system   its particles
-    The square of each speed is a step of its own.
-    Second route: half the sum of m v.v, the places differentiated as functions of t.
-    Source: Taylor, *Classical Mechanics*, section 7.1.
-    """
-    speeds = [_squared_speed(system, i) for i in range(len(system.particles))]
-    masses = [particle.mass for particle in system.particles]
-
-    def law(*squares: Expr) -> Expr:
-        return Terms(*(Factors(HALF, m, square) for m, square in zip(masses, squares, strict=True)))
-
-    return establish(
-        "systems.kinetic_energy",
-        scalar(symbol),
-        law,
-        {f"speed_{i}": speed for i, speed in enumerate(speeds)},
-        key=key,
-        kind="energy",
-        routes={"mass_points": compared_with(system.matter.kinetic_energy)},
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, list(system.coordinates), halves=True)),
-        facts=[replace(system.matter, loads=())],
-        scope=Scope(about=Subject(body=system)),
-    )
-
-
-def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
-    """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
-
-    system   its particles, springs and weight
-    Second route: the forces do the work -dU along any motion, for each coordinate -dU/dq = sum of F . dr/dq; at the
-    origin, with the springs at their natural length, it is zero.
-    Outcomes: generic, zero (no force that has one).
-    Source: Taylor, *Classical Mechanics*, section 4.2.
-    """
-    moving, matter = [*system.coordinates, TIME], system.matter
-
-    def work(found: Expr) -> tuple[Expr, Expr]:
-        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
-        lost = [-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
-        return Add(*lost), Add(*(matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
-
-    heights = [Factors(p.mass, system.gravity, p.at.height) for p in system.particles] if system.weights else []
-    stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
-    return establish(
-        "systems.potential_energy",
-        scalar(symbol),
-        lambda: Terms(*heights, *stored) if heights or stored else Integer(0),
-        {},
-        key=key,
-        kind="energy",
-        routes={"work": work},
-        outcome=lambda value: "zero" if value == 0 else "generic",
-        lines=Lines(put_in=None, arranged=by_terms),
-        facts=[replace(matter, points=())],
-        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
-    )

@@ -1,0 +1,175 @@
+"""Where a body is, and how it is turned: freely by its centre of mass, or held at one of its points.
+
+In space it is turned as axes are; in a vertical plane by an angle about the normal, from right to up. There the axis
+of the body that lies across the plane points to the reader, and the two that follow it, in the order x, y, z, x, y,
+lie along the plane's own axes where the angle is zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, sin
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import TIME, column, explicit
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.systems.places import Axes, Location, turn_about
+from derive.steps.record import coordinates_in
+
+__all__: list[str] = []
+
+XYZ = "xyz"
+
+
+@dataclass(frozen=True)
+class PlacedBody:
+    """A body in a motion.
+
+    body     what has a mass, a centre of mass and an inertia about its points
+    turned   axes, or for a motion in a plane the angle
+    point    the point of the body whose place is known
+    at       that place
+    across   in a plane, the number of the body's axis that lies across it
+    """
+
+    body: Any
+    turned: Axes | Expr
+    point: Point
+    at: Location
+    across: int | None = None
+
+    @property
+    def is_plane(self) -> bool:
+        return not isinstance(self.turned, Axes)
+
+    def seen_in_space(self, arm: ImmutableMatrix) -> Location:
+        """A vector of the body, along the directions of space or of the plane."""
+        if isinstance(self.turned, Axes):
+            return Location(tuple(self.turned.in_space * arm))
+        j, k = self.in_plane
+        c, s = cos(self.turned), sin(self.turned)
+        return Location((arm[j] * c - arm[k] * s, arm[j] * s + arm[k] * c))
+
+    @property
+    def in_plane(self) -> tuple[int, int]:
+        i = self.across or 0
+        return (i + 1) % 3, (i + 2) % 3
+
+    @cached_property
+    def centre(self) -> Location:
+        """Where its centre of mass is."""
+        arm = ImmutableDenseMatrix((self.body.middle.position - self.point.position).expand())
+        return self.at + self.seen_in_space(arm) if any(arm) else self.at
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the point of the body that is known does not move."""
+        here = ImmutableDenseMatrix(self.at.components)
+        return not coordinates_in(here) and TIME not in here.free_symbols
+
+    def moved(self, values: Mapping[Symbol, Expr]) -> PlacedBody:
+        """The same, some coordinates being known by others."""
+        at = Location(tuple(c.subs(values) for c in self.at.components))
+        if not isinstance(self.turned, Axes):
+            return replace(self, at=at, turned=self.turned.subs(values))
+        turns = tuple((i, angle.subs(values)) for i, angle in self.turned.turns)
+        return replace(self, at=at, turned=Axes(after(turns), turns))
+
+    @property
+    def depends_on(self) -> ImmutableMatrix:
+        """All that its place and its turning are made of."""
+        turning = list(self.turned.in_space) if isinstance(self.turned, Axes) else [self.turned]
+        return ImmutableDenseMatrix([*self.at.components, *turning])
+
+
+def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
+    """The matrix of all turns, one after the other."""
+    whole = turn_about(0, Integer(0))
+    for i, angle in turns:
+        whole = ImmutableDenseMatrix(whole * turn_about(i, angle))
+    return whole
+
+
+class Placeable:
+    """What can be put somewhere, and turned."""
+
+    def placed(self, turned: Any, centre: Location, across: str | None = None) -> PlacedBody:
+        """The body with its centre of mass at a place, turned as axes are, or in a plane by an angle.
+
+        across   in a plane, the axis of the body that lies across it, where it is not clear
+        """
+        own: Any = self
+        return _placed(own, turned, own.middle, centre, across)
+
+    def held(self, turned: Any, at: Any, on: Location | None = None, across: str | None = None) -> PlacedBody:
+        """The body held at one of its points, by name or by components along its axes; at the origin unless said."""
+        own: Any = self
+        by_name = getattr(own, "point_called", None) or own.point
+        named = by_name(at) if isinstance(at, str) else _point_at(at)
+        origin = Location((Integer(0),) * (3 if isinstance(turned, Axes) else 2))
+        return _placed(own, turned, named, on or origin, across)
+
+
+def _point_at(components: Any) -> Point:
+    if not isinstance(components, tuple | list) or len(components) != 3:
+        message = "a point of a body is a name, or three components along its axes"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Point("point", column(*components))
+
+
+def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -> PlacedBody:
+    if not isinstance(at, Location):
+        raise Rejected(Complaint("wrong-argument", "a body is put at a place that `point` or `place` gives"))
+    count = 3 if isinstance(turned, Axes) else 2
+    if len(at.components) != count:
+        message = "a body turned as axes are needs a place in space, one turned by an angle a place in the plane"
+        raise Rejected(Complaint("wrong-argument", message))
+    if isinstance(turned, Axes):
+        if getattr(body, "is_plane", False):
+            message = f"only one moment of {body.name} is known, so it can only move in a plane"
+            raise Rejected(Complaint("wrong-argument", message, help="give its three principal moments"))
+        return PlacedBody(body, turned, point, at)
+    try:
+        angle = explicit(Integer(0) + turned)
+    except TypeError:
+        raise Rejected(Complaint("wrong-argument", "a body is turned as axes are, or by an angle")) from None
+    return PlacedBody(body, angle, point, at, _across(body, across))
+
+
+def _across(body: Any, named: str | None) -> int:
+    """Which axis of the body lies across the plane: what is said, or what alone makes sense."""
+    if named is not None and named not in tuple(XYZ):
+        message = f'no axis of a body is called "{named}"'
+        raise Rejected(Complaint("wrong-argument", message, help='it has "x", "y", "z"'))
+    flat = getattr(body, "flat_across", None)
+    straight = "x" if getattr(body, "filling", "") == "length" else None
+    found = named or flat or straight or ("z" if getattr(body, "is_plane", False) or _is_isotropic(body) else None)
+    if found is None:
+        message = f"about which axis {body.name} turns in the plane is not clear"
+        raise Rejected(Complaint("wrong-axis", message, help='say `across="x"`, "y" or "z"'))
+    return XYZ.index(found)
+
+
+def _is_isotropic(body: Any) -> bool:
+    spread = central_second_moments(body)
+    return all(tidied(spread[i, j] - (spread[0, 0] if i == j else 0)) == 0 for i in range(3) for j in range(i, 3))
+
+
+def central_second_moments(body: Any) -> ImmutableMatrix:
+    """The sums of m r_i r_j over the particles of a body, r from its centre of mass, kg m^2."""
+    own = getattr(body, "central_second_moments", None)
+    if own is not None:
+        found: ImmutableMatrix = own
+        return found
+    centre = body.middle.position
+    whole = ImmutableDenseMatrix.zeros(3, 3)
+    for mass, place in body.particles():
+        arm = place - centre
+        whole = whole + mass * arm * arm.T
+    return ImmutableDenseMatrix(whole.applyfunc(tidied))

@@ -1,0 +1,102 @@
+"""Conditions on a motion that forces keep: between coordinates, f(q, t) = c, or linear in their rates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, Integer, Symbol, diff
+
+from derive.algebra.expressions import Relation, TimeRate, explicit, rate, scalar
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.errors import Complaint, Rejected
+from derive.steps.record import coordinates_in
+from derive.steps.step import Fact, is_zero
+
+__all__ = ["constraint"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """f = 0, kept by a force whose work is lambda df; or the sum of a_i q_i_dot and b, kept by one with the work
+    lambda times the sum of a_i dq_i.
+
+    left      f, or the sum
+    right     what it equals, as the script wrote it
+    force     the multiplier
+    in_rates  whether it is linear in the rates
+    """
+
+    left: Expr
+    right: Expr
+    force: Symbol
+    in_rates: bool = False
+
+    @property
+    def residual(self) -> Expr:
+        return self.left - self.right
+
+    @property
+    def relation(self) -> Relation:
+        return Relation(self.left, "=", self.right)
+
+    @property
+    def coordinates(self) -> dict[Symbol, str]:
+        return coordinates_in(self.residual)
+
+    def along(self, q: Symbol) -> Expr:
+        """What a displacement of q alone does to the condition, df/dq or a_q."""
+        return diff(self.residual, rate(q) if self.in_rates else q)
+
+    def velocity(self, moving: list[Symbol]) -> Expr:
+        """What vanishes in every velocity that it allows."""
+        return self.residual if self.in_rates else explicit(TimeRate(self.residual, *moving))
+
+    def acceleration(self, moving: list[Symbol]) -> Expr:
+        return explicit(TimeRate(self.velocity(moving), *moving))
+
+    @property
+    def kind_of_force(self) -> str | None:
+        """A force where f is a length, a torque where it is an angle, as one of its plain terms tells."""
+        for term in Add.make_args(self.residual.expand()):
+            for q, kind in self.coordinates.items():
+                if (term / (rate(q) if self.in_rates else q)).is_number:
+                    if kind == "angle":
+                        return "torque"
+                    return kind_of_dimension(dimension_of_kind("energy") / dimension_of_kind(kind))
+        return None
+
+
+@dataclass(frozen=True)
+class Kept(Fact):
+    """The constraints that forces keep in a motion."""
+
+    missing = "has no constraints that forces keep"
+    constraints: tuple[Constraint, ...]
+
+
+def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Constraint:
+    """A condition on the coordinates, f = c, or linear in their rates, that a force keeps.
+
+    condition   f, a formula of the coordinates, of the time, or linear in the rates of coordinates
+    equals      c
+    force       the letter of the multiplier: a force where f is a length
+    """
+    try:
+        left, right = explicit(ZERO + condition), explicit(ZERO + equals)
+    except TypeError:
+        raise Rejected(Complaint("wrong-argument", "`constraint` needs a formula of the coordinates")) from None
+    moving = list(coordinates_in(left - right))
+    if not moving:
+        message = f"`constraint` needs a formula of coordinates, but {left - right} has none"
+        raise Rejected(Complaint("wrong-argument", message))
+    rates = [rate(q) for q in moving if (left - right).has(rate(q))]
+    higher = [q for q in moving if (left - right).has(rate(q, 2), rate(q, 3))]
+    residual = left - right
+    if higher or any(not is_zero(diff(residual, a, b)) for a in rates for b in rates):
+        message = "`constraint` needs a formula of the coordinates, or one linear in their rates"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Constraint(left, right, scalar(force), bool(rates))
+

@@ -1,0 +1,217 @@
+"""The kinetic and the potential energy of a system, from the places of its particles and the turning of its bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, factor, sin, sqrt, tan
+
+from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.expressions import TIME, Dot, Factors, Terms, TimeRate, applied, bound, explicit, scalar
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.systems.dalembert import MassPoint, Matter
+from derive.mechanics.systems.rigid import angular_velocity_of, inertia_of, is_about_the_point, turning_rate_of
+from derive.mechanics.systems.system import HALF, System
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.step import Level, Quantity, compared_with, value_behind
+from derive.steps.subject import EVERYTHING, Subject
+
+__all__ = ["kinetic_energy_of", "potential_energy_of"]
+
+
+@dataclass(frozen=True)
+class Mover:
+    """What has a kinetic energy by the motion of its centre of mass: a particle, or a body that is not held."""
+
+    mass: Expr
+    place: tuple[Expr, ...]
+    letter: str
+    is_body: bool
+
+
+def movers(system: System) -> list[Mover]:
+    """v of the only one, else v_1, v_2, ...; of a body with a name v with that name."""
+    found = [Mover(particle.mass, particle.at.components, "", False) for particle in system.particles]
+    found += [
+        Mover(placed.body.mass, placed.centre.components, placed.body.called.partition(" ")[0], True)
+        for placed in system.bodies
+        if not is_about_the_point(placed)
+    ]
+    own = system.called.partition(" ")[0]
+
+    def index(i: int, mover: Mover) -> str:
+        parts = [mover.letter or (str(i + 1) if len(found) > 1 else ""), own]
+        return "_".join(part for part in parts if part)
+
+    return [replace(mover, letter=index(i, mover)) for i, mover in enumerate(found)]
+
+
+def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
+    """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
+    moving = list(system.coordinates)
+    name = f"v_{mover.letter}" if mover.letter else "v"
+    letter = scalar(name)
+    matter = Matter((MassPoint(Integer(2), mover.place),), (), tuple(moving))
+    alone = "centre" if mover.is_body else "alone"
+    return establish(
+        "systems.squared_speed",
+        Pow(letter, 2),
+        lambda *at: Terms(*(Pow(TimeRate(c, *moving), 2) for c in at)),
+        {f"place_{k}": c for k, c in enumerate(mover.place)},
+        key=f"squared_speed_{mover.letter}" if mover.letter else "squared_speed",
+        outcome="of_several" if several else alone,
+        routes={"functions_of_time": compared_with(matter.kinetic_energy)},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda value: by_rates(value, moving),
+            means={letter: _speed(mover.place, moving)},
+        ),
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
+    return sqrt(Add(*(explicit(TimeRate(c, *moving)) ** 2 for c in place)))
+
+
+@dataclass(frozen=True)
+class Turning:
+    """The rotation of one body: its inertia, a step or a letter, and its angular velocity or the rate of its angle."""
+
+    inertia: Any
+    omega: Any
+
+    @property
+    def is_plane(self) -> bool:
+        return not isinstance(self.omega, Quantity)
+
+    def energy(self, inertia: Any, omega: Any) -> Expr:
+        """(1/2) I theta_dot^2, or (1/2) omega . I omega."""
+        if self.is_plane:
+            return Factors(HALF, inertia, Pow(omega, 2))
+        return Factors(HALF, Dot(omega, applied(inertia, omega)))
+
+    def written_out(self) -> Expr:
+        """By components along principal axes, those of equal moments together."""
+        tensor, omega = value_behind(self.inertia), value_behind(self.omega)
+        if self.is_plane or not tensor.is_diagonal():
+            return explicit(self.energy(tensor, omega))
+        squares: dict[Expr, list[Expr]] = {}
+        for i in range(3):
+            if omega[i] != 0:
+                squares.setdefault(tensor[i, i], []).append(Pow(_factored(omega[i]), 2))
+        return Add(*(Mul(HALF, moment, Add(*of)) for moment, of in squares.items()), evaluate=False)
+
+
+def _factored(component: Expr) -> Expr:
+    return min((component, factor(component)), key=lambda form: int(form.count_ops()))
+
+
+def _turnings(system: System) -> list[Turning]:
+    """Bodies that are alike have one inertia."""
+    found: list[Turning] = []
+    known: list[tuple[PlacedBody, Any]] = []
+    for i, placed in enumerate(system.bodies):
+        if placed.is_plane and turning_rate_of(placed) == 0:
+            continue
+        alike = (
+            inertia
+            for other, inertia in known
+            if (other.body, other.across, other.point.name) == (placed.body, placed.across, placed.point.name)
+            and other.body.called == placed.body.called
+            and is_about_the_point(other) == is_about_the_point(placed)
+        )
+        inertia = next(alike, None)
+        if inertia is None:
+            inertia = inertia_of(placed)
+            known.append((placed, inertia))
+        if placed.is_plane:
+            found.append(Turning(inertia, turning_rate_of(placed)))
+        else:
+            letter = "omega" if len(system.bodies) == 1 or placed.body.called else f"omega_{i + 1}"
+            found.append(Turning(inertia, angular_velocity_of(placed, value_behind(inertia), letter)))
+    return found
+
+
+def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
+    """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
+
+    system   its particles and bodies: v is the speed of a centre of mass and I about it, but for a body that is held,
+             whose I is about the point that stays at rest
+    The square of each speed, each angular velocity and each inertia is a step of its own.
+    Second route: half the sum of m v.v over mass points, the places differentiated as functions of t.
+    Errors: the moments of a body are about another point.
+    Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """
+    moved = movers(system)
+    speeds = [_squared_speed(system, mover, len(moved) > 1) for mover in moved]
+    turnings = _turnings(system)
+    moving = list(system.coordinates)
+    inputs: dict[str, Any] = {f"speed_{i}": speed for i, speed in enumerate(speeds)}
+    for i, turning in enumerate(turnings):
+        inputs |= {f"inertia_{i}": turning.inertia, f"omega_{i}": turning.omega}
+
+    def law(*given: Expr) -> Expr:
+        squares, rest = given[: len(speeds)], given[len(speeds) :]
+        terms = [Factors(HALF, mover.mass, square) for mover, square in zip(moved, squares, strict=True)]
+        pairs = zip(turnings, rest[::2], rest[1::2], strict=True)
+        terms += [turning.energy(inertia, omega) for turning, inertia, omega in pairs]
+        return Terms(*terms) if len(terms) > 1 else terms[0]
+
+    def arranged(value: Expr) -> Expr:
+        gathered = by_rates(value.replace(tan, lambda a: sin(a) / cos(a)), moving, halves=True)
+        if all(turning.is_plane for turning in turnings):
+            return gathered
+        moved_on = [HALF * mover.mass * square.value for mover, square in zip(moved, speeds, strict=True)]
+        whole = Add(*moved_on, *(turning.written_out() for turning in turnings), evaluate=False)
+        return min((gathered, whole), key=lambda form: int(form.count_ops()))
+
+    return establish(
+        "systems.kinetic_energy",
+        scalar(symbol),
+        law,
+        inputs,
+        key=key,
+        kind="energy",
+        parents=system.conditions,
+        routes={"mass_points": compared_with(system.matter.kinetic_energy)},
+        lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
+        facts=[replace(system.matter, loads=())],
+        scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
+    )
+
+
+def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
+    """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
+
+    system   its particles and bodies, whose y is that of the centre of mass; its weight, springs and other potentials
+    Second route: the forces do the work -dU along any motion, for each coordinate -dU/dq = sum of F . dr/dq; at the
+    origin, with the springs at their natural length, it is zero.
+    Outcomes: generic, zero (no force that has one).
+    Source: Taylor, *Classical Mechanics*, section 4.2.
+    """
+    moving, matter = [*system.coordinates, TIME], system.matter
+
+    def work(found: Expr) -> tuple[Expr, Expr]:
+        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        lost = [-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
+        return Add(*lost), Add(*(matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
+
+    masses = system.masses if system.weights else []
+    heights = [Factors(mass, system.gravity, at.height) for mass, at in masses if at.height != 0]
+    stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
+    stored += [each.energy for each in system.stored]
+    return establish(
+        "systems.potential_energy",
+        scalar(symbol),
+        lambda: Terms(*heights, *stored) if heights or stored else Integer(0),
+        {},
+        key=key,
+        kind="energy",
+        routes={"work": work},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        lines=Lines(put_in=None, arranged=by_terms),
+        facts=[replace(matter, points=())],
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )

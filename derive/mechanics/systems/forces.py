@@ -1,0 +1,186 @@
+"""What acts on a system besides its weight and its springs: given forces and couples, drag, charges in fields, and any
+potential energy of the coordinates.
+
+A couple on an angle, and a drag on a coordinate, act along that coordinate alone; everything else acts at a place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.expressions import TIME, TimeRate, explicit, rate
+from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.coordinates import Coordinate
+from derive.mechanics.systems.dalembert import Load
+from derive.mechanics.systems.places import Location
+from derive.steps.record import coordinates_in, require_constant
+from derive.steps.step import is_zero
+
+__all__ = ["charge", "couple", "damping", "force", "potential"]
+
+Vector = tuple[Expr, ...]
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class GivenForce:
+    """A force at a place, N, or along a coordinate what does the work Q dq: for an angle a couple, N m."""
+
+    components: Vector
+    at: Vector
+
+    def load(self, moving: Sequence[Symbol]) -> Load:
+        return Load(self.components, self.at)
+
+
+@dataclass(frozen=True)
+class Damper:
+    """A drag -c v against the velocity of a place, or against the rate of a coordinate."""
+
+    constant: Expr
+    at: Vector
+
+    def velocity(self, moving: Sequence[Symbol]) -> Vector:
+        return tuple(explicit(TimeRate(c, *moving)) for c in self.at)
+
+    def load(self, moving: Sequence[Symbol]) -> Load:
+        return Load(tuple(-self.constant * v for v in self.velocity(moving)), self.at)
+
+
+@dataclass(frozen=True)
+class MagneticForce:
+    """The force q v x B on a charge that moves through a magnetic field, N."""
+
+    charge: Expr
+    at: Vector
+    field: Vector
+
+    def load(self, moving: Sequence[Symbol]) -> Load:
+        v = [explicit(TimeRate(c, *moving)) for c in self.at]
+        if len(v) == 2:  # in a plane the field points to the reader
+            across = (v[1] * self.field[0], -v[0] * self.field[0])
+            return Load(tuple(self.charge * c for c in across), self.at)
+        b = self.field
+        turned = (v[1] * b[2] - v[2] * b[1], v[2] * b[0] - v[0] * b[2], v[0] * b[1] - v[1] * b[0])
+        return Load(tuple(self.charge * c for c in turned), self.at)
+
+
+@dataclass(frozen=True)
+class StoredEnergy:
+    """A potential energy of the coordinates and the time, J."""
+
+    energy: Expr
+
+    def loads(self, moving: Sequence[Symbol]) -> list[Load]:
+        """Along each coordinate the force -dU/dq."""
+        slopes = [(q, -diff(self.energy, q)) for q in moving]
+        return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
+
+
+@dataclass(frozen=True)
+class Charge:
+    """A charge in given fields, which need not be the same everywhere: the force q(E + v x B)."""
+
+    charge: Expr
+    at: Location
+    electric: Vector
+    magnetic: Vector
+
+    @property
+    def stored(self) -> StoredEnergy:
+        """In a uniform electric field, U = -q E . r."""
+        return StoredEnergy(-self.charge * Add(*(e * c for e, c in zip(self.electric, self.at.components, strict=True))))
+
+    @property
+    def deflected(self) -> MagneticForce:
+        return MagneticForce(self.charge, self.at.components, self.magnetic)
+
+
+def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
+    values = given.components if isinstance(given, Location) else given
+    if not isinstance(values, tuple | list) or len(values) != count:
+        message = f"`{verb}` needs {count} components as its `{role}`, as many as its place has"
+        raise Rejected(Complaint("wrong-argument", message))
+    try:
+        return tuple(ZERO + value for value in values)
+    except TypeError:
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs expressions as its `{role}`")) from None
+
+
+def _place(verb: str, at: Any) -> Location:
+    if not isinstance(at, Location):
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` acts at a place that `point` or `place` gives"))
+    return at
+
+
+def force(components: Any, at: Location) -> GivenForce:
+    """A given force at a place, N: constants, formulas of the coordinates, or of the time t."""
+    place = _place("force", at)
+    return GivenForce(_vector("force", "components", components, len(place.components)), place.components)
+
+
+def couple(torque: Any, on: Any) -> GivenForce:
+    """A given torque that turns by an angle, N m; a coordinate, or an angle made of coordinates."""
+    along = ZERO + on
+    if not coordinates_in(along):
+        raise Rejected(Complaint("wrong-argument", f"`couple` turns something, but {along} does not move"))
+    return GivenForce((ZERO + torque,), (along,))
+
+
+def damping(constant: Any, at: Any) -> Damper:
+    """A drag against the velocity of a place, -c v with c in kg/s, or of a coordinate, -c q_dot."""
+    require_constant("damping", "constant", constant)
+    if isinstance(at, Location):
+        return Damper(constant, at.components)
+    if not isinstance(at, Coordinate | Expr) or not coordinates_in(ZERO + at):
+        message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Damper(constant, (ZERO + at,))
+
+
+def potential(energy: Any) -> StoredEnergy:
+    """A potential energy of the coordinates, J, and of the time where it is driven."""
+    given: Expr = explicit(ZERO + energy)
+    moving = coordinates_in(given)
+    fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
+    if fast:
+        message = f"`potential` needs an energy of the coordinates, but it depends on the rate of {fast[0].name}"
+        raise Rejected(Complaint("wrong-argument", message))
+    if not moving:
+        raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy of coordinates, but {given} has none"))
+    return StoredEnergy(given)
+
+
+def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
+    """A charge, C, at a place in a uniform electric field E, V/m, and a uniform magnetic field B, T.
+
+    E   as many components as the place has
+    B   three components; in a plane the one across it, towards the reader
+    """
+    place = _place("charge", at)
+    count = len(place.components)
+    electric = _vector("charge", "E", E, count) if E is not None else (ZERO,) * count
+    if B is None:
+        magnetic: Vector = (ZERO,) * (3 if count == 3 else 1)
+    elif count == 2:
+        magnetic = (ZERO + B,) if not isinstance(B, tuple | list | Location) else _vector("charge", "B", B, 1)
+    else:
+        magnetic = _vector("charge", "B", B, 3)
+    require_constant("charge", "charge", ZERO + amount)
+    for role, field in (("electric field", electric), ("magnetic field", magnetic)):
+        for component in field:
+            if coordinates_in(component):
+                help_line = "give another field by `potential` or `force`"
+                message = f"`charge` needs a uniform {role}, but {component} changes from place to place"
+                raise Rejected(Complaint("changes", message, help=help_line))
+    for component in magnetic:
+        require_constant("charge", "magnetic field", component)
+    return Charge(ZERO + amount, place, electric, magnetic)
+
+
+def is_nothing(vector: Vector) -> bool:
+    return is_zero(ImmutableDenseMatrix(vector))
