@@ -56,6 +56,7 @@ from derive.mechanics.systems.constraints import *
 from derive.mechanics.systems.coordinates import *
 from derive.mechanics.systems.cyclic import *
 from derive.mechanics.systems.energies import *
+from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
 from derive.mechanics.systems.lagrangian import *
 from derive.mechanics.systems.phase_space import *

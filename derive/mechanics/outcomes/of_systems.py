@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sympy import eye
 
-from derive.mechanics.outcomes.signs import vanishes
+from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -17,11 +17,26 @@ def _along_body(facts: Judged) -> bool:
     return is_zero(facts.inputs["frame"] - facts.inputs["in_space"])
 
 
+def _has_applied(facts: Judged) -> bool:
+    return "applied" in facts.inputs and not is_zero(facts.inputs["applied"])
+
+
+def _has_kept(facts: Judged) -> bool:
+    return any(facts.result.has(letter) for letter in facts.inputs["letters"])
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "rigid.angular_velocity": {
         "space": _along_space,
         "body": lambda facts: _along_body(facts) and not _along_space(facts),
         "following": lambda facts: not _along_body(facts) and not _along_space(facts),
+    },
+    "forced.applied_force": {"generic": lasts, "zero": vanishes},
+    "forced.equation_of_motion": {
+        "applied": lambda facts: _has_applied(facts) and not _has_kept(facts),
+        "kept": lambda facts: _has_kept(facts) and not _has_applied(facts),
+        "both": lambda facts: _has_kept(facts) and _has_applied(facts),
+        "free": lambda facts: not _has_kept(facts) and not _has_applied(facts),
     },
 }
 

@@ -33,25 +33,46 @@ class MassPoint:
 
 @dataclass(frozen=True)
 class Load:
-    """A force, in N, constant in space, that acts at a place, in m."""
+    """A force, in N, that acts at a place, in m; or a torque, in N m, that acts on an angle."""
 
     force: Vector
     place: Vector
 
+    def work_along(self, q: Symbol) -> Expr:
+        """F . dr/dq"""
+        return _dot(self.force, _along(self.place, q))
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """The force that keeps a condition on the rates: the work lambda a_q dq of each displacement."""
+
+    force: Symbol
+    factors: tuple[tuple[Symbol, Expr], ...]
+
+    def work_along(self, q: Symbol) -> Expr:
+        return self.force * dict(self.factors).get(q, Integer(0))
+
 
 @dataclass(frozen=True)
 class Matter(Fact):
-    """Mass points and loads together, and the coordinates that their places depend on."""
+    """Mass points and loads together, and the coordinates that their places depend on.
+
+    loads    the forces that have a potential energy
+    others   those that have none: given ones, drag, and what keeps constraints
+    """
 
     missing = "has no mass points and forces behind it"
 
     points: tuple[MassPoint, ...] = ()
     loads: tuple[Load, ...] = ()
     coordinates: tuple[Symbol, ...] = ()
+    others: tuple[Load | Reaction, ...] = ()
 
     def __add__(self, other: Matter) -> Matter:
         both = dict.fromkeys((*self.coordinates, *other.coordinates))
-        return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both))
+        others = (*self.others, *other.others)
+        return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both), others)
 
     @property
     def is_driven(self) -> bool:
@@ -78,8 +99,12 @@ class Matter(Fact):
         return found
 
     def force_along(self, q: Symbol) -> Expr:
-        """The sum of F . dr/dq: the virtual work of the loads"""
-        return sum((_dot(load.force, _along(load.place, q)) for load in self.loads), Integer(0))
+        """The sum of F . dr/dq: the virtual work of all forces"""
+        return self.stored_force_along(q) + sum((load.work_along(q) for load in self.others), Integer(0))
+
+    def stored_force_along(self, q: Symbol) -> Expr:
+        """The virtual work of the forces that have a potential energy"""
+        return sum((load.work_along(q) for load in self.loads), Integer(0))
 
     def _moving(self, order: int) -> list[tuple[Expr, Vector, Vector]]:
         return [(point.mass, point.place, self._rates(point.place, order)) for point in self.points]

@@ -11,6 +11,7 @@ from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Dot, Factors, Terms, TimeRate, applied, bound, explicit, scalar
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.dalembert import MassPoint, Matter
+from derive.mechanics.systems.forced import acting_on
 from derive.mechanics.systems.rigid import angular_velocity_of, inertia_of, is_about_the_point, turning_rate_of
 from derive.mechanics.systems.system import HALF, System
 from derive.steps.establish import Lines, Scope, establish
@@ -177,7 +178,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         parents=system.conditions,
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
-        facts=[replace(system.matter, loads=())],
+        facts=[replace(system.matter, loads=(), others=())],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
 
@@ -196,7 +197,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
     def work(found: Expr) -> tuple[Expr, Expr]:
         marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
         lost = [-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
-        return Add(*lost), Add(*(matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
+        return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
     masses = system.masses if system.weights else []
     heights = [Factors(mass, system.gravity, at.height) for mass, at in masses if at.height != 0]
@@ -212,6 +213,6 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         routes={"work": work},
         outcome=lambda value: "zero" if value == 0 else "generic",
         lines=Lines(put_in=None, arranged=by_terms),
-        facts=[replace(matter, points=())],
+        facts=[replace(matter, points=()), *acting_on(system)],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )

@@ -19,6 +19,8 @@ from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
 from derive.mechanics.systems.energies import kinetic_energy_of, potential_energy_of
+from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
+from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, require_constant
@@ -236,7 +238,7 @@ def lagrangian(
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
         key=key,
         kind="energy",
-        facts=[matter, Energies(kinetic, potential)],
+        facts=[matter, Energies(kinetic, potential), *acting(kinetic, potential)],
     )
 
 
@@ -247,7 +249,7 @@ def coordinates_of(of: Quantity) -> list[Coordinate]:
 
 
 def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_motion") -> Quantity:
-    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0.
+    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with other forces and constraints, see `forced_equation`.
 
     of   the Lagrangian, J
     q    one of its coordinates
@@ -262,6 +264,8 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
     moving = list(of.coordinates)
     force, momentum = generalized_force(of, q), generalized_momentum(of, q)
     changing = momentum_rate(momentum, q)
+    if of.fact(ActedOn) or of.fact(Kept):
+        return forced_equation(of, q, force, momentum, changing, _key_of(of, key))
 
     def by_virtual_work() -> Relation:
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
@@ -324,7 +328,9 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
         routes={
-            "virtual_work": compared_with(lambda: matter.force_along(q.symbol) + matter.turning_along(q.symbol)),
+            "virtual_work": compared_with(
+                lambda: matter.stored_force_along(q.symbol) + matter.turning_along(q.symbol)
+            ),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or _key_of(of, f"force_{q.symbol.name}"),

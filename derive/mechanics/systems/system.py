@@ -19,7 +19,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.systems.constraint import Constraint
-from derive.mechanics.systems.dalembert import Load, MassPoint, Matter
+from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.record import assume, coordinates_in, require_constant
@@ -216,20 +216,16 @@ class System:
 
     @cached_property
     def matter(self) -> Matter:
-        """Its mass points, and the forces on them that have a potential energy."""
+        """Its mass points, and the forces on them."""
         moving = list(self.coordinates)
         points = [MassPoint(particle.mass, particle.at.components) for particle in self.particles]
         points += [point for placed in self.bodies for point in mass_points(placed)]
         loads = [self._weight_of(mass, at) for mass, at in self.masses] if self.weights else []
         loads += [load for each in self.between for load in each.pulls()]
         loads += [load for each in self.stored for load in each.loads(moving)]
-        return Matter(tuple(points), tuple(loads), tuple(moving))
-
-    @cached_property
-    def other_loads(self) -> tuple[Load, ...]:
-        """The forces without a potential energy: given ones, those of magnetic fields, and drag."""
-        moving = list(self.coordinates)
-        return tuple(each.load(moving) for each in (*self.given_forces, *self.dampers))
+        others: list[Load | Reaction] = [each.load(moving) for each in (*self.given_forces, *self.dampers)]
+        others += [Reaction(c.force, tuple((q, c.along(q)) for q in moving)) for c in self.constraints]
+        return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others))
 
     def _weight_of(self, mass: Expr, at: Location) -> Load:
         *across, _ = at.components
