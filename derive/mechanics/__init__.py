@@ -60,7 +60,9 @@ from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
 from derive.mechanics.systems.lagrangian import *
 from derive.mechanics.systems.phase_space import *
+from derive.mechanics.systems.no_slip import *
 from derive.mechanics.systems.places import *
+from derive.mechanics.systems.reactions import *
 from derive.mechanics.systems.rigid import *
 from derive.mechanics.systems.rolling import *
 from derive.mechanics.systems.symmetry import *

@@ -98,6 +98,7 @@ class Fact:
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
+    eliminates: tuple[Symbol, ...] = ()  # coordinates of its parents that it no longer depends on
 
 
 F = TypeVar("F", bound=Fact)
@@ -127,8 +128,9 @@ class Quantity:
     @property
     def coordinates(self) -> dict[Symbol, str]:
         """The coordinates that it may depend on, with their kinds: its own and those of what it rests on."""
-        own = dict(self.step.coordinates)
-        return {**own, **{q: kind for parent in self.parents for q, kind in parent.coordinates.items()}}
+        gone = {q for fact in self.facts for q in fact.eliminates}
+        known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
+        return {**dict(self.step.coordinates), **known}
 
     def fact(self, kind: type[F]) -> F | None:
         """What it hands on of that kind, if anything."""

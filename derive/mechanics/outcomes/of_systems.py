@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from sympy import eye
+from sympy import Expr, eye
 
+from derive.algebra.expressions import rate
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.record import coordinates_in
 from derive.steps.step import is_zero
 
 
@@ -25,12 +27,22 @@ def _has_kept(facts: Judged) -> bool:
     return any(facts.result.has(letter) for letter in facts.inputs["letters"])
 
 
+def _has_rates(condition: Expr) -> bool:
+    return any(condition.has(rate(q)) for q in coordinates_in(condition))
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "rigid.angular_velocity": {
         "space": _along_space,
         "body": lambda facts: _along_body(facts) and not _along_space(facts),
         "following": lambda facts: not _along_body(facts) and not _along_space(facts),
     },
+    "kept.constraint_rate": {
+        "in_rates": lambda facts: _has_rates(facts.inputs["condition"]),
+        "in_coordinates": lambda facts: not _has_rates(facts.inputs["condition"]),
+    },
+    "kept.multiplier": {"generic": lasts, "zero": vanishes},
+    "kept.acceleration": {"generic": lasts, "zero": vanishes},
     "forced.applied_force": {"generic": lasts, "zero": vanishes},
     "forced.equation_of_motion": {
         "applied": lambda facts: _has_applied(facts) and not _has_kept(facts),

@@ -13,7 +13,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.dalembert import MassPoint, Matter
 from derive.mechanics.systems.forced import acting_on
 from derive.mechanics.systems.rigid import angular_velocity_of, inertia_of, is_about_the_point, turning_rate_of
-from derive.mechanics.systems.system import HALF, System
+from derive.mechanics.systems.system import HALF, Eliminated, System
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Level, Quantity, compared_with, value_behind
 from derive.steps.subject import EVERYTHING, Subject
@@ -153,6 +153,8 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     for i, turning in enumerate(turnings):
         inputs |= {f"inertia_{i}": turning.inertia, f"omega_{i}": turning.omega}
 
+    eliminated = [Eliminated(system.eliminated)] if system.eliminated else []
+
     def law(*given: Expr) -> Expr:
         squares, rest = given[: len(speeds)], given[len(speeds) :]
         terms = [Factors(HALF, mover.mass, square) for mover, square in zip(moved, squares, strict=True)]
@@ -178,7 +180,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         parents=system.conditions,
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
-        facts=[replace(system.matter, loads=(), others=())],
+        facts=[replace(system.matter, loads=(), others=()), *eliminated],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
 

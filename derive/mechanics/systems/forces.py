@@ -76,8 +76,8 @@ class StoredEnergy:
     energy: Expr
 
     def loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """Along each coordinate the force -dU/dq."""
-        slopes = [(q, -diff(self.energy, q)) for q in moving]
+        """Along each coordinate the force -dU/dq; as the time passes it loses -dU/dt."""
+        slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
         return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
 
 

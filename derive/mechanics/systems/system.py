@@ -127,6 +127,14 @@ class KnownCoordinate(Fact):
     function: Expr
 
 
+@dataclass(frozen=True)
+class Eliminated(Fact):
+    """The coordinates that conditions of a system give by others: what rests on it does not depend on them."""
+
+    missing = "has no coordinate that is given by others"
+    eliminates: tuple[Symbol, ...]
+
+
 class System:
     """Particles and bodies, the forces on them, and the conditions on their motion.
 
@@ -145,7 +153,8 @@ class System:
             raise Rejected(Complaint("name", f"`{name}` is not a name for a system", help=help_line))
         self.called = name
         self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
-        known = {fact.coordinate: fact.function for fact in (q.needed(KnownCoordinate) for q in self.conditions)}
+        known = dict(_known_by(condition) for condition in self.conditions)
+        self.eliminated = tuple(known)
         parts = tuple(_with_known(part, known) for part in parts) if known else parts
         self.particles = tuple(part for part in parts if isinstance(part, Particle))
         self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
@@ -230,6 +239,15 @@ class System:
     def _weight_of(self, mass: Expr, at: Location) -> Load:
         *across, _ = at.components
         return Load((*(ZERO for _ in across), -mass * self.weights[0].gravity), at.components)
+
+
+def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
+    found = condition.fact(KnownCoordinate)
+    if found is None:
+        message = f"`{condition.key}` does not give a coordinate by others, so it cannot be put into the energies"
+        help_line = "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
+    return found.coordinate, found.function
 
 
 def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:

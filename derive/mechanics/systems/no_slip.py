@@ -1,0 +1,220 @@
+"""Rolling without slipping: the particle of a body that touches a surface has the velocity of the surface there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.collect import by_rates
+from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import PlacedBody, after
+from derive.mechanics.systems.constraint import Constraint
+from derive.mechanics.systems.coordinates import by_functions_of_time
+from derive.mechanics.systems.places import Axes, Location
+from derive.mechanics.systems.system import KnownCoordinate
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.record import assume, changes, coordinates_in
+from derive.steps.step import Form, Level, Quantity, is_zero
+
+__all__ = ["no_slip", "rolling_constraint"]
+
+ZERO = Integer(0)
+
+
+def no_slip(
+    body: PlacedBody, at: Location, ground: Location | None = None, key: str = "no_slip"
+) -> Quantity | tuple[Quantity, ...]:
+    """Condition of rolling without slipping, v + omega x (r_contact - r) = 0, solved for a rate.
+
+    body     a body that is placed or held; v is the velocity of the point r where that is
+    at       where it touches the surface, m
+    ground   a place of the surface, where that moves without turning; by default it is at rest
+    One condition for each rate that it fixes, that of the body's last turn first. Given to a `System` as one of its
+    parts, it gives a coordinate by others where it can be integrated.
+    Second route: the place that the particle at the contact has in the body, held fast and differentiated with it.
+    Errors: the body is at rest there in any case, or cannot roll.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
+    """
+    found: dict[Symbol, Quantity] = {}
+    for condition in _independent(body, at, ground):
+        found[condition.q] = _solved(body, at, ground, condition, key if not found else f"{key}_{len(found) + 1}")
+    return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
+
+
+def rolling_constraint(
+    body: PlacedBody, at: Location, force: str = "lambda", ground: Location | None = None
+) -> tuple[Constraint, ...]:
+    """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
+    conditions = list(_independent(body, at, ground))
+    letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
+    return tuple(
+        Constraint(each.left, ZERO, scalar(letter), in_rates=True)
+        for each, letter in zip(conditions, letters, strict=True)
+    )
+
+
+class _Condition:
+    """A sum of rates that vanishes, and the coordinate for whose rate it is solved."""
+
+    def __init__(self, left: Expr, q: Symbol, known: dict[Symbol, Expr]):
+        self.left, self.q, self.known = left, q, known
+
+    @property
+    def factor(self) -> Expr:
+        return diff(self.left, rate(self.q))
+
+    @property
+    def rate(self) -> Expr:
+        return tidied(-(self.left - self.factor * rate(self.q)) / self.factor)
+
+
+def _independent(body: PlacedBody, at: Location, ground: Location | None) -> Iterator[_Condition]:
+    """Conditions of which none follows from the others."""
+    _check(body, at, ground)
+    known: dict[Symbol, Expr] = {}
+    order = _order(body, at)
+    for left in _conditions(contact_velocity(body, at, ground)):
+        rest = tidied(left.subs(known))
+        present = [q for q in order if not is_zero(diff(rest, rate(q)))]
+        steady = [q for q in present if changes(diff(rest, rate(q)), order) is None]
+        q = next(iter([*steady, *present]), None)
+        if q is None:
+            if not is_zero(rest):
+                raise Rejected(Complaint("wrong-argument", f"the body cannot roll there: {rest} would have to vanish"))
+            continue
+        condition = _Condition(rest, q, dict(known))
+        known[rate(q)] = condition.rate
+        yield condition
+    if not known:
+        raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is at rest in any case"))
+
+
+def _check(body: PlacedBody, at: Location, ground: Location | None) -> None:
+    if not isinstance(body, PlacedBody):
+        message = "`no_slip` needs a body that is placed or held"
+        raise Rejected(Complaint("wrong-argument", message, help="put it somewhere with `.placed` or `.held`"))
+    for place in (at, ground):
+        if place is not None and (not isinstance(place, Location) or len(place.components) != len(body.at.components)):
+            raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact with as many components as the body"))
+
+
+def _order(body: PlacedBody, at: Location) -> list[Symbol]:
+    """The coordinates of the last turn first, then those of the turns before it, and then the others."""
+    if isinstance(body.turned, Axes):
+        turning = [q for _, angle in reversed(body.turned.turns) for q in coordinates_in(angle)]
+    else:
+        turning = list(coordinates_in(ZERO + body.turned))
+    everything = coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))
+    return list(dict.fromkeys([*turning, *everything]))
+
+
+def contact_velocity(body: PlacedBody, at: Location, ground: Location | None) -> ImmutableMatrix:
+    """Of the particle of the body at the contact, as seen from the surface: v + omega x (r_contact - r)."""
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    arm = ImmutableDenseMatrix((at - body.at).components)
+    v = ImmutableDenseMatrix([explicit(TimeRate(c, *moving)) for c in body.at.components])
+    if isinstance(body.turned, Axes):
+        turns = body.turned.turns
+        omega = column(0, 0, 0)
+        for i, (axis, angle) in enumerate(turns):
+            about = after(turns[:i]) * column(*(int(k == axis) for k in range(3)))
+            omega = omega + explicit(TimeRate(angle, *moving)) * about
+        v = v + omega.cross(arm)
+    else:
+        speed = explicit(TimeRate(body.turned, *moving))
+        v = v + ImmutableDenseMatrix([-speed * arm[1], speed * arm[0]])
+    if ground is not None:
+        v = v - ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
+    return ImmutableDenseMatrix(v.applyfunc(tidied))
+
+
+def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
+    """What vanishes: of components that are multiples of one expression in the rates, that one alone."""
+    parts = [_rates_alone(component) for component in velocity if component != 0]
+    if parts and all(is_zero(part - parts[0]) or is_zero(part + parts[0]) for part in parts):
+        return parts[:1]
+    return [component for component in velocity if component != 0]
+
+
+def _rates_alone(component: Expr) -> Expr:
+    """The component without the factors that hold no rate."""
+    fast = {s for q in coordinates_in(component) for s in (rate(q),)}
+    kept = [f for f in Mul.make_args(factor(component)) if f.free_symbols & fast]
+    return Mul(*kept) if kept else component
+
+
+def _solved(
+    body: PlacedBody, at: Location, ground: Location | None, condition: _Condition, key: str
+) -> Quantity:
+    """The condition as the rate that it fixes."""
+    q, found = condition.q, condition.rate
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    marks = [Symbol(f"delta_{i}", real=True) for i in range(len(at.components))]
+
+    def at_rest(relation: Relation) -> tuple[Expr, Expr]:
+        """The particle of the body at the contact is at rest there, all conditions taken together."""
+        velocity = velocity_of_particle(body, at, ground)
+        known = {**_all_rates(body, at, ground), relation.left: relation.right}
+        return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
+
+    coefficients = [diff(found, rate(other)) for other in moving]
+    plain = found - Add(*(c * rate(other) for c, other in zip(coefficients, moving, strict=True)))
+    constant = all(changes(c, moving) is None for c in coefficients) and is_zero(plain)
+    facts = []
+    if constant:
+        function = Add(*(c * other for c, other in zip(coefficients, moving, strict=True)))
+        facts = [KnownCoordinate(q, function)]  # but for a constant, which is zero where both angles are
+    factors = tuple(f.as_base_exp()[0] for f in Mul.make_args(condition.factor) if not f.is_nonzero)
+    for each in factors:
+        assume(Relation(each, "!=", ZERO))
+    solved = Relation(rate(q), "=", found)
+    return establish(
+        "rolling.no_slip",
+        None,
+        lambda: Relation(by_rates(condition.left, moving), "=", ZERO),
+        {},
+        lines=Lines(
+            put_in=None,
+            result=False,
+            after=[Form(solved, "result", Level.BRIEF, factors)],
+            arranged=lambda _: solved,
+        ),
+        routes={"at_rest": at_rest},
+        key=key,
+        facts=facts,
+        scope=Scope(coordinates=coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))),
+    )
+
+
+def _all_rates(body: PlacedBody, at: Location, ground: Location | None) -> dict[Symbol, Expr]:
+    found: dict[Symbol, Expr] = {}
+    for condition in _independent(body, at, ground):
+        found = {fixed: value.subs(rate(condition.q), condition.rate) for fixed, value in found.items()}
+        found[rate(condition.q)] = condition.rate
+    return found
+
+
+def velocity_of_particle(body: PlacedBody, at: Location, ground: Location | None) -> list[Expr]:
+    """The particle is where the contact is: held fast in the body, its place is differentiated as a function of t."""
+    arm = ImmutableDenseMatrix((at - body.at).components)
+    names = [Symbol(f"rho_{i}", real=True) for i in range(len(arm))]
+    if isinstance(body.turned, Axes):
+        turn = body.turned.in_space
+        carried = turn * ImmutableDenseMatrix(names)
+    else:
+        turn = after(((2, body.turned),))[:2, :2]
+        carried = turn * ImmutableDenseMatrix(names)
+    place = [a + b for a, b in zip(body.at.components, carried, strict=True)]
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    fast = [by_functions_of_time(c, moving) for c in place]
+    if ground is not None:
+        slow = [by_functions_of_time(c, list(coordinates_in(c))) for c in ground.components]
+        fast = [a - b for a, b in zip(fast, slow, strict=True)]
+    held = dict(zip(names, turn.T * arm, strict=True))
+    return [v.subs(held) for v in fast]
+
+
