@@ -60,7 +60,7 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
     if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
-        inside, whole = spread(2 * coefficient), factor(coefficient)
+        inside, whole = spread(2 * coefficient), _shorter_as_product(tidied(coefficient))
         if _has_fractions_inside(inside) or int(inside.count_ops()) > int(whole.count_ops()):  # (3/4) m (R - a)^2
             return Mul(whole, *(s**n for s, n in rates))
         return Mul(Rational(1, 2), inside, *(s**n for s, n in rates), evaluate=False)
@@ -68,9 +68,9 @@ def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: 
 
 
 def _has_fractions_inside(value: Expr) -> bool:
-    """A product with a sum of fractions in it: m (a/4 + b/20)."""
+    """A product with a sum in it of which one term is a mere fraction: m (cos^2 a/4 + 1/20)."""
     sums = [f for f in Mul.make_args(value) if f.is_Add] if value.is_Mul else []
-    return any(term.as_coeff_Mul()[0].q != 1 for f in sums for term in f.args)
+    return any(term.is_Rational and not term.is_Integer for f in sums for term in f.args)
 
 
 def _shorter_as_product(value: Expr) -> Expr:

@@ -1,4 +1,4 @@
-"""Mass, length and time: the dimensions of quantities, their products and powers."""
+"""Mass, length, time and electric current: the dimensions of quantities, their products and powers."""
 
 from __future__ import annotations
 
@@ -11,17 +11,23 @@ from operator import mul
 
 @dataclass(frozen=True)
 class Dimension:
-    """Exponents of mass, length and time: `M L^2 T^-2` is `Dimension(1, 2, -2)`."""
+    """Exponents of mass, length, time and current: `M L^2 T^-2` is `Dimension(1, 2, -2)`."""
 
     mass: Fraction = Fraction(0)
     length: Fraction = Fraction(0)
     time: Fraction = Fraction(0)
+    current: Fraction = Fraction(0)
+
+    @property
+    def powers(self) -> dict[str, Fraction]:
+        """By the letters that physics has for them."""
+        return {"M": self.mass, "L": self.length, "T": self.time, "I": self.current}
 
     def __mul__(self, other: Dimension) -> Dimension:
-        return Dimension(self.mass + other.mass, self.length + other.length, self.time + other.time)
+        return Dimension(*(a + b for a, b in zip(self.powers.values(), other.powers.values(), strict=True)))
 
     def __pow__(self, exponent: Fraction | int) -> Dimension:
-        return Dimension(self.mass * exponent, self.length * exponent, self.time * exponent)
+        return Dimension(*(n * exponent for n in self.powers.values()))
 
     def __truediv__(self, other: Dimension) -> Dimension:
         return self * other**-1
@@ -31,8 +37,8 @@ class Dimension:
         return self == NUMBER
 
 
-def dimension(mass: int, length: int, time: int) -> Dimension:
-    return Dimension(Fraction(mass), Fraction(length), Fraction(time))
+def dimension(mass: int, length: int, time: int, current: int = 0) -> Dimension:
+    return Dimension(Fraction(mass), Fraction(length), Fraction(time), Fraction(current))
 
 
 NUMBER = dimension(0, 0, 0)
@@ -47,8 +53,7 @@ def raised(letter: str, power: Fraction) -> str:
 
 def exponents(dimension: Dimension) -> str:
     """`M L^2 T^-2`; `1` for a number."""
-    letters = zip("MLT", (dimension.mass, dimension.length, dimension.time), strict=True)
-    parts = [letter if n == 1 else f"{letter}^{n}" for letter, n in letters if n]
+    parts = [letter if n == 1 else f"{letter}^{n}" for letter, n in dimension.powers.items() if n]
     return " ".join(parts) or "1"
 
 

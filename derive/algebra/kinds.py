@@ -60,6 +60,11 @@ KINDS: Mapping[str, Kind] = {
     "angular momentum": Kind(dimension(1, 2, -1), "kg m^2/s"),
     "moment of inertia": Kind(dimension(1, 2, 0), "kg m^2", positive=True),
     "spring constant": Kind(dimension(1, 0, -2), "N/m", positive=True),
+    "damping constant": Kind(dimension(1, 0, -1), "kg/s", positive=True),
+    "current": Kind(dimension(0, 0, 0, 1), "A"),
+    "charge": Kind(dimension(0, 0, 1, 1), "C"),
+    "electric field": Kind(dimension(1, 1, -3, -1), "V/m"),
+    "magnetic field": Kind(dimension(1, 0, -2, -1), "T"),
 }
 _OF_NONE = Kind(NUMBER, "")
 
@@ -132,9 +137,9 @@ def unit_of_dimension(dimension: Dimension) -> str:
 
 def _product_of_units(dimension: Dimension) -> str:
     """`N m`, `kg m^2/s`, `1/s`: what has the mass and the time of a force is told with newtons."""
-    powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
+    powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time, "A": dimension.current}
     if dimension.mass == 1 and dimension.time == -2:
-        powers = {"N": Fraction(1), "m": dimension.length - 1}
+        powers = {"N": Fraction(1), "m": dimension.length - 1, "A": dimension.current}
     above = " ".join(raised(unit, n) for unit, n in powers.items() if n > 0)
     below = "".join(f"/{raised(unit, -n)}" for unit, n in powers.items() if n < 0)
     return (above or "1" * bool(below)) + below
@@ -176,6 +181,10 @@ Frequency: TypeAlias = Annotated["Expr", Asked("frequency", ("f", "nu"))]
 MomentOfInertia: TypeAlias = Annotated["Expr", Asked("moment of inertia", ("I_0", "J_0"))]
 MomentsOfInertia: TypeAlias = Annotated[tuple["Expr", "Expr", "Expr"], Asked("moment of inertia", ("A", "B", "C"), 3)]
 SpringConstant: TypeAlias = Annotated["Expr", Asked("spring constant", ("k", "K"))]
+DampingConstant: TypeAlias = Annotated["Expr", Asked("damping constant", ("c", "b"))]
+Charge: TypeAlias = Annotated["Expr", Asked("charge", ("q", "Q"))]
+ElectricField: TypeAlias = Annotated["Expr", Asked("electric field", ("E", "E_0"))]
+MagneticField: TypeAlias = Annotated["Expr", Asked("magnetic field", ("B", "B_0"))]
 Number: TypeAlias = Annotated["Expr", Asked("number", ("n",))]
 DIRECTION = Asked("direction", count=3)
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from sympy import Expr
 
 _MASS, _LENGTH, _TIME = (dimension_of_kind(kind) for kind in ("mass", "length", "time"))
+_CURRENT = dimension_of_kind("current")
 _FORCE, _ENERGY = dimension_of_kind("force"), dimension_of_kind("energy")
 MAX_TEXT = 40
 HIGHEST_POWER = 9
@@ -55,6 +56,10 @@ _UNITS: dict[str, tuple[Fraction, int, Dimension, int]] = {
     "W": (Fraction(1), 0, _ENERGY / _TIME, 0),
     "kW": (Fraction(1000), 0, _ENERGY / _TIME, 0),
     "Pa": (Fraction(1), 0, _FORCE / _LENGTH**2, 0),
+    "A": (Fraction(1), 0, _CURRENT, 0),
+    "C": (Fraction(1), 0, _CURRENT * _TIME, 0),
+    "V": (Fraction(1), 0, _ENERGY / (_CURRENT * _TIME), 0),
+    "T": (Fraction(1), 0, _FORCE / (_CURRENT * _LENGTH), 0),
     "kPa": (Fraction(1000), 0, _FORCE / _LENGTH**2, 0),
 }
 UNIT_NAMES = tuple(_UNITS)

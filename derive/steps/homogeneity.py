@@ -110,10 +110,12 @@ def dimension_table(
 
 
 def _moving_names(step: Step) -> Table:
-    """The coordinates that a step brings in, and their rates."""
+    """The coordinates that a step brings in, and their rates; and forces of constraint, which may have no kind."""
     time = dimension_of_kind("time")
     return {
-        (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n for q, kind in step.coordinates for n in range(4)
+        (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n if kind else None
+        for q, kind in step.coordinates
+        for n in range(4)
     }
 
 

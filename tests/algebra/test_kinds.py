@@ -31,6 +31,8 @@ from derive.algebra.kinds import (
 
 MASS, LENGTH, TIME = (dimension_of_kind(kind) for kind in ("mass", "length", "time"))
 SI = {"kg": MASS, "m": LENGTH, "s": TIME, "N": MASS * LENGTH / TIME**2, "J": MASS * LENGTH**2 / TIME**2}
+SI |= {"A": dimension_of_kind("current"), "C": dimension_of_kind("current") * TIME}
+SI |= {"V": SI["J"] / SI["C"], "T": SI["N"] / (SI["A"] * LENGTH)}
 SI |= {"W": SI["J"] / TIME, "Hz": TIME**-1, "rad": NUMBER, "1": NUMBER}
 
 

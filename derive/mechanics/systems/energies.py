@@ -11,7 +11,7 @@ from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Dot, Factors, Terms, TimeRate, applied, bound, explicit, scalar
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.dalembert import MassPoint, Matter
-from derive.mechanics.systems.forced import acting_on
+from derive.mechanics.systems.forced import acting_on, squares_of_rates
 from derive.mechanics.systems.rigid import angular_velocity_of, inertia_of, is_about_the_point, turning_rate_of
 from derive.mechanics.systems.system import HALF, Eliminated, System
 from derive.steps.establish import Lines, Scope, establish
@@ -58,7 +58,7 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     return establish(
         "systems.squared_speed",
         Pow(letter, 2),
-        lambda *at: Terms(*(Pow(TimeRate(c, *moving), 2) for c in at)),
+        lambda *at: squares_of_rates(at, moving),
         {f"place_{k}": c for k, c in enumerate(mover.place)},
         key=f"squared_speed_{mover.letter}" if mover.letter else "squared_speed",
         outcome="of_several" if several else alone,
@@ -185,6 +185,11 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     )
 
 
+def _times(mass: Expr, gravity: Expr, height: Expr) -> Expr:
+    """A sum stays in its bracket, where the law shows it."""
+    return Factors(mass, gravity, height) if height.is_Add else mass * gravity * height
+
+
 def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
     """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
 
@@ -202,7 +207,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
     masses = system.masses if system.weights else []
-    heights = [Factors(mass, system.gravity, at.height) for mass, at in masses if at.height != 0]
+    heights = [_times(mass, system.gravity, at.height) for mass, at in masses if at.height != 0]
     stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     stored += [each.energy for each in system.stored]
     return establish(

@@ -9,7 +9,7 @@ from typing import Any
 from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates, by_terms
-from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint, Kept
@@ -71,12 +71,7 @@ def dissipation_function(system: System, symbol: str = "D", key: str = "dissipat
         raise Rejected(Complaint("wrong-argument", "`dissipation_function` needs a system with `damping`"))
 
     def law() -> Expr:
-        terms = [
-            Factors(Rational(1, 2), d.constant, Terms(*(Pow(TimeRate(c, *moving), 2) for c in d.at)))
-            if len(d.at) > 1
-            else Factors(Rational(1, 2), d.constant, Pow(TimeRate(d.at[0], *moving), 2))
-            for d in system.dampers
-        ]
+        terms = [Factors(Rational(1, 2), d.constant, squares_of_rates(d.at, moving)) for d in system.dampers]
         return Terms(*terms) if len(terms) > 1 else terms[0]
 
     def by_power(found: Expr) -> tuple[Expr, Expr]:
@@ -94,6 +89,14 @@ def dissipation_function(system: System, symbol: str = "D", key: str = "dissipat
         kind="power",
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
+    """(dx/dt)^2 + (dy/dt)^2 of the components that change."""
+    fast = [TIME, *moving]
+    changing = [c for c in place if c.has(*fast)] or [*place][:1]
+    squares = [Pow(TimeRate(c, *moving), 2) for c in changing]
+    return Terms(*squares) if len(squares) > 1 else squares[0]
 
 
 def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
@@ -200,6 +203,7 @@ def forced_equation(
             ForcedMotion(of),
             matter,
         ],
+        scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in constraints}),
     )
 
 

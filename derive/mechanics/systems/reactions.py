@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, diff
+from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Mul, Pow, Symbol, diff
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
@@ -21,6 +21,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_fu
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.forced import ForcedMotion
 from derive.mechanics.systems.lagrangian import FromLagrangian
+from derive.mechanics.systems.rigid import by_squares
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import coordinates_in
 from derive.steps.step import Level, Quantity, compared_with
@@ -258,7 +259,14 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
     except DMError:
         raise _undetermined(problem, matrix) from None
     back = {dummy: f for f, dummy in names.items()}
-    return {u: tidied(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
+    return {u: _signs_in_front(by_squares(value.xreplace(back))) for u, value in zip(unknowns, solved, strict=True)}
+
+
+def _signs_in_front(value: Expr) -> Expr:
+    """No minus before each term of a denominator."""
+    above, below = value.as_numer_denom()
+    terms = [t for f in Mul.make_args(below) if f.is_Add for t in f.args]
+    return (-above) / (-below) if terms and sum(t.could_extract_minus_sign() for t in terms) * 2 > len(terms) else value
 
 
 def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:

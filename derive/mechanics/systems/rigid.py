@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, eye
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, eye, factor
 from sympy.matrices import ImmutableMatrix
+from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.expressions import TimeRate, column, explicit, scaled, vector
 from derive.algebra.tidy import tidied
@@ -20,6 +21,8 @@ from derive.steps.step import Quantity, compared_with, is_zero
 from derive.steps.subject import NOTHING, Subject
 
 __all__ = ["angular_velocity"]
+
+_SQUARES = (lambda value: value, TR5, TR6)  # as it is, by cosines, by sines
 
 
 def angular_velocity(
@@ -65,7 +68,7 @@ def angular_velocity(
         vector(symbol),
         lambda: MatAdd(*whole) if len(whole) > 1 else whole[0],
         {},
-        lines=Lines(put_in=None, arranged=lambda value: ImmutableDenseMatrix(explicit(value).applyfunc(tidied))),
+        lines=Lines(put_in=None, arranged=lambda value: ImmutableDenseMatrix(explicit(value).applyfunc(by_squares))),
         routes={"rotation_matrix": compared_with(by_rotation_matrix)},
         outcome="space" if count == 0 else "body" if count == len(axes.turns) else "following",
         telling=Telling(judged_by={"in_space": axes.in_space, "frame": after(axes.turns[:count])}),
@@ -75,6 +78,15 @@ def angular_velocity(
             coordinates=coordinates_in(axes.in_space), about=Subject(body=body) if body is not None else NOTHING
         ),
     )
+
+
+def by_squares(value: Expr) -> Expr:
+    """-cos^2 a/sin a, not (sin^2 a - 1)/sin a, whichever is shorter."""
+    value = tidied(value)
+    above, below = value.as_numer_denom()
+    uppers, lowers = ([factor(f(part.expand()).expand()) for f in _SQUARES] for part in (above, below))
+    forms = [upper / lower for upper in uppers for lower in lowers]
+    return min((value, *forms), key=lambda form: (int(form.count_ops()), len(form.atoms(Add))))
 
 
 def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:

@@ -99,7 +99,7 @@ def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO)
     """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m."""
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
-    energy = Factors(HALF, constant, Pow(Terms(DISTANCE, -natural), 2))
+    energy = Factors(HALF, constant, Pow(Terms(DISTANCE, -natural) if natural != 0 else DISTANCE, 2))
     return Central(start, end, DISTANCE, energy, constant * DISTANCE - constant * natural)
 
 

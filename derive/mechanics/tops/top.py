@@ -10,6 +10,7 @@ Convention: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -76,6 +77,9 @@ class EulerAngles(Fact):
     @property
     def coordinates(self) -> tuple[Coordinate, Coordinate, Coordinate]:
         return self.phi, self.theta, self.psi
+
+    def __iter__(self) -> Iterator[Coordinate]:
+        return iter(self.coordinates)
 
     @property
     def names(self) -> list[Symbol]:

@@ -161,8 +161,10 @@ def rank_of_dimension(dimension: Dimension | None) -> int:
     """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:
         return 4
-    if dimension.mass and dimension.length >= 0 and not dimension.time:
-        return 0  # a mass, a moment of inertia
+    if dimension.current:
+        return 1 if dimension.mass else 0  # a field stands behind the charge that is in it
+    if dimension.mass and dimension.length >= 0 and not (dimension.length and dimension.time):
+        return 0  # a mass, a moment of inertia, a spring constant
     if dimension.mass:
         return 4
     if dimension.length and dimension.time:

@@ -222,6 +222,5 @@ def _anchor(problem_id: str, number: int) -> str:
 
 
 def _dimension(dimension: Dimension) -> str:
-    letters = zip("MLT", (dimension.mass, dimension.length, dimension.time), strict=True)
-    parts = [letter if n == 1 else f"{letter}^{{{n}}}" for letter, n in letters if n]
+    parts = [letter if n == 1 else f"{letter}^{{{n}}}" for letter, n in dimension.powers.items() if n]
     return rf"\mathsf{{{chr(32).join(parts)}}}" if parts else "1"
