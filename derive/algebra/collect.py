@@ -29,10 +29,10 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         return tidied(value)
     if gathered is None:
         return tidied(value)
-    parts = [
-        _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
-        for powers, c in gathered.terms()
-    ]
+    parts: list[Expr] = []
+    for powers, c in gathered.terms():
+        part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
+        parts += Add.make_args(part) if not any(powers) else [part]  # terms without rates stand side by side
     return Add(*parts, evaluate=len(parts) < 2)
 
 

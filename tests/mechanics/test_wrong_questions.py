@@ -222,7 +222,9 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     "the small oscillations of an equation of Euler's": (
         lambda: linearised(
             euler_equations(
-                rate_in_space(angular_momentum(RigidBody(moments=(a, b, l)).tensor, w := changing_angular_velocity()), w)
+                rate_in_space(
+                    angular_momentum(RigidBody(moments=(a, b, l)).tensor, w := changing_angular_velocity()), w
+                )
             )[0]
         ),
         "is not an equation of one coordinate",

@@ -71,7 +71,7 @@ class RigidBody(Placeable):
     """
 
     mass: Expr | None = None
-    moments: tuple[Expr, Expr, Expr] | Expr = ()  # type: ignore[assignment]
+    moments: tuple[Expr, Expr, Expr] | Expr = ()
     centre: tuple[Expr, ...] = (Integer(0), Integer(0), Integer(0))
     about: str = ""
     name: ClassVar[str] = "a rigid body"

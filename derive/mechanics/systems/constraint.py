@@ -99,4 +99,3 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
         message = "`constraint` needs a formula of the coordinates, or one linear in their rates"
         raise Rejected(Complaint("wrong-argument", message))
     return Constraint(left, right, scalar(force), bool(rates))
-

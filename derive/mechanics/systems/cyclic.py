@@ -10,7 +10,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, requi
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import generalized_force, generalized_momentum
 from derive.steps.establish import Lines, establish
-from derive.steps.step import Fact, Quantity, compared_with
+from derive.steps.step import Fact, Quantity, compared_with, is_zero
 
 __all__ = ["conserved_momentum"]
 
@@ -29,7 +29,7 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
     of   the Lagrangian, J
     q    a coordinate that it does not contain
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
-    Errors: L does not depend on q, or contains q itself.
+    Errors: L does not depend on q, or contains q itself; a force without a potential energy acts along q.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     required(of.coordinates, q, "conserved_momentum", of)
@@ -38,6 +38,9 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
         message = f"`conserved_momentum`: `{of.key}` contains {q.symbol.name}, so its momentum is not constant"
         raise Rejected(Complaint("not-cyclic", message))
     matter = of.needed(Matter)
+    if not is_zero(matter.force_along(q.symbol) - matter.stored_force_along(q.symbol)):
+        message = f"`conserved_momentum`: a force that is not in `{of.key}` acts along {q.symbol.name}"
+        raise Rejected(Complaint("not-cyclic", message))
     momentum = generalized_momentum(of, q)
     moving = list(of.coordinates)
 

@@ -131,7 +131,8 @@ def _turnings(system: System) -> list[Turning]:
             found.append(Turning(inertia, turning_rate_of(placed)))
         else:
             letter = "omega" if len(system.bodies) == 1 or placed.body.called else f"omega_{i + 1}"
-            found.append(Turning(inertia, angular_velocity_of(placed, value_behind(inertia), letter)))
+            of = placed.body if placed.body.called else system if system.called else None
+            found.append(Turning(inertia, angular_velocity_of(placed, value_behind(inertia), of, letter)))
     return found
 
 
@@ -185,11 +186,6 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     )
 
 
-def _times(mass: Expr, gravity: Expr, height: Expr) -> Expr:
-    """A sum stays in its bracket, where the law shows it."""
-    return Factors(mass, gravity, height) if height.is_Add else mass * gravity * height
-
-
 def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
     """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
 
@@ -207,7 +203,12 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
     masses = system.masses if system.weights else []
-    heights = [_times(mass, system.gravity, at.height) for mass, at in masses if at.height != 0]
+    higher = [(mass, at.height) for mass, at in masses if at.height != 0]
+    as_factors = any(height.is_Add for _, height in higher)  # a sum stays in its bracket, where the law shows it
+    heights = [
+        Factors(mass, system.gravity, height) if as_factors else mass * system.gravity * height
+        for mass, height in higher
+    ]
     stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     stored += [each.energy for each in system.stored]
     return establish(

@@ -110,7 +110,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     of   the Lagrangian, J, of a system with given forces, couples, magnetic fields or damping
     q    one of its coordinates
-    Second route: the power of all these forces, sum of F . v, is linear in q_dot where F is held fast, and Q its slope.
+    Second route: the power of all these forces, sum of F . v, is linear in q_dot where F is held fast, and Q its slope;
+    that of a magnetic field by its vector potential.
     Outcomes: generic, zero.
     Errors: nothing acts on the system but what has a potential energy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
@@ -120,7 +121,10 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     moving = list(acted.system.coordinates)
     loads = [f.load(moving) for f in acted.forces]
     works = [
-        Factors(f, Partial(c, q.symbol)) for load in loads for f, c in zip(load.force, load.place, strict=True) if f != 0
+        Factors(f, Partial(c, q.symbol))
+        for load in loads
+        for f, c in zip(load.force, load.place, strict=True)
+        if f != 0
     ]
 
     def law(*dissipated: Expr) -> Expr:
@@ -129,8 +133,14 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         return Terms(*terms) if len(terms) > 1 else terms[0] if terms else ZERO
 
     def by_power() -> Expr:
-        every = [*loads, *(d.load(moving) for d in acted.dampers)]
-        return Add(*(_slope(load, q, moving) for load in every))
+        """What a magnetic field does goes by its vector potential: (d/dq - d/dt d/dq_dot) of q v . A."""
+        fields = [f for f in acted.forces if isinstance(f, MagneticForce)]
+        every = [f.load(moving) for f in (*acted.forces, *acted.dampers) if not isinstance(f, MagneticForce)]
+        total = Add(*(_slope(load, q, moving) for load in every))
+        for each in fields:
+            energy = each.energy_of_motion(moving)
+            total += diff(energy, q.symbol) - by_functions_of_time(diff(energy, q.rate), moving)
+        return total
 
     name = f"Q_{q.symbol.name}"
     return establish(

@@ -14,7 +14,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
 from derive.algebra.expressions import TIME, TimeRate, explicit, rate
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import Coordinate
+from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.systems.dalembert import Load
 from derive.mechanics.systems.places import Location
 from derive.steps.record import coordinates_in, require_constant
@@ -59,6 +59,14 @@ class MagneticForce:
     at: Vector
     field: Vector
 
+    def energy_of_motion(self, moving: Sequence[Symbol]) -> Expr:
+        """q v . A in the uniform field, with A = (1/2) B x r: what a Lagrangian would have of it, J."""
+        r, v = list(self.at), [by_functions_of_time(c, moving) for c in self.at]
+        if len(r) == 2:
+            return self.charge * self.field[0] * (r[0] * v[1] - r[1] * v[0]) / 2
+        turned = [r[i - 2] * v[i - 1] - r[i - 1] * v[i - 2] for i in range(3)]
+        return self.charge * Add(*(b * c for b, c in zip(self.field, turned, strict=True))) / 2
+
     def load(self, moving: Sequence[Symbol]) -> Load:
         v = [explicit(TimeRate(c, *moving)) for c in self.at]
         if len(v) == 2:  # in a plane the field points to the reader
@@ -93,7 +101,9 @@ class Charge:
     @property
     def stored(self) -> StoredEnergy:
         """In a uniform electric field, U = -q E . r."""
-        return StoredEnergy(-self.charge * Add(*(e * c for e, c in zip(self.electric, self.at.components, strict=True))))
+        return StoredEnergy(
+            -self.charge * Add(*(e * c for e, c in zip(self.electric, self.at.components, strict=True)))
+        )
 
     @property
     def deflected(self) -> MagneticForce:

@@ -16,11 +16,11 @@ from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
+from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
 from derive.mechanics.systems.energies import kinetic_energy_of, potential_energy_of
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
-from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, require_constant
@@ -203,7 +203,8 @@ def lagrangian(
 ) -> Quantity:
     """Lagrangian, L = T - U.
 
-    kinetic, potential   energies in J of one body in one motion; or in place of both a system, whose energies they are
+    kinetic, potential   energies in J of one body in one motion; or in place of both a system, whose energies they are;
+                         with the symbol "L_2" these are T_2 and U_2
     Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
     time itself occurs, L and U together are the kinetic energy of the mass points.
     Errors: T and U belong to different bodies, masses or motions.
@@ -211,7 +212,11 @@ def lagrangian(
     """
     if isinstance(kinetic, System):
         system = kinetic
-        kinetic, potential = kinetic_energy_of(system), potential_energy_of(system)
+        index = symbol.partition("_")[2]
+        letters = [f"{letter}_{index}" if index else letter for letter in "TU"]
+        keys = [f"{name}_{index}" if index else name for name in ("kinetic_energy", "potential_energy")]
+        kinetic = kinetic_energy_of(system, letters[0], keys[0])
+        potential = potential_energy_of(system, letters[1], keys[1])
     require_kind("lagrangian", "kinetic", kinetic, "energy")
     if potential is None:
         raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a potential energy, or a system alone"))
@@ -265,7 +270,7 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
     force, momentum = generalized_force(of, q), generalized_momentum(of, q)
     changing = momentum_rate(momentum, q)
     if of.fact(ActedOn) or of.fact(Kept):
-        return forced_equation(of, q, force, momentum, changing, _key_of(of, key))
+        return forced_equation(of, q, force, momentum, changing, key)
 
     def by_virtual_work() -> Relation:
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
@@ -307,8 +312,10 @@ def _difference(first: Expr, second: Expr) -> Expr:
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Steps of a second Lagrangian on the page begin with its own key."""
-    return name if lagrangian.key == "lagrangian" else f"{lagrangian.key}_{name}"
+    """Steps of a second Lagrangian on the page begin with its own key, or with the name of its system."""
+    own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
+    plain = f"{own}_lagrangian" if own else "lagrangian"
+    return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"
 
 
 def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
@@ -328,9 +335,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
         routes={
-            "virtual_work": compared_with(
-                lambda: matter.stored_force_along(q.symbol) + matter.turning_along(q.symbol)
-            ),
+            "virtual_work": compared_with(lambda: matter.stored_force_along(q.symbol) + matter.turning_along(q.symbol)),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or _key_of(of, f"force_{q.symbol.name}"),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, diff, factor
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
@@ -35,7 +36,8 @@ def no_slip(
     ground   a place of the surface, where that moves without turning; by default it is at rest
     One condition for each rate that it fixes, that of the body's last turn first. Given to a `System` as one of its
     parts, it gives a coordinate by others where it can be integrated.
-    Second route: the place that the particle at the contact has in the body, held fast and differentiated with it.
+    Second route: the place that the particle at the contact has in the body, held fast and differentiated with it; the
+    condition follows from that being at rest, and is no more.
     Errors: the body is at rest there in any case, or cannot roll.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
@@ -93,7 +95,7 @@ def _independent(body: PlacedBody, at: Location, ground: Location | None) -> Ite
         raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is at rest in any case"))
 
 
-def _check(body: PlacedBody, at: Location, ground: Location | None) -> None:
+def _check(body: Any, at: Location, ground: Location | None) -> None:
     if not isinstance(body, PlacedBody):
         message = "`no_slip` needs a body that is placed or held"
         raise Rejected(Complaint("wrong-argument", message, help="put it somewhere with `.placed` or `.held`"))
@@ -147,9 +149,7 @@ def _rates_alone(component: Expr) -> Expr:
     return Mul(*kept) if kept else component
 
 
-def _solved(
-    body: PlacedBody, at: Location, ground: Location | None, condition: _Condition, key: str
-) -> Quantity:
+def _solved(body: PlacedBody, at: Location, ground: Location | None, condition: _Condition, key: str) -> Quantity:
     """The condition as the rate that it fixes."""
     q, found = condition.q, condition.rate
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
@@ -160,6 +160,11 @@ def _solved(
         velocity = velocity_of_particle(body, at, ground)
         known = {**_all_rates(body, at, ground), relation.left: relation.right}
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
+
+    def no_more(relation: Relation) -> tuple[Expr, Expr]:
+        """It follows from the particle being at rest: as a further line it leaves the rank of that as it is."""
+        lines = velocity_of_particle(body, at, ground)
+        return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 
     coefficients = [diff(found, rate(other)) for other in moving]
     plain = found - Add(*(c * rate(other) for c, other in zip(coefficients, moving, strict=True)))
@@ -183,11 +188,21 @@ def _solved(
             after=[Form(solved, "result", Level.BRIEF, factors)],
             arranged=lambda _: solved,
         ),
-        routes={"at_rest": at_rest},
+        routes={"at_rest": at_rest, "no_more": no_more},
         key=key,
         facts=facts,
         scope=Scope(coordinates=coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))),
     )
+
+
+def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
+    """Of linear conditions on the rates, at a place of no significance."""
+    rows = Matrix(
+        [[*(diff(line, rate(q)) for q in moving), line.subs(dict.fromkeys(map(rate, moving), ZERO))] for line in lines]
+    )
+    letters = sorted(rows.free_symbols, key=str)
+    there = {letter: Rational(3 * i + 7, 2 * i + 11) for i, letter in enumerate(letters)}
+    return int(rows.subs(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
 
 
 def _all_rates(body: PlacedBody, at: Location, ground: Location | None) -> dict[Symbol, Expr]:
@@ -216,5 +231,3 @@ def velocity_of_particle(body: PlacedBody, at: Location, ground: Location | None
         fast = [a - b for a, b in zip(fast, slow, strict=True)]
     held = dict(zip(names, turn.T * arm, strict=True))
     return [v.subs(held) for v in fast]
-
-

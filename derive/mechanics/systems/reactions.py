@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Mul, Pow, Symbol, diff
+from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, diff
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
 from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import Relation, TimeRate, explicit, rate
-from derive.algebra.normal_form import vanishes
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint, Kept
@@ -259,14 +259,7 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
     except DMError:
         raise _undetermined(problem, matrix) from None
     back = {dummy: f for f, dummy in names.items()}
-    return {u: _signs_in_front(by_squares(value.xreplace(back))) for u, value in zip(unknowns, solved, strict=True)}
-
-
-def _signs_in_front(value: Expr) -> Expr:
-    """No minus before each term of a denominator."""
-    above, below = value.as_numer_denom()
-    terms = [t for f in Mul.make_args(below) if f.is_Add for t in f.args]
-    return (-above) / (-below) if terms and sum(t.could_extract_minus_sign() for t in terms) * 2 > len(terms) else value
+    return {u: by_squares(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
 
 
 def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, eye, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, eye, factor
 from sympy.matrices import ImmutableMatrix
 from sympy.simplify.fu import TR5, TR6
 
@@ -53,7 +53,9 @@ def angular_velocity(
     ]
     turning = [(speed, around) for speed, around in terms if speed != 0]
     if not turning:
-        raise Rejected(Complaint("wrong-argument", "`angular_velocity` needs axes that turn, but these stay as they are"))
+        raise Rejected(
+            Complaint("wrong-argument", "`angular_velocity` needs axes that turn, but these stay as they are")
+        )
     whole = [scaled(speed, around) for speed, around in turning]
 
     def by_rotation_matrix() -> ImmutableMatrix:
@@ -86,7 +88,12 @@ def by_squares(value: Expr) -> Expr:
     above, below = value.as_numer_denom()
     uppers, lowers = ([factor(f(part.expand()).expand()) for f in _SQUARES] for part in (above, below))
     forms = [upper / lower for upper in uppers for lower in lowers]
-    return min((value, *forms), key=lambda form: (int(form.count_ops()), len(form.atoms(Add))))
+    return min((value, *forms), key=lambda form: (int(form.count_ops()) + _minuses_below(form), len(form.atoms(Add))))
+
+
+def _minuses_below(value: Expr) -> int:
+    sums = [f for f in Mul.make_args(value.as_numer_denom()[1]) if f.is_Add]
+    return sum(term.could_extract_minus_sign() for f in sums for term in f.args)
 
 
 def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
@@ -97,9 +104,10 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
     return ImmutableDenseMatrix(after(axes.turns[count : i + 1]) * about)
 
 
-def angular_velocity_of(placed: PlacedBody, inertia: ImmutableMatrix, symbol: str = "omega") -> Quantity:
+def angular_velocity_of(placed: PlacedBody, inertia: ImmutableMatrix, of: Any, symbol: str) -> Quantity:
     """Of a body in space, along axes in which its inertia is constant and its components are short.
 
+    of   the body, or the system, that has a name
     Where the last turns are about an axis of symmetry, these are the axes before them.
     """
     axes: Any = placed.turned
@@ -109,7 +117,7 @@ def angular_velocity_of(placed: PlacedBody, inertia: ImmutableMatrix, symbol: st
         while count > 1 and axes.turns[count - 1][0] == last and _is_symmetric(inertia, last):
             count -= 1
     along = Axes(after(axes.turns[:count]), axes.turns[:count]) if count else space
-    return angular_velocity(axes, along, placed.body if placed.body.called else None, symbol)
+    return angular_velocity(axes, along, of, symbol)
 
 
 def _is_symmetric(inertia: ImmutableMatrix, axis: int) -> bool:

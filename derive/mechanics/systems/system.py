@@ -20,7 +20,7 @@ from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
-from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
+from derive.mechanics.systems.forces import Charge, Damper, GivenForce, MagneticForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Fact, Quantity
@@ -164,7 +164,8 @@ class System:
         charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
         self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
         deflected = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
-        self.given_forces = (*(part for part in parts if isinstance(part, GivenForce)), *deflected)
+        given = tuple(part for part in parts if isinstance(part, GivenForce))
+        self.given_forces: tuple[GivenForce | MagneticForce, ...] = (*given, *deflected)
         self.dampers = tuple(part for part in parts if isinstance(part, Damper))
         self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
         self._check()
