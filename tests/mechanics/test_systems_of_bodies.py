@@ -125,7 +125,7 @@ def test_the_lagrangian_of_the_heavy_top() -> None:
 
 
 def test_a_top_with_its_moments_about_the_centre_of_mass_has_the_others_by_parallel_axes() -> None:
-    (phi, theta, psi), body = top(about="centre_of_mass")
+    _, body = top(about="centre_of_mass")
     _, other = top((A + M * l**2, A + M * l**2, C))
     assert equal(energy(body), energy(other))
 
@@ -211,7 +211,7 @@ def test_a_body_that_moves_freely_in_space_has_both_energies() -> None:
 
 
 def test_products_of_inertia_take_part() -> None:
-    """A block held at its corner turns about an edge: its products of inertia do not enter, about another axis they do."""
+    """A block held at its corner: about an edge its products of inertia do not enter, about another axis they do."""
     phi = coordinate("phi")
     block = Cuboid((a, a, a), m)
     assert equal(energy(block.held(space.turned(Z, phi), at="corner")), m * a**2 * phi.rate**2 / 3)
@@ -326,10 +326,14 @@ def test_moments_about_the_pivot_do_not_serve_a_body_that_moves_freely() -> None
 def test_a_wrong_law_of_a_turning_body_is_refused(module: Any, name: str, wrong: Any, monkeypatch: Any) -> None:
     monkeypatch.setattr(module, name, wrong(getattr(module, name)))
     q = coordinate("theta")
+    axes = space.turned(Z, coordinate("phi")).turned(X, q)
+    plane, turning = (
+        RigidBody(m, I_0, centre=(0, -l)).held(q, at="pivot"),
+        RigidBody(m, (A, A, C)).held(axes, at="pivot"),
+    )
+    system = System(turning if module is rigid else plane)
     with pytest.raises(Unverified):
-        if module is rigid:
-            angular_velocity(space.turned(Z, coordinate("phi")).turned(X, q))
-        kinetic_energy_of(System(RigidBody(m, I_0, centre=(0, -l)).held(q, at="pivot")))
+        kinetic_energy_of(system)
 
 
 def test_a_wrong_condition_of_rolling_is_refused(monkeypatch: Any) -> None:

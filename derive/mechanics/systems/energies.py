@@ -12,7 +12,14 @@ from derive.algebra.expressions import TIME, Dot, Factors, Terms, TimeRate, appl
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.dalembert import MassPoint, Matter
 from derive.mechanics.systems.forced import acting_on, squares_of_rates
-from derive.mechanics.systems.rigid import angular_velocity_of, inertia_of, is_about_the_point, turning_rate_of
+from derive.mechanics.systems.places import Axes
+from derive.mechanics.systems.rigid import (
+    angular_velocity,
+    convenient_axes,
+    inertia_of,
+    is_about_the_point,
+    turning_rate_of,
+)
 from derive.mechanics.systems.system import HALF, Eliminated, System
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Level, Quantity, compared_with, value_behind
@@ -54,14 +61,13 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     name = f"v_{mover.letter}" if mover.letter else "v"
     letter = scalar(name)
     matter = Matter((MassPoint(Integer(2), mover.place),), (), tuple(moving))
-    alone = "centre" if mover.is_body else "alone"
     return establish(
         "systems.squared_speed",
         Pow(letter, 2),
         lambda *at: squares_of_rates(at, moving),
         {f"place_{k}": c for k, c in enumerate(mover.place)},
         key=f"squared_speed_{mover.letter}" if mover.letter else "squared_speed",
-        outcome="of_several" if several else alone,
+        outcome="of_several" if several else "centre" if mover.is_body else "alone",
         routes={"functions_of_time": compared_with(matter.kinetic_energy)},
         lines=Lines(
             put_in=None,
@@ -127,12 +133,15 @@ def _turnings(system: System) -> list[Turning]:
         if inertia is None:
             inertia = inertia_of(placed)
             known.append((placed, inertia))
-        if placed.is_plane:
+        turned = placed.turned
+        if not isinstance(turned, Axes):
             found.append(Turning(inertia, turning_rate_of(placed)))
         else:
             letter = "omega" if len(system.bodies) == 1 or placed.body.called else f"omega_{i + 1}"
             of = placed.body if placed.body.called else system if system.called else None
-            found.append(Turning(inertia, angular_velocity_of(placed, value_behind(inertia), of, letter)))
+            found.append(
+                Turning(inertia, angular_velocity(turned, convenient_axes(placed, value_behind(inertia)), of, letter))
+            )
     return found
 
 

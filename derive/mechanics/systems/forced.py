@@ -21,7 +21,7 @@ from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with
 from derive.steps.subject import Subject
 
-__all__ = ["applied_force", "dissipation_function"]
+__all__ = ["applied_force", "dissipation_function", "forced_equation"]
 
 ZERO = Integer(0)
 

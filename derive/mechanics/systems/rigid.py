@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, eye, factor
 from sympy.matrices import ImmutableMatrix
@@ -22,6 +22,7 @@ from derive.steps.subject import NOTHING, Subject
 
 __all__ = ["angular_velocity"]
 
+Inertia: TypeAlias = Quantity | Expr  # a step, or the letter of a moment across the plane
 _SQUARES = (lambda value: value, TR5, TR6)  # as it is, by cosines, by sines
 
 
@@ -104,10 +105,9 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
     return ImmutableDenseMatrix(after(axes.turns[count : i + 1]) * about)
 
 
-def angular_velocity_of(placed: PlacedBody, inertia: ImmutableMatrix, of: Any, symbol: str) -> Quantity:
-    """Of a body in space, along axes in which its inertia is constant and its components are short.
+def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
+    """Those along which the inertia of a body in space is constant, and the components of its angular velocity short.
 
-    of   the body, or the system, that has a name
     Where the last turns are about an axis of symmetry, these are the axes before them.
     """
     axes: Any = placed.turned
@@ -116,8 +116,7 @@ def angular_velocity_of(placed: PlacedBody, inertia: ImmutableMatrix, of: Any, s
         last = axes.turns[-1][0]
         while count > 1 and axes.turns[count - 1][0] == last and _is_symmetric(inertia, last):
             count -= 1
-    along = Axes(after(axes.turns[:count]), axes.turns[:count]) if count else space
-    return angular_velocity(axes, along, of, symbol)
+    return Axes(after(axes.turns[:count]), axes.turns[:count]) if count else space
 
 
 def _is_symmetric(inertia: ImmutableMatrix, axis: int) -> bool:
@@ -150,7 +149,7 @@ def _at_centre(placed: PlacedBody) -> bool:
     return is_zero(placed.point.position - placed.body.middle.position)
 
 
-def inertia_of(placed: PlacedBody) -> Quantity | Expr:
+def inertia_of(placed: PlacedBody) -> Inertia:
     """The tensor of a body in space, the moment across the plane of one in a plane.
 
     Errors: the moments that are given are about another point than the one needed.
@@ -160,7 +159,7 @@ def inertia_of(placed: PlacedBody) -> Quantity | Expr:
     if hasattr(body, "point_called"):
         _check_moments(placed)
         moments: tuple[Expr, ...] = body.moments
-        tensor: Quantity | Expr = body.tensor if axis is None else moments[axis]
+        tensor: Inertia = body.tensor if axis is None else moments[axis]
         return tensor
     if axis is None:
         return inertia_tensor(body, about=about)
