@@ -42,8 +42,8 @@ def test_the_rate_of_a_kind_is_a_kind(kind: str, faster: str) -> None:
 
 
 def test_a_rate_that_has_no_name_is_refused() -> None:
-    with pytest.raises(Rejected, match="the rate of a quantity of the kind `mass` has no name"):
-        kind_of_rate("mass")
+    with pytest.raises(Rejected, match="the rate of a quantity of the kind `volume` has no name"):
+        kind_of_rate("volume")
 
 
 @pytest.mark.parametrize(

@@ -195,6 +195,11 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     )
 
 
+def _terms_together(value: Expr) -> Expr:
+    """Term by term, or multiplied out where terms of several bodies then come together."""
+    return min((by_terms(value), by_terms(value.expand())), key=lambda form: int(form.count_ops()))
+
+
 def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
     """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
 
@@ -229,7 +234,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         kind="energy",
         routes={"work": work},
         outcome=lambda value: "zero" if value == 0 else "generic",
-        lines=Lines(put_in=None, arranged=by_terms),
+        lines=Lines(put_in=None, arranged=_terms_together),
         facts=[replace(matter, points=()), *acting_on(system)],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
