@@ -78,6 +78,9 @@ class ReducedMatter(Matter):
     def force_along(self, q: Symbol) -> Expr:
         return self._put_in(self.whole.force_along(q))
 
+    def stored_force_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.stored_force_along(q))
+
     def _put_in(self, value: Expr) -> Expr:
         accelerations = {rate(v): by_functions_of_time(found, self.coordinates) for v, found in self.rates}
         return bound(bound(explicit(value), accelerations), dict(self.rates))
@@ -162,7 +165,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
     rates = rates_by_momenta(of, constants)
     put_in = {v.symbol: v.value for v in rates}
     matter = of.needed(Matter)
-    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), matter, tuple(put_in.items()))
+    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), whole=matter, rates=tuple(put_in.items()))
 
     letters = [each.symbol for each in constants]
     carried = Add(*(p * v for p, v in zip(letters, put_in.values(), strict=True)))
@@ -237,7 +240,7 @@ def effective_potential(
     rates = rates_by_momenta(of, constants) if constants else ()
     put_in = {v.symbol: v.value for v in rates}
     matter, potential = of.needed(Matter), of.needed(Energies).potential
-    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), matter, tuple(put_in.items()))
+    reduced = ReducedMatter((), (), tuple(q.symbol for q in left), whole=matter, rates=tuple(put_in.items()))
     still = dict.fromkeys([s for q in left for s in (q.rate, q.acceleration)], ZERO)
     letters = [each.symbol for each in constants]
     carried = Add(*(p * v for p, v in zip(letters, put_in.values(), strict=True)))
