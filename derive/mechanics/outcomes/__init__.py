@@ -13,6 +13,4 @@ from derive.mechanics.outcomes import of_modes as of_modes
 from derive.mechanics.outcomes import of_motion as of_motion
 from derive.mechanics.outcomes import of_rotation as of_rotation
 from derive.mechanics.outcomes import of_shapes as of_shapes
-from derive.mechanics.outcomes import of_systems
-
-__all__ = ["of_answers", "of_bodies", "of_conditions", "of_motion", "of_rotation", "of_systems"]
+from derive.mechanics.outcomes import of_systems as of_systems
