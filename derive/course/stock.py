@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from sympy import Expr
 
 from derive import FOLDER
-from derive.algebra.dimensions import NUMBER
+from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.expression import Declared, read_expression
@@ -108,21 +108,24 @@ class InLetters:
     def of_kind(self, node: Tree, name: str, kind: str) -> Expr:
         """An expression of the dimension of a kind, with either sign, or a number; zero has any dimension."""
         wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
-        if not isinstance(node, Scalar) or node.empty:
-            faults = Faults()
-            wrong_type(faults, f"`{name}`", is_a, node)
-            faults.stop()
-        assert isinstance(node, Scalar)
-        letter = self.numbers.letter(node, name, kind)
-        if letter is not None:
+        if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind)) is not None:
             return letter
-        expr, dimension = read_expression(node, self.letters)
+        expr, dimension = self.read(node, name, is_a)
         if dimension != wanted and not expr.is_zero:
             bare = expr.is_Rational and dimension == NUMBER
             help_line = f"write it with its unit, `{_text(node)} {unit_of_kind(kind)}`" if bare else None
             message = f"`{name}` must be {is_a}, but `{_text(node)}` is {named(dimension)}"
             rejected("wrong-kind", message, node.place, help_line)
         return expr
+
+    def read(self, node: Tree, name: str, is_a: str = "an expression") -> tuple[Expr, Dimension]:
+        """An expression of any dimension."""
+        if isinstance(node, Scalar) and not node.empty:
+            return read_expression(node, self.letters)
+        faults = Faults()
+        wrong_type(faults, f"`{name}`", is_a, node)
+        faults.stop()
+        raise AssertionError  # which has been told
 
 
 def each(readings: Iterable[Callable[[], T]]) -> list[T]:

@@ -2,37 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
+from typing import Any
 
-from sympy import Expr, Integer
+from sympy import Expr
 
+from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, Record, key, list_of, mapping_of, record_of
+from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, Place, did_you_mean, rejected
-from derive.mechanics import (
-    Coordinate,
-    Particle,
-    System,
-    conserved_momentum,
-    coordinate,
-    equation_of_motion,
-    generalized_momentum,
-    kinetic_energy_of,
-    lagrangian,
-    potential_energy_of,
-    spring,
-    weight,
+from derive.errors import Faults, Place, did_you_mean
+from derive.figures import sketch
+from derive.stock.answers import Answers
+from derive.stock.keys.parts import (
+    CENTRAL,
+    CHARGES,
+    CONSTRAINTS,
+    DAMPING,
+    FORCES,
+    PARTICLES,
+    SPRINGS,
+    CentralKeys,
+    ChargeKeys,
+    ConstraintKeys,
+    DampingKeys,
+    ForceKeys,
+    Part,
+    ParticleKeys,
+    SpringKeys,
 )
-from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import PartOfSystem
-from derive.steps.step import Quantity
 from derive.stock.keys.places import (
     COORDINATES,
-    PLACE,
     PLACES,
     POSITIVE,
     TURNS,
@@ -40,24 +43,9 @@ from derive.stock.keys.places import (
     WrittenPlace,
     coordinate_letters,
 )
+from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
-
-@dataclass(frozen=True)
-class ParticleKeys(Record):
-    """The keys of one of `particles:`."""
-
-    mass: Tree | None = key("its mass", SCALAR, required=True)
-    at: WrittenPlace | None = key("where it is", PLACE, required=True)
-
-
-@dataclass(frozen=True)
-class SpringKeys(Record):
-    """The keys of one of `springs:`."""
-
-    constant: Tree | None = key("its spring constant", SCALAR, required=True)
-    start: WrittenPlace | None = key("where it begins", PLACE, called="from", required=True)
-    end: WrittenPlace | None = key("where it ends", PLACE, called="to", required=True)
-    length: Tree | None = key("its natural length; without it zero", SCALAR)
+SYSTEM = "system"  # what the drawing of it is called
 
 
 @dataclass(frozen=True)
@@ -73,33 +61,23 @@ class SystemKeys(Record):
         PLACES,
         called="places",
     )
-    particles: Mapping[Word, ParticleKeys] = key(
-        "particles by name", mapping_of(record_of(ParticleKeys, "a particle", "a mapping with `mass` and `at`"))
-    )
+    particles: Mapping[Word, ParticleKeys] = key("particles by name", PARTICLES)
     gravity: Tree | None = key("the acceleration of free fall, downwards; without it nothing has weight", SCALAR)
-    springs: Sequence[SpringKeys] = key(
-        "springs without mass", list_of(record_of(SpringKeys, "a spring", "a mapping"), "a list of springs")
+    springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
+    central: Sequence[CentralKeys] = key("potential energies of the distance of two places", CENTRAL)
+    potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
+    forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
+    damping: Sequence[DampingKeys] = key("drag against a velocity, in proportion to it", DAMPING)
+    charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
+    constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
+    conserved: Mapping[Word, Word] = key(
+        "letters for the constant momenta of cyclic coordinates: `phi: l`", mapping_of(TEXT)
     )
-
-
-@dataclass(frozen=True)
-class Body:
-    """A particle of the description, and where it stands in the file."""
-
-    name: str
-    mass: Expr
-    at: Location
-    place: Place = field(repr=False, compare=False)
-
-
-@dataclass(frozen=True)
-class Elastic:
-    """A spring of the description."""
-
-    constant: Expr
-    ends: tuple[Location, Location]
-    length: Expr
-    place: Place = field(repr=False, compare=False)
+    at: Mapping[Word, Tree] = key(
+        "the state about which equations are linearised and stability is judged; without it all states of rest",
+        mapping_of(SCALAR),
+    )
+    results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -107,9 +85,11 @@ class DescribedSystem(Described):
     """A system in its letters."""
 
     coordinates: tuple[tuple[str, str, bool], ...] = ()
-    particles: tuple[Body, ...] = ()
-    springs: tuple[Elastic, ...] = ()
+    parts: tuple[Part, ...] = ()
     gravity: Expr | None = None
+    conserved: tuple[tuple[str, str], ...] = ()
+    at: tuple[tuple[str, Expr], ...] = ()
+    results: tuple[Result, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
 
@@ -118,113 +98,90 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
     places = Places(written.points, written.axes, known)
-    particles: list[Body] = []
-    springs: list[Elastic] = []
-    gravity = None
+    parts: list[Part] = []
     with faults:
         places.all_named()
-    with faults:
-        particles = each([partial(_particle, str(n), p, places, known) for n, p in written.particles.items()])
-    with faults:
-        springs = each([partial(_spring, each_spring, places, known) for each_spring in written.springs])
-    if written.gravity is not None:
+    sorts: tuple[Sequence[Any], ...] = (
+        list(written.particles.values()),
+        written.springs,
+        written.central,
+        written.forces,
+        written.damping,
+        written.charges,
+        written.constraints,
+    )
+    for described in sorts:
         with faults:
-            gravity = known.value(written.gravity, "gravity", "acceleration")
-    sorts = [(n, letters[n].kind, sort == POSITIVE) for n, sort in written.coordinates.items() if n in letters]
+            parts += each([partial(one.part, places, known) for one in described])
+    gravity = _value(written.gravity, "gravity", "acceleration", known, faults)
+    energy = _value(written.potential, "potential", "energy", known, faults)
+    if energy is not None:
+        parts.append(Part("potential", (energy,), place=written.values_at["potential"]))
+    own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, faults)}
+    with_own = InLetters({**symbols, **own})
+    with_own.numbers = known.numbers
     return DescribedSystem(
-        letters=letters,
+        letters=own,
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
-        coordinates=tuple(sorts),
-        particles=tuple(particles),
-        springs=tuple(springs),
+        coordinates=tuple((n, letters[n].kind, s == POSITIVE) for n, s in written.coordinates.items() if n in letters),
+        parts=tuple(parts),
         gravity=gravity,
+        conserved=tuple((str(q), str(letter)) for q, letter in written.conserved.items()),
+        at=_state(written.at, letters, known, faults),
+        results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
         place=written.places[""],
     )
 
 
-def _particle(name: str, written: ParticleKeys, places: Places, letters: InLetters) -> Body:
-    assert written.mass is not None
-    assert written.at is not None
-    return Body(name, letters.value(written.mass, "mass", "mass"), places.at(written.at, name), written.places[""])
+def _value(node: Tree | None, name: str, kind: str, letters: InLetters, faults: Faults) -> Expr | None:
+    if node is not None:
+        with faults:
+            return letters.value(node, name, kind) if kind != "energy" else letters.of_kind(node, name, kind)
+    return None
 
 
-def _spring(written: SpringKeys, places: Places, letters: InLetters) -> Elastic:
-    assert written.start is not None
-    assert written.end is not None
-    assert written.constant is not None
-    ends = places.at(written.start, "the start of a spring"), places.at(written.end, "the end of a spring")
-    length = letters.value(written.length, "length", "length") if written.length else Integer(0)
-    return Elastic(letters.value(written.constant, "constant", "spring constant"), ends, length, written.places[""])
+def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
+    """The letters of forces of constraint, which results may be solved for."""
+    names = [dict(part.named)["force"] for part in parts if part.maker == "constraint"]
+    return {name: Declared(name, scalar(name), "force") for name in names}
 
 
-class Answers:
-    """What parts may ask of a system, each derived when it is first asked for."""
+def _constants(written: Mapping[Word, Word], letters: Mapping[str, Declared], faults: Faults) -> dict[str, Declared]:
+    """The letters of constant momenta."""
+    found = {}
+    for q, name in written.items():
+        if q not in letters:
+            faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
+            continue
+        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
+        found[str(name)] = Declared(str(name), scalar(str(name)), kind)
+    return found
 
-    def __init__(self, described: DescribedSystem):
-        self.described = described
-        self.coordinates = {
-            name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
-        }
 
-    @cached_property
-    def system(self) -> System:
-        parts: list[PartOfSystem] = []
-        for body in self.described.particles:
-            with told_at(body.place):
-                parts.append(Particle(body.mass, body.at))
-        for each_spring in self.described.springs:
-            with told_at(each_spring.place):
-                parts.append(spring(each_spring.constant, *each_spring.ends, each_spring.length))
-        if self.described.gravity is not None:
-            parts.append(weight(self.described.gravity))
-        with told_at(self.described.place):
-            return System(*parts)
-
-    @cached_property
-    def kinetic_energy(self) -> Quantity:
-        return kinetic_energy_of(self.system)
-
-    @cached_property
-    def potential_energy(self) -> Quantity:
-        return potential_energy_of(self.system)
-
-    @cached_property
-    def lagrangian(self) -> Quantity:
-        return lagrangian(self.kinetic_energy, self.potential_energy)
-
-    def motion(self, q: Coordinate) -> Quantity:
-        return equation_of_motion(self.lagrangian, q, key=f"motion_{q.symbol.name}")
-
-    def asks(self) -> dict[str, Callable[[], object]]:
-        """Every name that a part may ask by."""
-        of_coordinates: dict[str, Callable[[], object]] = {}
-        for name, q in self.coordinates.items():
-            of_coordinates[f"motion_{name}"] = partial(self.motion, q)
-            of_coordinates[f"momentum_{name}"] = partial(self._of_lagrangian, generalized_momentum, q)
-            of_coordinates[f"conserved_{name}"] = partial(self._of_lagrangian, conserved_momentum, q)
-        return {
-            "kinetic_energy": lambda: self.kinetic_energy,
-            "potential_energy": lambda: self.potential_energy,
-            "lagrangian": lambda: self.lagrangian,
-            "equations_of_motion": lambda: tuple(self.motion(q) for q in self.coordinates.values()),
-            **of_coordinates,
-        }
-
-    def _of_lagrangian(self, verb: Callable[..., Quantity], q: Coordinate) -> Quantity:
-        return verb(self.lagrangian, q)
+def _state(
+    written: Mapping[Word, Tree], coordinates: Mapping[str, Declared], letters: InLetters, faults: Faults
+) -> tuple[tuple[str, Expr], ...]:
+    found = []
+    for q, node in written.items():
+        if q not in coordinates:
+            help_line = did_you_mean(q, coordinates)
+            faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=help_line)
+            continue
+        with faults:
+            found.append((str(q), letters.of_kind(node, str(q), coordinates[q].kind)))
+    return tuple(found)
 
 
 def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object]:
-    """The answers by the names that parts ask for."""
-    asks = Answers(described).asks()
+    """The answers by the names that parts ask for, and a drawing of the system."""
+    of = Answers(described)
+    asks = of.asks()
     answers: dict[str, object] = {}
-    for name in asked:
-        if name not in asks:
-            help_line = did_you_mean(name, asks) or f"one may ask for {', '.join(asks)}"
-            rejected("no-such-answer", f"a system has no answer called `{name}`", name.place, help_line)
-        with told_at(name.place):
-            answers[str(name)] = asks[name]()
+    with told_at(described.place):
+        sketch(SYSTEM, of.system)
+    for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
+        answers[str(name)] = of.named(name)
     return answers
 
 

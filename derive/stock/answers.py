@@ -1,0 +1,247 @@
+"""What parts may ask of a system by name, each derived when it is first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property, partial
+from typing import Any, Protocol
+
+from sympy import Expr, Integer
+
+from derive.algebra.expressions import explicit
+from derive.course.stock import told_at
+from derive.course.yaml_tree import Word
+from derive.errors import Complaint, Place, Rejected, did_you_mean, rejected
+from derive.mechanics import (
+    Coordinate,
+    System,
+    accelerations,
+    conjugate_momentum,
+    conserved,
+    coordinate,
+    effective_potential,
+    energy_function,
+    energy_function_rate,
+    equation_of_motion,
+    equilibria,
+    hamilton_equations,
+    hamiltonian,
+    kinetic_energy_of,
+    lagrangian,
+    linearised,
+    multipliers,
+    normal_modes,
+    period,
+    potential_energy_of,
+    routhian,
+    stability,
+    weight,
+)
+from derive.steps.derivation import returned_quantities
+from derive.steps.step import Quantity
+from derive.stock.keys.parts import Part
+from derive.stock.keys.results import Result
+
+
+class OfSystem(Protocol):
+    """A description of a system, in letters."""
+
+    @property
+    def coordinates(self) -> tuple[tuple[str, str, bool], ...]: ...
+    @property
+    def parts(self) -> tuple[Part, ...]: ...
+    @property
+    def gravity(self) -> Expr | None: ...
+    @property
+    def conserved(self) -> tuple[tuple[str, str], ...]: ...
+    @property
+    def at(self) -> tuple[tuple[str, Expr], ...]: ...
+    @property
+    def results(self) -> tuple[Result, ...]: ...
+    @property
+    def place(self) -> Place | None: ...
+
+
+class Answers:
+    """The quantities of a system, and what is made of them."""
+
+    def __init__(self, described: OfSystem):
+        self.described = described
+        self.coordinates = {
+            name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
+        }
+        self._on_the_way: list[str] = []
+        self._known: dict[str, Any] = {}
+
+    @cached_property
+    def system(self) -> System:
+        parts = [part.made() for part in self.described.parts]
+        if self.described.gravity is not None:
+            parts.append(weight(self.described.gravity))
+        with told_at(self.described.place):
+            return System(*parts)
+
+    @cached_property
+    def kinetic_energy(self) -> Quantity:
+        return kinetic_energy_of(self.system)
+
+    @cached_property
+    def potential_energy(self) -> Quantity:
+        return potential_energy_of(self.system)
+
+    @cached_property
+    def lagrangian(self) -> Quantity:
+        return lagrangian(self.system)
+
+    @cached_property
+    def cyclic(self) -> dict[str, Quantity]:
+        """The constant momenta, by the names of their coordinates."""
+        L = explicit(self.lagrangian.value)
+        letters = dict(self.described.conserved)
+        found = {}
+        for name, q in self.coordinates.items():
+            if L.has(q.rate) and not L.has(q.symbol) or name in letters:
+                found[name] = conserved(self.lagrangian, q, value=letters.get(name))
+        return found
+
+    @property
+    def reduced(self) -> Quantity:
+        """The Lagrangian, or where momenta are constant the Routhian of what is left."""
+        return self.routhian if self.cyclic and len(self.cyclic) < len(self.coordinates) else self.lagrangian
+
+    @cached_property
+    def routhian(self) -> Quantity:
+        return routhian(self.lagrangian, *self.cyclic.values())
+
+    @cached_property
+    def effective_potential(self) -> Quantity:
+        return effective_potential(self.lagrangian, *self.cyclic.values())
+
+    @cached_property
+    def energy_function(self) -> Quantity:
+        return energy_function(self.lagrangian)
+
+    @cached_property
+    def hamiltonian(self) -> Quantity:
+        return hamiltonian(self.lagrangian)
+
+    @cached_property
+    def motions(self) -> dict[str, Quantity]:
+        return {name: self.motion(q) for name, q in self.coordinates.items()}
+
+    def motion(self, q: Coordinate) -> Quantity:
+        return equation_of_motion(self.lagrangian, q, key=f"motion_{q.symbol.name}")
+
+    @cached_property
+    def potential_at_rest(self) -> Quantity:
+        """The effective potential where something turns or a momentum is constant, else the potential energy."""
+        still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
+        is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
+        if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
+            return self.effective_potential
+        return self.lagrangian if is_driven else self.potential_energy
+
+    @cached_property
+    def equilibria(self) -> tuple[Quantity, ...]:
+        return equilibria(self.potential_at_rest)
+
+    @cached_property
+    def stability(self) -> tuple[Quantity, ...]:
+        if self.state is not None:
+            return (stability(self.potential_at_rest, self.state),)
+        return tuple(stability(self.potential_at_rest, at) for at in self.equilibria)
+
+    @property
+    def state(self) -> dict[Any, Expr] | None:
+        """The state about which the motion is small, if one is given."""
+        found = {self.coordinates[name]: value for name, value in self.described.at}
+        return found or None
+
+    @cached_property
+    def linearised(self) -> tuple[Quantity, ...]:
+        motions = tuple(self.motions.values())
+        if self.reduced is not self.lagrangian:
+            left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
+            motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
+            at: Any = self.state or self.equilibria[0]
+        else:
+            at = self.state
+        found = linearised(motions, at=at)
+        return found if isinstance(found, tuple) else (found,)
+
+    @cached_property
+    def normal_modes(self) -> tuple[Quantity, ...]:
+        return normal_modes(self.linearised)
+
+    @cached_property
+    def period(self) -> Quantity:
+        if len(self.normal_modes) != 1:
+            raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
+        return period(self.normal_modes[0])
+
+    def asks(self) -> dict[str, Callable[[], Any]]:
+        """Every name that a part may ask by."""
+        found: dict[str, Callable[[], Any]] = {
+            "kinetic_energy": lambda: self.kinetic_energy,
+            "potential_energy": lambda: self.potential_energy,
+            "lagrangian": lambda: self.lagrangian,
+            "equations_of_motion": lambda: tuple(self.motions.values()),
+            "momenta": lambda: tuple(conjugate_momentum(self.lagrangian, q) for q in self.coordinates.values()),
+            "conserved": lambda: self._some(tuple(self.cyclic.values()), "no coordinate of this system is cyclic"),
+            "energy_function": lambda: self.energy_function,
+            "energy_function_rate": lambda: energy_function_rate(self.energy_function),
+            "hamiltonian": lambda: self.hamiltonian,
+            "hamilton_equations": lambda: hamilton_equations(self.hamiltonian),
+            "routhian": lambda: self.routhian,
+            "effective_potential": lambda: self.effective_potential,
+            "equilibria": lambda: self.equilibria,
+            "stability": lambda: self.stability,
+            "linearised": lambda: self.linearised,
+            "normal_modes": lambda: self.normal_modes,
+            "period": lambda: self.period,
+            "accelerations": lambda: accelerations(*self.motions.values()),
+            "multipliers": lambda: multipliers(*self.motions.values()),
+        }
+        for name, q in self.coordinates.items():
+            found[f"motion_{name}"] = partial(self._one_motion, name)
+            found[f"momentum_{name}"] = partial(self._one_momentum, q)
+            found[f"conserved_{name}"] = partial(self._one_conserved, name)
+        for result in self.described.results:
+            found[result.name] = partial(result.made, self.named, self.coordinates)
+        return found
+
+    def _some(self, found: tuple[Quantity, ...], otherwise: str) -> tuple[Quantity, ...]:
+        if not found:
+            raise Rejected(Complaint("wrong-argument", otherwise))
+        return found
+
+    def _one_motion(self, name: str) -> Quantity:
+        return self.motions[name]
+
+    def _one_momentum(self, q: Coordinate) -> Quantity:
+        return conjugate_momentum(self.lagrangian, q)
+
+    def _one_conserved(self, name: str) -> Quantity:
+        if name not in self.cyclic:
+            conserved(self.lagrangian, self.coordinates[name])  # which says why its momentum is not
+        return self.cyclic[name]
+
+    def named(self, name: Word) -> tuple[Quantity, ...]:
+        """The steps of a name, or the one step of that key among those that a name has already led to."""
+        asks = self.asks()
+        if name in self._on_the_way:
+            rejected("circle", f"`{name}` is made of itself", name.place)
+        if name not in self._known and name not in asks:
+            steps = {q.key: q for known in self._known.values() for q in returned_quantities(known)}
+            if name in steps:
+                return (steps[str(name)],)
+            names = (*asks, *steps)
+            rejected("no-such-answer", f"there is no answer `{name}`", name.place, did_you_mean(name, names))
+        if name not in self._known:
+            self._on_the_way.append(name)
+            try:
+                with told_at(name.place):
+                    self._known[str(name)] = asks[name]()
+            finally:
+                self._on_the_way.pop()
+        return tuple(returned_quantities(self._known[name]))

@@ -1,0 +1,212 @@
+"""What a system is made of, as `given:` describes it: particles, springs, forces, charges, constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from sympy import Dummy, Integer
+
+from derive.algebra.expressions import scalar
+from derive.course.expression import Declared
+from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, object_schema, record_of
+from derive.course.stock import InLetters, each, told_at
+from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
+from derive.errors import Faults, Place, rejected
+from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, potential, spring
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace
+
+ONE_OR_MORE_COMPONENTS = Reader(
+    {"anyOf": [SCALAR.schema, COMPONENTS.schema]}, lambda node, name, faults: node if node else None
+)
+MAKERS: Mapping[str, Callable[..., Any]] = {
+    "particle": Particle,
+    "spring": spring,
+    "central": central,
+    "force": force,
+    "couple": couple,
+    "damping": damping,
+    "charge": charge,
+    "constraint": constraint,
+    "potential": potential,
+}
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part of a system: by which verb it is made, of what, and where it was described."""
+
+    maker: str
+    of: tuple[Any, ...]
+    named: tuple[tuple[str, Any], ...] = ()
+    place: Place | None = field(default=None, repr=False, compare=False)
+
+    def made(self) -> Any:
+        with told_at(self.place):
+            return MAKERS[self.maker](*self.of, **dict(self.named))
+
+
+@dataclass(frozen=True)
+class ParticleKeys(Record):
+    """The keys of one of `particles:`."""
+
+    mass: Tree | None = key("its mass", SCALAR, required=True)
+    at: WrittenPlace | None = key("where it is", PLACE, required=True)
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        return Part(
+            "particle",
+            (letters.value(_there(self.mass), "mass", "mass"), places.at(_there(self.at), "at")),
+            place=self.places[""],
+        )
+
+
+@dataclass(frozen=True)
+class SpringKeys(Record):
+    """The keys of one of `springs:`."""
+
+    constant: Tree | None = key("its spring constant", SCALAR, required=True)
+    start: WrittenPlace | None = key("where it begins", PLACE, called="from", required=True)
+    end: WrittenPlace | None = key("where it ends", PLACE, called="to", required=True)
+    length: Tree | None = key("its natural length; without it zero", SCALAR)
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        length = letters.value(self.length, "length", "length") if self.length else Integer(0)
+        constant = letters.value(_there(self.constant), "constant", "spring constant")
+        return Part("spring", (constant, *_ends(self, places), length), place=self.places[""])
+
+
+@dataclass(frozen=True)
+class CentralKeys(Record):
+    """The keys of one of `central:`, a potential energy of the distance of two places."""
+
+    energy: Tree | None = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
+    distance: Word | None = key("the letter that it has for the distance", TEXT, required=True)
+    start: WrittenPlace | None = key("one of the places", PLACE, called="from", required=True)
+    end: WrittenPlace | None = key("the other place", PLACE, called="to", required=True)
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        name = _there(self.distance)
+        if name in letters.letters:
+            message = f"`{name}` stands for something else already"
+            rejected("letter-clash", message, name.place, "give the distance a letter of its own")
+        own = Dummy(str(name), positive=True)
+        with_distance = InLetters({**letters.letters, str(name): Declared(str(name), own, "length")})
+        energy = with_distance.of_kind(_there(self.energy), "energy", "energy")
+        letter = scalar(str(name), positive=True)
+        return Part("central", (energy.xreplace({own: letter}), letter, *_ends(self, places)), place=self.places[""])
+
+
+@dataclass(frozen=True)
+class ForceKeys(Record):
+    """The keys of one of `forces:`, at a place or along a coordinate."""
+
+    components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
+    at: WrittenPlace | None = key("the place on which it acts", PLACE)
+    torque: Tree | None = key("in place of them, a torque", SCALAR)
+    on: Tree | None = key("the angle by which that turns something", SCALAR)
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        if self.components and self.at and not (self.torque or self.on):
+            found = each([partial(letters.of_kind, node, "a component", "force") for node in self.components])
+            return Part("force", (tuple(found), places.at(self.at, "at")), place=self.places[""])
+        if self.torque and self.on and not (self.components or self.at):
+            angle = letters.of_kind(self.on, "on", "angle")
+            return Part("couple", (letters.of_kind(self.torque, "torque", "torque"), angle), place=self.places[""])
+        rejected("missing-key", "a force needs `components` and `at`, or `torque` and `on`", self.places[""])
+
+
+@dataclass(frozen=True)
+class DampingKeys(Record):
+    """The keys of one of `damping:`."""
+
+    constant: Tree | None = key("its constant, kg/s at a place and for a length", SCALAR, required=True)
+    at: WrittenPlace | None = key("the place whose velocity it is against", PLACE)
+    on: Tree | None = key("in place of it, the coordinate whose rate it is against", SCALAR)
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        if (self.at is None) == (self.on is None):
+            rejected("missing-key", "damping needs either `at` or `on`", self.places[""])
+        if self.at is not None:
+            constant = letters.value(_there(self.constant), "constant", "damping constant")
+            return Part("damping", (constant, places.at(self.at, "at")), place=self.places[""])
+        constant, on = (
+            letters.read(_there(node), name)[0] for node, name in ((self.constant, "constant"), (self.on, "on"))
+        )
+        return Part("damping", (constant, on), place=self.places[""])
+
+
+@dataclass(frozen=True)
+class ChargeKeys(Record):
+    """The keys of one of `charges:`."""
+
+    charge: Tree | None = key("its charge", SCALAR, required=True)
+    at: WrittenPlace | None = key("where it is", PLACE, required=True)
+    electric: tuple[Tree, ...] = key("components of the uniform electric field", COMPONENTS)
+    magnetic: Tree | None = key(
+        "components of the uniform magnetic field; in a plane the one across it", ONE_OR_MORE_COMPONENTS
+    )
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        fields: list[tuple[str, Any]] = []
+        if self.electric:
+            fields.append(("E", tuple(letters.of_kind(node, "electric", "electric field") for node in self.electric)))
+        if isinstance(self.magnetic, Sequence):
+            three = tuple(letters.of_kind(node, "magnetic", "magnetic field") for node in self.magnetic.items)
+            fields.append(("B", three))
+        elif isinstance(self.magnetic, Scalar):
+            fields.append(("B", letters.of_kind(self.magnetic, "magnetic", "magnetic field")))
+        amount = letters.of_kind(_there(self.charge), "charge", "charge")
+        return Part("charge", (amount, places.at(_there(self.at), "at")), tuple(fields), self.places[""])
+
+
+@dataclass(frozen=True)
+class ConstraintKeys(Record):
+    """The keys of one of `constraints:`, which a force keeps."""
+
+    condition: Tree | None = key("a formula of the coordinates, or linear in their rates", SCALAR, required=True)
+    equals: Tree | None = key("what it equals; without it zero", SCALAR)
+    force: Word | None = key("the letter of the force that keeps it, a multiplier; without it `lambda`", TEXT)
+
+    def part(self, places: Places, letters: InLetters) -> Part:
+        condition, dimension = letters.read(_there(self.condition), "condition")
+        equals = Integer(0)
+        if self.equals is not None:
+            equals, other = letters.read(self.equals, "equals")
+            if other != dimension and not equals.is_zero:
+                message = "`condition` and `equals` have different dimensions"
+                rejected("dimension", message, self.values_at["equals"])
+        return Part("constraint", (condition, equals), (("force", str(self.force or "lambda")),), self.places[""])
+
+
+def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
+    """A list of mappings, or one mapping alone."""
+    one = record_of(record, what, "a mapping")
+    many = list_of(one, f"a list of mappings, {what} each")
+
+    def read(node: Tree, name: str, faults: Faults) -> tuple[Any, ...] | None:
+        if isinstance(node, Sequence):
+            return many.read(node, name, faults)
+        found = one.read(node, name, faults)
+        return () if found is None else (found,)
+
+    return Reader({"anyOf": [object_schema(record), many.schema]}, read, tuple)
+
+
+PARTICLES = mapping_of(record_of(ParticleKeys, "a particle", "a mapping with `mass` and `at`", "the particle `{}`"))
+SPRINGS, CENTRAL = list_of_parts(SpringKeys, "a spring"), list_of_parts(CentralKeys, "a central force")
+FORCES, DAMPING = list_of_parts(ForceKeys, "a force"), list_of_parts(DampingKeys, "damping")
+CHARGES, CONSTRAINTS = list_of_parts(ChargeKeys, "a charge"), list_of_parts(ConstraintKeys, "a constraint")
+
+
+def _ends(written: SpringKeys | CentralKeys, places: Places) -> list[Any]:
+    ends = ((written.start, "from"), (written.end, "to"))
+    return each([partial(places.at, _there(end), name) for end, name in ends])
+
+
+def _there(value: Any) -> Any:
+    """What a required key has: without it the record was refused."""
+    assert value is not None
+    return value

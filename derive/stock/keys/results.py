@@ -1,0 +1,257 @@
+"""What is made of answers: put in, solved for, limiting cases, conditions, motions; each under a name of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from sympy import Expr, oo
+
+from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
+from derive.course.stock import InLetters, told_at
+from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
+from derive.errors import Faults, Place, rejected
+from derive.mechanics import (
+    Coordinate,
+    leaves_contact,
+    limiting_case,
+    maximum,
+    minimum,
+    period_by_energy,
+    put_in,
+    roots,
+    solution,
+    solved_for,
+    speed_from_energy,
+    steady_amplitude,
+    where,
+)
+from derive.steps.step import Quantity
+
+NAMES = as_written(one_or_more(TEXT.schema))
+EXPRESSIONS = as_written(one_or_more(SCALAR.schema))
+INFINITE = {"infinity": oo, "-infinity": -oo}
+VERBS = (
+    "solve", "put_in", "roots", "limit", "where", "maximum", "minimum", "leaves", "solution", "amplitude", "speed",
+    "period",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ResultKeys(Record):
+    """The keys of one of `results:`: one verb with the answers that it is about, and what that verb needs."""
+
+    solve: Tree | None = key("equations that are solved, for what `for` names", NAMES)
+    put_in: Tree | None = key("an answer into which `results` and `values` are put", NAMES)
+    roots: Tree | None = key("an equation whose roots are wanted, in the letter of `for`", NAMES)
+    limit: Tree | None = key("an answer in the limiting case that the letter of `for` goes `to` a value", NAMES)
+    where: Tree | None = key(
+        "an answer that is to be in the relation `is` to `bound`, solved for the letter of `for`", NAMES
+    )
+    maximum: Tree | None = key("an answer that is greatest for some value of the letter of `for`", NAMES)
+    minimum: Tree | None = key("an answer that is least for some value of the letter of `for`", NAMES)
+    leaves: Tree | None = key(
+        "a force of contact that vanishes where contact is lost, for `for`, from `start` on", NAMES
+    )
+    solution: Tree | None = key("a linear equation of motion of `for`, solved from `start` and `start_rate`", NAMES)
+    amplitude: Tree | None = key("a driven linear equation of motion of `for`, in its steady state", NAMES)
+    speed: Tree | None = key("a conserved energy, which gives the rate of `for` from `start` and `start_rate`", NAMES)
+    period: Tree | None = key("a squared rate, as `speed` gives it, to the `order` in the amplitude", NAMES)
+    unknowns: Tree | None = key("a letter, a rate such as `theta_dot`, or several", EXPRESSIONS, called="for")
+    results: Tree | None = key("answers that are put in", NAMES)
+    values: Mapping[Word, Tree] = key("values of letters and coordinates that are put in", mapping_of(SCALAR))
+    to: Tree | None = key("where the letter goes: 0, `infinity`, or a value", SCALAR)
+    order: Word | None = key("to which order", SCALAR_TEXT := Reader(SCALAR.schema, TEXT.read))
+    relation: Word | None = key("`>`, `>=`, `<`, `<=`, `=` or `!=`", TEXT, called="is")
+    bound: Tree | None = key("what it is compared with; without it zero", SCALAR)
+    start: Tree | None = key("the value at the start", SCALAR)
+    start_rate: Tree | None = key("the rate at the start; without it zero", SCALAR)
+    within: Tree | None = key("between which values it is sought, such as `[0, pi/2]`", as_written({"type": "array"}))
+    case: Word | None = key("`underdamped`, `critical` or `overdamped`, where the letters leave it open", TEXT)
+
+    def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
+        """What is to be done, in letters; nothing after a complaint."""
+        with faults:
+            verbs = [verb for verb in VERBS if getattr(self, verb) is not None]
+            if len(verbs) != 1:
+                message = f"`{name}` needs one of {', '.join(f'`{verb}`' for verb in VERBS)}"
+                rejected("missing-key", message, name.place)
+            return Result(
+                name=str(name),
+                verb=verbs[0],
+                of=_names(getattr(self, verbs[0])),
+                results=_names(self.results),
+                unknowns=tuple(letters.read(node, "for")[0] for node in _nodes(self.unknowns)),
+                values=tuple((str(letter), _end(node, letters)) for letter, node in self.values.items()),
+                to=_end(self.to, letters) if self.to else None,
+                order=_order(self.order),
+                relation=str(self.relation or "="),
+                bound=_end(self.bound, letters) if self.bound else None,
+                start=_end(self.start, letters) if self.start else None,
+                start_rate=_end(self.start_rate, letters) if self.start_rate else None,
+                within=tuple(_end(node, letters) for node in _nodes(self.within)),
+                case=str(self.case) if self.case else None,
+                place=name.place,
+            )
+        return None
+
+
+RESULTS = mapping_of(record_of(ResultKeys, "a result", "a mapping such as `{limit: lagrangian, for: m, to: 0}`"))
+
+
+@dataclass(frozen=True)
+class Result:
+    """One thing that is made of answers."""
+
+    name: str
+    verb: str
+    of: tuple[Word, ...]
+    results: tuple[Word, ...] = ()
+    unknowns: tuple[Expr, ...] = ()
+    values: tuple[tuple[str, Expr], ...] = ()
+    to: Expr | None = None
+    order: int | None = None
+    relation: str = "="
+    bound: Expr | None = None
+    start: Expr | None = None
+    start_rate: Expr | None = None
+    within: tuple[Expr, ...] = ()
+    case: str | None = None
+    place: Place | None = field(default=None, repr=False, compare=False)
+
+    def made(self, answers: Callable[[Word], tuple[Quantity, ...]], coordinates: Mapping[str, Coordinate]) -> Any:
+        """By the verb, of the answers of those names."""
+        of = [quantity for name in self.of for quantity in answers(name)]
+        more = [quantity for name in self.results for quantity in answers(name)]
+        with told_at(self.place):
+            return _MAKERS[self.verb](self, of, more, coordinates)
+
+    def only(self, of: list[Quantity]) -> Quantity:
+        if len(of) != 1:
+            rejected("wrong-argument", f"`{self.verb}` is about one answer, but these are {len(of)}", self.place)
+        return of[0]
+
+    @property
+    def letter(self) -> Expr:
+        if len(self.unknowns) != 1:
+            rejected("missing-key", f"`{self.verb}` needs one letter as its `for`", self.place)
+        return self.unknowns[0]
+
+    def coordinate(self, coordinates: Mapping[str, Coordinate]) -> Coordinate:
+        found = next((q for q in coordinates.values() if q.symbol == self.letter), None)
+        if found is None:
+            rejected("wrong-argument", f"`{self.verb}` needs a coordinate as its `for`", self.place)
+        return found
+
+    def named(self, extra: Mapping[str, Any]) -> dict[str, Any]:
+        """What is given of the further arguments of a verb."""
+        return {name: value for name, value in extra.items() if value is not None and value != ()}
+
+    @property
+    def keys(self) -> list[str]:
+        """The name alone where there is one unknown, else one for each."""
+        count = len(self.unknowns)
+        return [self.name] if count == 1 else [f"{self.name}_{i + 1}" for i in range(count)]
+
+
+def _solve(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return solved_for(tuple(of), *result.unknowns, keys=result.keys)
+
+
+def _put_in(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return put_in(result.only(of), *more, key=result.name, **dict(result.values))
+
+
+def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return roots(result.only(of), result.letter)
+
+
+def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    given = result.named({"to": result.to, "order": result.order})
+    return limiting_case(result.only(of), result.letter, key=result.name, **given)
+
+
+def _where(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    bound = more[0] if more else result.bound if result.bound is not None else Expr()
+    return where(result.only(of), result.relation, bound, result.letter, key=result.name)
+
+
+def _maximum(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return maximum(result.only(of), result.letter, key=result.name, **result.named({"within": result.within}))
+
+
+def _minimum(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return minimum(result.only(of), result.letter, key=result.name, **result.named({"within": result.within}))
+
+
+def _leaves(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return leaves_contact(result.only(of), result.letter, _started(result), key=result.name)
+
+
+def _solution(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    extra = result.named({"start_rate": result.start_rate, "case": result.case})
+    return solution(result.only(of), result.coordinate(q), _started(result), key=result.name, **extra)
+
+
+def _amplitude(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return steady_amplitude(result.only(of), result.coordinate(q), key=result.name)
+
+
+def _speed(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    extra = result.named({"start_rate": result.start_rate, "motion": more[0] if more else None})
+    return speed_from_energy(result.only(of), result.coordinate(q), _started(result), key=result.name, **extra)
+
+
+def _period(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return period_by_energy(result.only(of), key=result.name, **result.named({"order": result.order}))
+
+
+_MAKERS: Mapping[str, Callable[..., Any]] = {
+    "solve": _solve,
+    "put_in": _put_in,
+    "roots": _roots,
+    "limit": _limit,
+    "where": _where,
+    "maximum": _maximum,
+    "minimum": _minimum,
+    "leaves": _leaves,
+    "solution": _solution,
+    "amplitude": _amplitude,
+    "speed": _speed,
+    "period": _period,
+}
+
+
+def _started(result: Result) -> Expr:
+    if result.start is None:
+        rejected("missing-key", f"`{result.verb}` needs `start`, the value at the start", result.place)
+    return result.start
+
+
+def _nodes(node: Tree | None) -> tuple[Tree, ...]:
+    return () if node is None else node.items if isinstance(node, Sequence) else (node,)
+
+
+def _names(node: Tree | None) -> tuple[Word, ...]:
+    found = []
+    for each in _nodes(node):
+        if not isinstance(each, Scalar) or each.empty:
+            rejected("wrong-type", "an answer is told by its name", each.place)
+        found.append(each.word)
+    return tuple(found)
+
+
+def _end(node: Tree, letters: InLetters) -> Expr:
+    """An expression, or infinity."""
+    if isinstance(node, Scalar) and node.text.strip() in INFINITE:
+        return INFINITE[node.text.strip()]
+    return letters.read(node, "a value")[0]
+
+
+def _order(word: Word | None) -> int | None:
+    if word is None:
+        return None
+    if not word.isdigit() or len(word) > 2:
+        rejected("wrong-type", f"`order` must be a whole number, but it is `{word}`", word.place)
+    return int(word)
