@@ -60,6 +60,8 @@ KINDS: Mapping[str, Kind] = {
     "angular momentum": Kind(dimension(1, 2, -1), "kg m^2/s"),
     "moment of inertia": Kind(dimension(1, 2, 0), "kg m^2", positive=True),
     "spring constant": Kind(dimension(1, 0, -2), "N/m", positive=True),
+    "gravitational constant": Kind(dimension(-1, 3, -2), "N m^2/kg^2", positive=True),
+    "coupling constant": Kind(dimension(1, 3, -2), "J m", positive=True),  # of an energy k/r
     "damping constant": Kind(dimension(1, 0, -1), "kg/s", positive=True),
     "current": Kind(dimension(0, 0, 0, 1), "A"),
     "charge": Kind(dimension(0, 0, 1, 1), "C"),

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from functools import cached_property, partial
 from typing import Any, Protocol
 
-from sympy import Expr, Integer
+from sympy import Expr, Integer, Symbol
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import Relation, explicit
 from derive.course.stock import told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected, did_you_mean, rejected
@@ -38,6 +38,7 @@ from derive.mechanics import (
     weight,
 )
 from derive.steps.derivation import returned_quantities
+from derive.steps.record import assume
 from derive.steps.step import Quantity
 from derive.stock.keys.parts import Part
 from derive.stock.keys.results import Result
@@ -60,6 +61,11 @@ class OfSystem(Protocol):
     def results(self) -> tuple[Result, ...]: ...
     @property
     def place(self) -> Place | None: ...
+
+
+def constant(name: str) -> Symbol:
+    """The letter of a constant momentum, which is taken not to vanish."""
+    return Symbol(name, real=True, nonzero=True)
 
 
 class Answers:
@@ -101,7 +107,7 @@ class Answers:
         found = {}
         for name, q in self.coordinates.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
-                found[name] = conserved(self.lagrangian, q, value=letters.get(name))
+                found[name] = conserved(self.lagrangian, q, value=constant(letters.get(name, f"p_{name}")))
         return found
 
     @property
@@ -115,6 +121,8 @@ class Answers:
 
     @cached_property
     def effective_potential(self) -> Quantity:
+        for momentum in self.cyclic.values():
+            assume(Relation(momentum.symbol, "!=", Integer(0)))
         return effective_potential(self.lagrangian, *self.cyclic.values())
 
     @cached_property

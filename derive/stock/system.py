@@ -16,7 +16,7 @@ from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, Place, did_you_mean
 from derive.figures import sketch
-from derive.stock.answers import Answers
+from derive.stock.answers import Answers, constant
 from derive.stock.keys.parts import (
     CENTRAL,
     CHARGES,
@@ -155,7 +155,7 @@ def _constants(written: Mapping[Word, Word], letters: Mapping[str, Declared], fa
             faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
             continue
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
-        found[str(name)] = Declared(str(name), scalar(str(name)), kind)
+        found[str(name)] = Declared(str(name), constant(str(name)), kind)
     return found
 
 

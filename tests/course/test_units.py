@@ -137,5 +137,5 @@ def test_a_dimension_without_a_kind_has_a_unit_too() -> None:
     length, time, force = (dimension_of_kind(kind) for kind in ("length", "time", "force"))
     assert unit_of_dimension(length / time**3) == "m/s^3"
     assert unit_of_dimension(force / length**2) == "N/m^2"
-    assert unit_of_dimension(force * length**2) == "N m^2"
+    assert unit_of_dimension(force * length**3) == "N m^3"
     assert unit_of_dimension(length ** Fraction(1, 2) / time) == "m^(1/2)/s"
