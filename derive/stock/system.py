@@ -16,7 +16,7 @@ from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, Place, did_you_mean
 from derive.figures import sketch
-from derive.stock.answers import Answers, constant
+from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.parts import (
     CENTRAL,
     CHARGES,
