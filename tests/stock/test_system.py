@@ -55,9 +55,9 @@ def test_a_part_asks_for_several_steps_by_one_name(tmp_path: Path) -> None:
         (("{theta: angle}", "{theta: angle, l: length}"), "5: `l` is declared under `symbols` and is a coordinate too"),
         (("[l*sin(theta), -l*cos(theta)]", "[l]"), "6: `point` needs two components or three, not 1"),
         (("particles:", "particle:"), "7: `given` has no key `particle`"),
-        (("answer: equations_of_motion", "answer: motion_phi"), "12: a system has no answer called `motion_phi`"),
+        (("answer: equations_of_motion", "answer: motion_phi"), "12: there is no answer `motion_phi`"),
         (("[l*sin(theta), -l*cos(theta)]", "[l, 0]"), "5: nothing in this `System` moves"),
-        (("answer: equations_of_motion", "answer: conserved_theta"), "12: `conserved_momentum`: `lagrangian` contains"),
+        (("answer: equations_of_motion", "answer: conserved_theta"), "12: `conserved`: `lagrangian` contains"),
     ],
 )
 def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
