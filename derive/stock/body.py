@@ -1,0 +1,257 @@
+"""Bodies: where their centre of mass is, and their inertia about points, axes and directions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+from sympy import Expr
+
+from derive.course.expression import Declared
+from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
+from derive.course.stock import Described, InLetters, Stock, each, told_at
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Faults, did_you_mean, rejected
+from derive.mechanics import (
+    centre_of_mass,
+    inertia_tensor,
+    moment_about,
+    moment_of_inertia,
+    moved_from_centre,
+    moved_to,
+    perpendicular_axes,
+    principal_angle,
+    principal_axes,
+    principal_moments,
+    radius_of_gyration,
+    tensor_entry,
+    turned_tensor,
+)
+from derive.mechanics.bodies.body import Body
+from derive.steps.step import Quantity
+from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
+from derive.stock.keys.directions import DIRECTION, Axis, Directions
+from derive.stock.keys.outlines import drawn
+
+AXES = "xyz"
+SIZES = ("length", "area", "volume")
+
+
+@dataclass(frozen=True)
+class Questions(Record):
+    """What is asked of a body besides what it is."""
+
+    about: Word | None = key("the point of its tensor and of the axes of its moments: `apex`, `corner`, `pivot`", TEXT)
+    origin: Word | None = key("the point from which its centre of mass is counted", TEXT)
+    direction: Tree | None = key("the axis of `moment_about`: `diagonal`, `x` or components", DIRECTION)
+    turned: Mapping[Word, Tree] = key(
+        "by which angles the axes of `turned_tensor` are turned: `{z: alpha}`", mapping_of(SCALAR)
+    )
+
+
+@dataclass(frozen=True)
+class OneOfManyKeys(Questions, BodyKeys):
+    """What describes one of several bodies."""
+
+
+@dataclass(frozen=True)
+class GivenBody(Questions):
+    """What describes a body, or several, and what is asked of them."""
+
+    body: BodyKeys | None = key("the body", BODY)
+    bodies: Mapping[Word, OneOfManyKeys] = key(
+        "several bodies by name, in place of one", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
+    )
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A body, and the points and axes about which is asked."""
+
+    described: DescribedBody
+    about: str = "centre"
+    origin: str | None = None
+    direction: Axis | None = None
+    turns: tuple[tuple[str, Expr], ...] = ()
+
+
+@dataclass(frozen=True)
+class DescribedBodies(Described):
+    """Bodies in their letters."""
+
+    bodies: tuple[Asked, ...] = ()
+
+
+def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) -> DescribedBodies:
+    """What the keys say in the declared letters."""
+    known = InLetters(symbols)
+    found: list[Asked] = []
+    with faults:
+        found = _bodies(written, known)
+    return DescribedBodies(chosen=known.chosen, measured=tuple(known.numbers.measured), bodies=tuple(found))
+
+
+def _bodies(written: GivenBody, known: InLetters) -> list[Asked]:
+    if (written.body is None) == (not written.bodies):
+        message = "`given` needs a `body`, or `bodies`" if not written.bodies else "`given` has `body` and `bodies`"
+        rejected("missing-key", message, written.places[""], "write `body: {shape: disc, radius: R, mass: M}`")
+    if written.body is not None:
+        return [_asked(Bodies(known).body(written.body), written, written, known)]
+    return each([partial(_one_of_many, name, body, written, known) for name, body in written.bodies.items()])
+
+
+def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: InLetters) -> Asked:
+    return _asked(Bodies(known).body(written, Word.at(str(name), name.place)), written, others, known)
+
+
+def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
+    """What is asked of one body; what it does not say is as for all."""
+    about, origin = own.about or others.about, own.origin or others.origin
+    directions = Directions(known)
+    direction = own.direction or others.direction
+    turned = own.turned or others.turned
+    readings: list[Callable[[], object]] = [
+        lambda: body.point(about) if about else "centre",
+        lambda: body.point(origin) if origin else None,
+        lambda: directions.axis(direction, "direction") if direction else None,
+        lambda: directions.turns(turned),
+    ]
+    at, start, along, turns = each(readings)
+    return Asked(body, at, start, along, turns)  # type: ignore[arg-type]
+
+
+class Answers:
+    """What parts may ask of one body, each derived when it is first asked for."""
+
+    def __init__(self, asked: Asked):
+        self.asked = asked
+        self.about = asked.about
+
+    @cached_property
+    def body(self) -> Body:
+        return self.asked.described.body()
+
+    @cached_property
+    def centre_of_mass(self) -> Quantity:
+        return centre_of_mass(self.body, self.asked.origin)
+
+    @cached_property
+    def inertia_tensor(self) -> Quantity:
+        return inertia_tensor(self.body, self.about)
+
+    def size(self, name: str) -> Quantity:
+        found = getattr(self.body, "extent", None)
+        if self.body.filling != name or not isinstance(found, Quantity):
+            message = f"the {name} of {self.asked.described.told} is no step: it is known"
+            rejected("no-such-answer", message, None, "ask for `density`, which tells it")
+        return found
+
+    def mass(self) -> Quantity:
+        found = self.body.density
+        if found.step.kind != "mass":
+            rejected("no-such-answer", f"the mass of {self.asked.described.told} is given", None)
+        return found
+
+    def density(self) -> Quantity:
+        found = self.body.density
+        if found.step.kind == "mass":
+            rejected("no-such-answer", f"{self.asked.described.told} has no density that is to be found", None)
+        return found
+
+    def moment(self, axis: str) -> Quantity:
+        return moment_of_inertia(self.body, axis, self.about, f"I_{axis}", f"moment_of_inertia_{axis}")
+
+    def entry(self, pair: str) -> Quantity:
+        """The step that an entry of the tensor is, or one that reads it off."""
+        tensor = self.inertia_tensor
+        found = next((parent for parent in tensor.parents if parent.key == f"{tensor.key}_{pair}"), None)
+        return found or tensor_entry(tensor, pair, key=f"{tensor.key}_{pair}")
+
+    def moment_about(self) -> Quantity:
+        direction = self.asked.direction
+        if direction is None:
+            rejected("no-direction", "`moment_about` needs `direction`", None, "write `direction: [1, 1, 0]`")
+        along = self.body.direction(direction.named) if direction.is_name else direction.components
+        return moment_about(self.inertia_tensor, along)
+
+    def turned_tensor(self) -> tuple[Quantity, ...]:
+        if not self.asked.turns:
+            rejected("no-turn", "`turned_tensor` needs `turned`", None, "write `turned: {z: alpha}`")
+        found = [self.inertia_tensor]
+        for n, (axis, angle) in enumerate(self.asked.turns):
+            is_last = n == len(self.asked.turns) - 1
+            name = "turned_tensor" if is_last else f"turned_tensor_{n + 1}"
+            found.append(turned_tensor(found[-1], axis, angle, key=name))
+        return tuple(found[1:])
+
+    @cached_property
+    def principal_moments(self) -> Quantity:
+        return principal_moments(self.inertia_tensor)
+
+    def perpendicular_axes(self) -> Quantity:
+        across = self.body.flat_across
+        if across is None:
+            message = f"the theorem of perpendicular axes is about flat bodies, but {self.asked.described.told} is none"
+            rejected("not-flat", message, None)
+        return perpendicular_axes(*(self.moment(axis) for axis in AXES if axis != across))
+
+    def parallel_axes(self) -> Quantity:
+        """From the centre to the point of the tensor; where that is the centre, from where its own axes begin."""
+        if self.about == "centre":
+            start = self.body.reference
+            there = inertia_tensor(self.body, start, key=f"{start.replace(' ', '_')}_tensor")
+            return moved_to(there, centre_of_mass(self.body, start))
+        central = inertia_tensor(self.body, "centre", key="central_tensor")
+        return moved_from_centre(central, centre_of_mass(self.body, self.about), key="inertia_tensor")
+
+    def asks(self) -> dict[str, Callable[[], object]]:
+        """Every name that a part may ask by."""
+        pairs = [first + second for n, first in enumerate(AXES) for second in AXES[n:]]
+        return {
+            "centre_of_mass": lambda: self.centre_of_mass,
+            "density": self.density,
+            "mass": self.mass,
+            **{size: partial(self.size, size) for size in SIZES},
+            "inertia_tensor": lambda: self.inertia_tensor,
+            **{f"inertia_tensor_{pair}": partial(self.entry, pair) for pair in pairs},
+            "parallel_axes": self.parallel_axes,
+            **{f"moment_of_inertia_{axis}": partial(self.moment, axis) for axis in AXES},
+            **{f"radius_of_gyration_{axis}": partial(self.gyration, axis) for axis in AXES},
+            "moment_about": self.moment_about,
+            "turned_tensor": self.turned_tensor,
+            "principal_moments": lambda: self.principal_moments,
+            "principal_axes": lambda: principal_axes(self.principal_moments),
+            "principal_angle": lambda: principal_angle(self.inertia_tensor),
+            "perpendicular_axes": self.perpendicular_axes,
+        }
+
+    def gyration(self, axis: str) -> Quantity:
+        return radius_of_gyration(self.moment(axis), f"k_{axis}", f"radius_of_gyration_{axis}")
+
+
+def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object]:
+    """The answers by the names that parts ask for."""
+    asks: dict[str, Callable[[], object]] = {}
+    for one in described.bodies:
+        prefix = f"{one.described.called.replace(' ', '_')}_" if one.described.called else ""
+        answers = Answers(one)
+        drawn(one.described, answers)
+        asks |= {f"{prefix}{name}": answer for name, answer in answers.asks().items()}
+    return answered(asked, asks, "a body")
+
+
+def answered(asked: Sequence[Word], asks: Mapping[str, Callable[[], object]], what: str) -> dict[str, object]:
+    """Each answer that a part asks for; what is refused is refused where it is asked for, and all of it."""
+    return dict(each([partial(_answer, name, asks, what) for name in asked]))
+
+
+def _answer(name: Word, asks: Mapping[str, Callable[[], object]], what: str) -> tuple[str, object]:
+    if name not in asks:
+        help_line = did_you_mean(name, asks) or f"one may ask for {', '.join(asks)}"
+        rejected("no-such-answer", f"{what} has no answer called `{name}`", name.place, help_line)
+    with told_at(name.place):
+        return str(name), asks[name]()
+
+
+STOCK = Stock(GivenBody, read, solve)

@@ -1,0 +1,397 @@
+"""Bodies as `given:` describes them: a named shape with its sizes, a position map between limits, or parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cache, partial
+from typing import Any, get_args, get_type_hints
+
+from sympy import Expr, Integer
+
+import derive.mechanics
+from derive.algebra.expressions import TIME, scalar
+from derive.course.expression import RESERVED, Declared, read_expression
+from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, record_of
+from derive.course.stock import InLetters, each, told_at
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.errors import Faults, Place, Rejected, did_you_mean, rejected
+from derive.mechanics import Composite, PointMass, Sheet, Solid, Triangle, Wedge, Wire, minus
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.parts import PlacedPart
+
+SEVERAL = "a list of lengths"
+PLACE = list_of(SCALAR, "its components, `[x, y]` or `[x, y, z]`")
+CORNERS = list_of(PLACE, "a list of places, such as `[[0, 0], [a, 0], [0, b]]`")
+ENDS = list_of(SCALAR, "its lower and its upper limit, `[0, R]`", length=2)
+
+# where a class calls something otherwise than a person who describes it
+CALLED_IN_YAML = {"corners_at": "corners", "face": "corners"}
+# a triangle may also be told by its base and its height, or by one side
+TRIANGLES: tuple[tuple[str, ...], ...] = (("corners",), ("base", "height", "foot"), ("side",))
+OPTIONAL = frozenset({"foot"})
+ANGLES = frozenset({"half_angle"})
+MAPS = {1: (Wire, "line density"), 2: (Sheet, "surface density"), 3: (Solid, "density")}
+OTHER_NAMES = {
+    "block": "cuboid",
+    "box": "cuboid",
+    "cube": "cuboid",
+    "circle": "hoop",
+    "ring": "hoop",
+    "rectangle": "plate",
+    "point": "particle",
+    "sphere": "ball",
+    "hollow_ball": "thick_shell",
+    "hollow_cylinder": "tube",
+    "prism": "wedge",
+    "wire": "arc",
+}
+
+
+@cache
+def shapes() -> dict[str, type[Body]]:
+    """Every body with sizes of its own, by what it is called: `a thick shell` is `thick_shell`."""
+    offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
+    bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
+    return {body.name.partition(" ")[2].replace(" ", "_").replace("-", "_"): body for body in bodies}
+
+
+def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
+    """The sizes by which a shape is told, as its fields have them."""
+    own = tuple(CALLED_IN_YAML.get(f.name, f.name) for f in fields(shape) if f.name != "mass")  # type: ignore[arg-type]
+    if "corners" not in own or shape.filling == "volume" and shape is not Wedge:
+        return (own,)
+    rest = tuple(name for name in own if name != "corners")
+    return tuple((*way, *rest) for way in TRIANGLES)
+
+
+@dataclass(frozen=True)
+class ShapeKeys(Record):
+    """What describes a body that is not made of parts."""
+
+    shape: Word | None = key(
+        "what it is: `disc`, `cone`, `thick_shell`, ...", Reader({"enum": sorted(shapes())}, TEXT.read)
+    )
+    mass: Tree | None = key("its mass", SCALAR)
+    radius: Tree | None = key("its radius; of a torus to the middle of the cross-section", SCALAR)
+    inner: Tree | None = key("its inner radius", SCALAR)
+    outer: Tree | None = key("its outer radius", SCALAR)
+    section: Tree | None = key("the radius of the cross-section of a torus", SCALAR)
+    height: Tree | None = key("its height", SCALAR)
+    length: Tree | None = key("its length", SCALAR)
+    half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
+    sides: tuple[Tree, ...] = key("its edges, along x, y and z", list_of(SCALAR, SEVERAL))
+    semi_axes: tuple[Tree, ...] = key("half the length of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
+    corners: tuple[tuple[Tree, ...], ...] = key("where the corners of a triangle or a tetrahedron are", CORNERS)
+    base: Tree | None = key("the base of a triangle, along x", SCALAR)
+    foot: Tree | None = key("over which x of its base the top of a triangle is; without it over the middle", SCALAR)
+    side: Tree | None = key("the side of an equilateral triangle", SCALAR)
+    position: tuple[Tree, ...] = key("where the points of any body are: formulas in the letters of `limits`", PLACE)
+    limits: Mapping[Word, tuple[Tree, ...]] = key(
+        "the letters of `position`, each between two limits, the outermost first: `{r: [0, R], phi: [0, 2*pi]}`",
+        mapping_of(ENDS),
+    )
+    density: Tree | None = key("its density; with `mass`, what the density is proportional to", SCALAR)
+
+
+@dataclass(frozen=True)
+class PartKeys(ShapeKeys):
+    """What describes a part of a body."""
+
+    at: tuple[Tree, ...] = key("where its centre of mass is, or its point `of`", PLACE)
+    of: Word | None = key("which of its points is there: `end`, `corner`, `base`", TEXT)
+    turned: Mapping[Word, Tree] = key("by which angles it is turned: `{x: pi/2}`", mapping_of(SCALAR))
+    cut_out: Word | None = key("whether it is cut out of the rest", Reader({"type": "boolean"}, TEXT.read))
+
+
+@dataclass(frozen=True)
+class BodyKeys(ShapeKeys):
+    """What describes a body."""
+
+    parts: Mapping[Word, PartKeys] = key(
+        "the bodies that it is made of, by name", mapping_of(record_of(PartKeys, "a part", "a mapping with `shape`"))
+    )
+    points: Mapping[Word, tuple[Tree, ...]] = key("names for points of it: `{pivot: [0, 0, a]}`", mapping_of(PLACE))
+
+
+BODY = record_of(BodyKeys, "a body", "a mapping with `shape`, `position` or `parts`")
+SIZES = tuple(
+    f.name for f in fields(ShapeKeys) if f.metadata and f.name not in ("shape", "mass", "position", "limits", "density")
+)
+
+
+@dataclass(frozen=True)
+class DescribedBody:
+    """A body of a description.
+
+    parts    one body as it lies, or several
+    mass     of the whole, where that is given and shared out
+    points   names for places of it
+    """
+
+    called: str
+    parts: tuple[Body | PlacedPart, ...]
+    is_made_of_parts: bool
+    mass: Expr | None = None
+    points: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
+    place: Place | None = field(default=None, repr=False, compare=False)
+
+    def body(self) -> Body:
+        """The body itself; what is said of it is said where it is described."""
+        with told_at(self.place):
+            if self.is_made_of_parts or self.points:
+                whole: Body = Composite(*self.parts, mass=self.mass, points=self.points)
+            else:
+                (whole,) = self.parts  # type: ignore[assignment]
+            return whole.named(self.called) if self.called else whole
+
+    @property
+    def point_names(self) -> tuple[str, ...]:
+        """Its points, which are those of a whole where it has points of its own."""
+        if self.is_made_of_parts or self.points:
+            return ("centre", "origin", *self.points)
+        (only,) = self.parts
+        assert isinstance(only, Body)
+        return tuple(dict.fromkeys(("centre", *only.points())))
+
+    def point(self, name: Word) -> str:
+        """A point that it has; between words a space or an underscore."""
+        found = {known.replace("_", " "): known for known in self.point_names}.get(name.replace("_", " "))
+        if found is None:
+            help_line = did_you_mean(name, self.point_names) or f"it has {', '.join(self.point_names)}"
+            rejected("no-such-point", f"{self.told} has no point `{name}`", name.place, help_line)
+        return found
+
+    @property
+    def told(self) -> str:
+        if self.called:
+            return f"the {self.called}"
+        only = self.parts[0]
+        return "this body" if self.is_made_of_parts or not isinstance(only, Body) else only.name
+
+
+class Bodies:
+    """Bodies as they are written, in the letters of a description."""
+
+    def __init__(self, letters: InLetters):
+        self.letters = letters
+
+    def body(self, written: BodyKeys, called: str = "") -> DescribedBody:
+        place = written.places[""]
+        _one_of_three(written, {"shape", "position", "parts"}, "a body")
+        if not written.parts:
+            points = self._points(written)
+            return DescribedBody(called, (self._alone(written, None),), False, None, points, place)
+        for size in (name for name in (*SIZES, "density") if name in written.values_at):
+            message = f"a body made of parts has no `{size}` of its own"
+            rejected("unknown-key", message, written.places[size], "give it for one of its parts")
+        mass = self.letters.value(written.mass, "mass", "mass") if written.mass else None
+        named = [Word.at(name, name.place) for name in written.parts]
+        parts = each([partial(self._part, name, written.parts[name], mass, len(named) > 1) for name in named])
+        return DescribedBody(called, tuple(parts), True, mass, self._points(written), place)
+
+    def _points(self, written: BodyKeys) -> dict[str, tuple[Expr, ...]]:
+        names = list(written.points)
+        for name in names:
+            if name in ("centre", "origin"):
+                rejected("duplicate-key", f"every body has a point `{name}` already", name.place)
+        found = each([partial(self.place, written.points[name], f"the point {name}") for name in names])
+        return {str(name): place for name, place in zip(names, found, strict=True)}
+
+    def place(self, components: Sequence[Tree], name: str) -> tuple[Expr, ...]:
+        return tuple(
+            each([partial(self.letters.of_kind, node, f"a component of {name}", "length") for node in components])
+        )
+
+    def _part(self, name: Word, written: PartKeys, whole_mass: Expr | None, has_others: bool) -> Body | PlacedPart:
+        _one_of_three(written, {"shape", "position"}, "a part")
+        if whole_mass is not None and written.mass is not None:
+            message = f"the mass of the whole is given, so that `{name}` has its share of it"
+            rejected("unknown-key", message, written.places["mass"], "leave `mass` out, here or for the whole")
+        body = self._alone(written, whole_mass)
+        with told_at(name.place):
+            part: Any = body if isinstance(body, PointMass) else body.named(str(name))
+        if written.at:
+            of = _point_of(body, written.of) if written.of else "centre"
+            place = self.place(written.at, str(name))
+            with told_at(written.places["at"]):
+                part = part.at(*place, of=of)
+        elif written.of:
+            rejected("missing-key", f"`{name}` says which point of it is held, but not where", written.of.place)
+        for axis, node in written.turned.items():
+            angle = self.letters.of_kind(node, f"the angle of {name}", "angle")
+            with told_at(axis.place):
+                part = part.turned(str(axis), angle)
+        cut_out = written.cut_out and written.cut_out.casefold() in ("true", "yes")
+        with told_at(name.place):
+            return minus(part) if cut_out else part
+
+    def _alone(self, written: ShapeKeys, whole_mass: Expr | None) -> Body:
+        return self._shape(written, whole_mass) if written.shape else self._map(written)
+
+    # -- shapes ---------------------------------------------------------------------------------------------------
+
+    def _shape(self, written: ShapeKeys, whole_mass: Expr | None) -> Body:
+        assert written.shape is not None
+        name = written.shape.strip().replace("-", "_").replace(" ", "_")
+        shape = shapes().get(name)
+        if shape is None:
+            meant = OTHER_NAMES.get(name)
+            help_line = f"write `{meant}`" if meant else did_you_mean(name, shapes())
+            message = f"there is no shape `{written.shape}`"
+            rejected("no-such-shape", message, written.shape.place, help_line or f"they are {', '.join(shapes())}")
+        way = _way_that_is_told(shape, written, whole_mass is not None)
+        readings: list[Callable[[], Any]] = [partial(self._size, shape, size, written) for size in way]
+        if whole_mass is None:
+            assert written.mass is not None
+            readings.append(partial(self.letters.value, written.mass, "mass", "mass"))
+        *found, mass = [*each(readings), *([whole_mass] if whole_mass is not None else [])]
+        sizes = dict(zip(way, found, strict=True))
+        with told_at(written.shape.place):
+            return _made(shape, sizes, mass)
+
+    def _size(self, shape: type[Body], name: str, written: ShapeKeys) -> Any:
+        node = getattr(written, name)
+        kind = "angle" if name in ANGLES else "length"
+        if name == "corners":
+            count, at = (3, 2) if shape in (Triangle, Wedge) else (4, 3)
+            if len(node) != count or any(len(corner) != at for corner in node):
+                message = f"{shape.name} needs {count} corners with {at} components each"
+                rejected("wrong-length", message, written.places[name])
+            return tuple(each([partial(self.place, corner, "a corner") for corner in node]))
+        if isinstance(node, tuple):
+            wanted = len(get_args(get_type_hints(shape)[name]))
+            if len(node) != wanted:
+                message = f"{shape.name} needs {wanted} lengths as `{name}`, not {len(node)}"
+                rejected("wrong-length", message, written.places[name])
+            return tuple(each([partial(self.letters.value, item, f"each of {name}", kind) for item in node]))
+        read = self.letters.of_kind if name == "foot" else self.letters.value
+        return read(node, name, kind)
+
+    # -- position maps --------------------------------------------------------------------------------------------
+
+    def _map(self, written: ShapeKeys) -> Body:
+        for size in (name for name in SIZES if name in written.values_at):
+            message = f"a body that is told by `position` has no `{size}`"
+            rejected("unknown-key", message, written.places[size], "its size is in `limits`")
+        if len(written.limits) not in MAPS:
+            message = f"a body has one, two or three letters with limits, not {len(written.limits)}"
+            place = written.places.get("limits", written.places["position"])
+            rejected("wrong-length", message, place, "write `limits: {r: [0, R], phi: [0, 2*pi]}`")
+        if written.mass is None and written.density is None:
+            rejected("missing-key", "a body needs `mass` or `density`", written.places[""])
+        known, limits = self._limits(written.limits)
+        shape, kind = MAPS[len(limits)]
+        mass = self.letters.value(written.mass, "mass", "mass") if written.mass else None
+        position = Bodies(known).place(written.position, "`position`")
+        density = None
+        if written.density is not None:
+            density = known.any(written.density) if mass is not None else known.value(written.density, "density", kind)
+        with told_at(written.places["position"]):
+            return shape(position, limits, mass=mass, density=density)
+
+    def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
+        """Each letter may be in the limits of those after it."""
+        known = WithVariables(self.letters, {})
+        limits: dict[Any, tuple[Expr, Expr]] = {}
+        for name, ends in written.items():
+            if name in self.letters.letters and name != TIME.name:
+                message = f"`{name}` is declared under `symbols` and is a letter of this body too"
+                rejected("letter-clash", message, name.place, "leave it out there")
+            if name in RESERVED or name == TIME.name or not name.replace("_", "").isalnum() or not name[0].isalpha():
+                rejected("symbol", f"`{name}` is no letter for a position", name.place)
+            kind, (lower, upper) = known.ends(name, ends)
+            if (upper - lower).is_nonpositive:
+                message = f"nothing lies between the limits of `{name}`, {lower} and {upper}"
+                rejected("limits", message, name.place, "the lower limit stands first")
+            letter = scalar(str(name))
+            limits[letter] = (lower, upper)
+            known = WithVariables(self.letters, {**known.variables, str(name): Declared(str(name), letter, kind)})
+        return known, limits
+
+
+class WithVariables(InLetters):
+    """The letters of a description, with those of a position map."""
+
+    def __init__(self, others: InLetters, variables: Mapping[str, Declared]):
+        self.variables = variables
+        self.letters = {**others.letters, **variables}
+        self.numbers = others.numbers
+
+    def ends(self, name: Word, written: Sequence[Tree]) -> tuple[str, tuple[Expr, Expr]]:
+        """The kind of a letter, a length or an angle (or a number), and its limits."""
+        refused: Rejected | None = None
+        for kind in ("length", "angle"):
+            try:
+                lower, upper = each([partial(self.of_kind, end, f"a limit of {name}", kind) for end in written])
+            except Rejected as error:
+                if any(complaint.code != "wrong-kind" for complaint in error.complaints):
+                    raise
+                refused = refused or error
+            else:
+                return kind, (lower, upper)
+        raise Rejected(refused.complaints if refused else ())
+
+    def any(self, node: Tree) -> Expr:
+        """What a density is proportional to: an expression of any dimension."""
+        if not isinstance(node, Scalar):
+            return self.value(node, "density", "density")
+        found, _ = read_expression(node, self.letters)
+        return found
+
+
+def _one_of_three(written: ShapeKeys, ways: set[str], what: str) -> None:
+    told = [name for name in ("shape", "position", "parts") if name in ways and name in written.values_at]
+    if not told:
+        ways_told = " or ".join(f"`{name}`" for name in ("shape", "position", "parts") if name in ways)
+        rejected("missing-key", f"{what} is told by {ways_told}", written.places[""])
+    if len(told) > 1:
+        message = f"{what} is told by `{told[0]}` or by `{told[1]}`, not by both"
+        rejected("unknown-key", message, written.places[told[1]])
+
+
+def _point_of(body: Body, name: Word) -> str:
+    return DescribedBody("", (body,), False).point(name)
+
+
+def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool) -> tuple[str, ...]:
+    """The sizes of a shape as they are written, after complaints about those that lack or are not its own."""
+    faults = Faults()
+    ways = ways_to_tell(shape)
+    given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
+    way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))
+    if len(ways) > 1 and not set(given) & set().union(*ways):
+        way = ways[0]
+    sizes = ", ".join(f"`{size}`" for size in way)
+    for size in given:
+        if size not in way:
+            help_line = f"its sizes are {sizes}" if way else "it has no sizes"
+            faults.error("unknown-key", f"{shape.name} has no `{size}`", written.places[size], help=help_line)
+    for size in way:
+        if size not in given and size not in OPTIONAL:
+            message = f"{shape.name} needs `{size}`"
+            faults.error("missing-key", message, written.places["shape"], help=f"its sizes are {sizes}")
+    if written.density is not None or "limits" in written.values_at:
+        odd = "density" if written.density is not None else "limits"
+        message = f"{shape.name} is uniform and of its own shape, so that it has no `{odd}`"
+        faults.error("unknown-key", message, written.places[odd], help="any other body is told by `position`")
+    if written.mass is None and not has_mass:
+        faults.error("missing-key", f"{shape.name} needs `mass`", written.places["shape"])
+    faults.stop()
+    return tuple(size for size in way if size in given)
+
+
+def _made(shape: type[Body], sizes: dict[str, Any], mass: Expr) -> Body:
+    made: Any = shape
+    if shape in (Triangle, Wedge):
+        face_mass = mass
+        if "corners" in sizes:
+            face = Triangle(sizes["corners"], face_mass)
+        elif "side" in sizes:
+            face = Triangle.equilateral(sizes["side"], face_mass)
+        else:
+            face = Triangle.on_base(sizes["base"], sizes["height"], face_mass, sizes.get("foot"))
+        return face if shape is Triangle else Wedge(face, sizes["length"], mass)
+    named = {f.name: sizes[CALLED_IN_YAML.get(f.name, f.name)] for f in fields(made) if f.name != "mass"}
+    found: Body = made(**named, mass=mass + Integer(0))
+    return found
