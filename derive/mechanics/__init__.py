@@ -38,6 +38,7 @@ from derive.mechanics.equations.stability import *
 from derive.mechanics.equations.substitution import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
+from derive.mechanics.equations.wobble import *
 from derive.mechanics.rotation.assembly import *
 from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *
