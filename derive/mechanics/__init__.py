@@ -43,6 +43,7 @@ from derive.mechanics.rotation.assembly import *
 from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
+from derive.mechanics.rotation.steady import *
 from derive.mechanics.rotation.tensors import *
 from derive.mechanics.rotation.vectors import *
 from derive.mechanics.systems.brackets import *

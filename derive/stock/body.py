@@ -10,9 +10,9 @@ from sympy import Expr
 
 from derive.course.expression import Declared
 from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
-from derive.course.stock import Described, InLetters, Stock, each, told_at
+from derive.course.stock import Described, InLetters, Stock, each
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, did_you_mean, rejected
+from derive.errors import Faults, rejected
 from derive.mechanics import (
     centre_of_mass,
     inertia_tensor,
@@ -30,6 +30,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity
+from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn
@@ -236,22 +237,9 @@ def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object
     for one in described.bodies:
         prefix = f"{one.described.called.replace(' ', '_')}_" if one.described.called else ""
         answers = Answers(one)
-        drawn(one.described, answers)
+        drawn(answers.body)
         asks |= {f"{prefix}{name}": answer for name, answer in answers.asks().items()}
     return answered(asked, asks, "a body")
-
-
-def answered(asked: Sequence[Word], asks: Mapping[str, Callable[[], object]], what: str) -> dict[str, object]:
-    """Each answer that a part asks for; what is refused is refused where it is asked for, and all of it."""
-    return dict(each([partial(_answer, name, asks, what) for name in asked]))
-
-
-def _answer(name: Word, asks: Mapping[str, Callable[[], object]], what: str) -> tuple[str, object]:
-    if name not in asks:
-        help_line = did_you_mean(name, asks) or f"one may ask for {', '.join(asks)}"
-        rejected("no-such-answer", f"{what} has no answer called `{name}`", name.place, help_line)
-    with told_at(name.place):
-        return str(name), asks[name]()
 
 
 STOCK = Stock(GivenBody, read, solve)

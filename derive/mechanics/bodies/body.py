@@ -302,7 +302,9 @@ class Cuboid(EdgedBody):
         return {"diagonal": column(*self.sides), **super().axes_by_name()}
 
 
-def axis_vector(body: Body, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector") -> Quantity:
+def axis_vector(
+    body: Body | None, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector"
+) -> Quantity:
     """A vector d along the axis of rotation, in the axes of the body: a definition.
 
     Outcomes: diagonal (from corner to opposite corner), edge, components.

@@ -137,6 +137,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             formulas={
                 "speed": (disturbed.speed, disturbed.speed),
                 "along": (moving[disturbed.axis], moving[disturbed.axis]),
+                "letter": (scalar(AXES[disturbed.axis]), scalar(AXES[disturbed.axis])),
                 **{f"small_{n}": (moving[i], moving[i]) for n, i in enumerate(disturbed.across, 1)},
             },
         ),
@@ -214,11 +215,11 @@ def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
     found = tidied(value)
     about = disturbed.moments[disturbed.axis]
     across = [disturbed.moments[k] for k in disturbed.across]
-    if not all(moment.is_Symbol for moment in (about, *across)):
+    if found == 0 or not all(moment.is_Symbol for moment in (about, *across)):
         return found
     a, b = across
     if a == b:
-        return Factors(Pow(Ratio(about - a, a), 2), disturbed.speed**2) if about != a else found
+        return Factors(Pow(Ratio(about - a, a), 2), disturbed.speed**2)
     return Ratio(Factors(Terms(about, -a), Terms(about, -b), disturbed.speed**2), Factors(a, b))
 
 

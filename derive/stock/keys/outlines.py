@@ -4,13 +4,27 @@ from __future__ import annotations
 
 from typing import Any
 
-from derive.figures import drawing, outline
-from derive.mechanics.bodies.body import EdgedBody, RoundBody
-from derive.stock.keys.bodies import DescribedBody
+from derive.figures import axis_of_rotation, drawing, outline, vectors_in
+from derive.mechanics.bodies.body import Body, EdgedBody, RoundBody
 
 
-def drawn(described: DescribedBody, answers: Any) -> None:
+def drawn(body: Body) -> None:
     """Its outline, under its name."""
-    body = answers.body
     if isinstance(body, RoundBody | EdgedBody):
-        drawing(described.called.replace(" ", "_") or "body", outline(body))
+        drawing(body.called.replace(" ", "_") or "body", outline(body))
+
+
+def drawn_turning(answers: Any, has_angle: bool) -> None:
+    """A body with the axis about which it turns, and with its angular momentum where the angle between them is asked."""
+    body, described = answers.body, answers.described
+    if not isinstance(body, RoundBody | EdgedBody):
+        return
+    if not described.along:
+        drawing("body", outline(body))
+        return
+    at = body.point(answers.about)
+    turning = axis_of_rotation(body.direction(described.along.named), at, rate=described.rate)
+    drawing("body", outline(body), turning)
+    if has_angle:
+        answer = answers.asks()["angle_between"]
+        drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=answer(), at=at))

@@ -1,0 +1,309 @@
+"""Rigid bodies that turn: angular momentum, energy and torque, Euler's equations, and whether a rotation is stable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from typing import Any
+
+from sympy import Expr
+
+from derive.algebra.expressions import column
+from derive.course.expression import Declared
+from derive.course.schema import SCALAR, TEXT, Record, key, list_of
+from derive.course.stock import Described, InLetters, Stock, each, told_at
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Faults, Place, rejected
+from derive.mechanics import (
+    RigidBody,
+    angle_between,
+    angular_momentum,
+    body_cone_rate,
+    changing_angular_velocity,
+    constant_angular_velocity,
+    euler_equations,
+    inertia_tensor,
+    kinetic_energy,
+    linearised_rotation,
+    magnitude,
+    period,
+    rate_in_body,
+    rate_in_space,
+    rate_under,
+    spin,
+    squared_magnitude,
+    torque,
+    wobble_rate,
+    wobble_squared,
+)
+from derive.mechanics.bodies.body import Body, axis_vector
+from derive.steps.step import Quantity
+from derive.stock.keys.answers import answered
+from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
+from derive.stock.keys.directions import DIRECTION, Axis, Directions
+from derive.stock.keys.outlines import drawn_turning
+
+AXES = "xyz"
+CENTRE_OF_MASS, FIXED_POINT = "centre_of_mass", "fixed_point"
+
+
+@dataclass(frozen=True)
+class RotationKeys(Record):
+    """What describes a body that turns."""
+
+    body: BodyKeys | None = key("the body", BODY)
+    moments: tuple[Tree, ...] = key(
+        "the principal moments of inertia of any body, about x, y and z, in place of `body`",
+        list_of(SCALAR, "three moments of inertia, `[A, B, C]`", length=3),
+    )
+    about: Word | None = key("the point that stays at rest; without it the centre of mass", TEXT)
+    rate: Tree | None = key("the constant rate at which it turns", SCALAR)
+    along: Tree | None = key("the axis about which it turns: `diagonal`, `x` or components", DIRECTION)
+    rates: tuple[Tree, ...] = key(
+        "the components of a constant angular velocity, in place of `rate` and `along`",
+        list_of(SCALAR, "three angular speeds", length=3),
+    )
+    torque: tuple[Tree, ...] = key(
+        "the torque on a body that turns in any way, along its axes; without it none",
+        list_of(SCALAR, "three torques", length=3),
+    )
+
+
+@dataclass(frozen=True)
+class DescribedRotation(Described):
+    """A rotation in its letters."""
+
+    body: DescribedBody | None = None
+    moments: tuple[Expr, Expr, Expr] | None = None
+    about: str = "centre"
+    rate: Expr | None = None
+    along: Axis | None = None
+    rates: tuple[Expr, ...] = ()
+    torque: tuple[Expr, ...] = ()
+    place: Place | None = field(default=None, repr=False, compare=False)
+
+
+def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedRotation:
+    """What the keys say in the declared letters."""
+    known = InLetters(symbols)
+    found: dict[str, Any] = {}
+    with faults:
+        _one_way(written, "body", "moments", required=True)
+    with faults:
+        _one_way(written, "rates", "rate")
+    with faults:
+        _one_way(written, "rates", "along")
+    with faults:
+        if written.along is not None and written.rate is None:
+            message = "a rotation along an axis needs its `rate`"
+            rejected("missing-key", message, written.places["along"], "write `rate: omega`")
+    with faults:
+        found["body"] = Bodies(known).body(written.body) if written.body else None
+    for name, kind in (("moments", "moment of inertia"), ("rates", "angular speed"), ("torque", "torque")):
+        with faults:
+            read_one = known.value if name == "moments" else known.of_kind
+            nodes = getattr(written, name)
+            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind) for node in nodes]))
+    with faults:
+        found["rate"] = known.of_kind(written.rate, "rate", "angular speed") if written.rate else None
+    with faults:
+        found["along"] = Directions(known).axis(written.along, "along") if written.along else None
+    with faults:
+        found["about"] = _point(written, found.get("body"))
+    with faults:
+        if found.get("moments"):
+            with told_at(written.places["moments"]):
+                RigidBody(found["moments"])
+    found["moments"] = found.get("moments") or None
+    return DescribedRotation(
+        chosen=known.chosen, measured=tuple(known.numbers.measured), place=written.places[""], **found
+    )
+
+
+def _one_way(written: RotationKeys, first: str, second: str, required: bool = False) -> None:
+    both = [name for name in (first, second) if name in written.values_at]
+    if len(both) == 2:
+        message = f"`{second}` is given, and `{first}` too"
+        rejected("unknown-key", message, written.places[first], "leave one of them out")
+    if required and not both:
+        rejected("missing-key", f"`given` needs `{first}` or `{second}`", written.places[""])
+
+
+def _point(written: RotationKeys, body: DescribedBody | None) -> str:
+    """The point that stays at rest: one of the body's; of a body that is told by its moments, whether it is held."""
+    if written.body is not None:
+        return body.point(written.about) if body is not None and written.about else "centre"
+    if written.about is None:
+        return CENTRE_OF_MASS
+    name = {"centre": CENTRE_OF_MASS}.get(written.about, written.about.replace(" ", "_"))
+    if name not in (CENTRE_OF_MASS, FIXED_POINT):
+        message = f"moments are about `centre_of_mass` or `fixed_point`, not about `{written.about}`"
+        rejected("no-such-point", message, written.about.place)
+    return name
+
+
+class Answers:
+    """What parts may ask of a rotation, each derived when it is first asked for."""
+
+    def __init__(self, described: DescribedRotation):
+        self.described = described
+        self.about = described.about
+
+    @cached_property
+    def body(self) -> Body | None:
+        return self.described.body.body() if self.described.body else None
+
+    @cached_property
+    def inertia_tensor(self) -> Quantity:
+        if self.body is not None:
+            return inertia_tensor(self.body, self.about)
+        assert self.described.moments is not None
+        with told_at(self.described.place):
+            return RigidBody(self.described.moments, self.about).tensor
+
+    @property
+    def is_steady(self) -> bool:
+        return bool(self.described.along or self.described.rates)
+
+    @cached_property
+    def spin(self) -> Quantity:
+        """The constant angular velocity."""
+        if self.described.rates:
+            return constant_angular_velocity(self.described.rates, self.about, key="spin")
+        rate, along = self.described.rate, self.described.along
+        if rate is None or along is None:
+            message = "nothing says how this body turns"
+            rejected("missing-key", message, self.described.place, "give `rate` and `along`, or `rates`")
+        if self.body is not None:
+            return spin(rate, along=self.body.direction(along.named), through=self.about)
+        if along.named.name == "diagonal":
+            message = "a body that is told by its moments has no diagonal"
+            rejected("no-such-axis", message, self.described.place, "write `along: x`, or components")
+        components = along.components if not along.is_name else tuple(int(along.named.name == axis) for axis in AXES)
+        name = along.named.name or "components"
+        return spin(rate, along=axis_vector(None, column(*components), name), through=self.about)
+
+    @cached_property
+    def changing(self) -> Quantity:
+        """An angular velocity that changes in any way."""
+        return changing_angular_velocity(self.about)
+
+    @cached_property
+    def angular_momentum(self) -> Quantity:
+        return angular_momentum(self.inertia_tensor, self.spin if self.is_steady else self.changing)
+
+    @cached_property
+    def kinetic_energy(self) -> Quantity:
+        return kinetic_energy(self.inertia_tensor, self.spin if self.is_steady else self.changing)
+
+    @cached_property
+    def torque(self) -> Quantity:
+        return torque(self.spin, self.angular_momentum)
+
+    # -- a rotation that changes ----------------------------------------------------------------------------------
+
+    @cached_property
+    def equations(self) -> tuple[Quantity, Quantity, Quantity]:
+        self._along_principal_axes()
+        if self.is_steady:
+            message = "Euler's equations are about a body that turns in any way, but its rotation is given"
+            rejected("is-steady", message, None, "leave out `along` and `rates`")
+        rate = rate_in_space(self.angular_momentum, self.changing)
+        acting = self.described.torque
+        return euler_equations(rate, acting) if acting else euler_equations(rate)  # type: ignore[arg-type]
+
+    def _along_principal_axes(self) -> None:
+        if not self.inertia_tensor.value.is_diagonal():
+            message = "the axes of this body are no principal axes, along which Euler's equations are"
+            rejected("not-principal", message, None, "give `about: centre`, or its principal `moments`")
+
+    @cached_property
+    def energy_rate(self) -> Quantity:
+        return rate_under(self.kinetic_energy, self.equations)
+
+    @cached_property
+    def squared_momentum_rate(self) -> Quantity:
+        return rate_under(squared_magnitude(self.angular_momentum, key="squared_momentum"), self.equations)
+
+    @cached_property
+    def rate_in_body(self) -> Quantity:
+        return rate_in_body(self.angular_momentum, self.changing, self.equations)
+
+    def rate_in_space(self) -> Quantity:
+        return rate_in_space(self.angular_momentum, self.changing, self.rate_in_body, key="momentum_rate_in_space")
+
+    def linear(self, axis: str) -> tuple[Quantity, Quantity]:
+        rate = self.described.rate
+        if rate is None:
+            message = "a steady rotation that is disturbed needs its `rate`"
+            rejected("missing-key", message, self.described.place, "write `rate: omega`")
+        found = self._linear.get(axis)
+        if found is None:
+            found = self._linear[axis] = linearised_rotation(self.equations, axis, rate, key=f"disturbed_{axis}")
+        return found
+
+    @cached_property
+    def _linear(self) -> dict[str, tuple[Quantity, Quantity]]:
+        return {}
+
+    @cached_property
+    def _squared(self) -> dict[str, Quantity]:
+        return {}
+
+    @cached_property
+    def _wobbles(self) -> dict[str, Quantity]:
+        return {}
+
+    def stability(self, axis: str) -> Quantity:
+        if axis not in self._squared:
+            self._squared[axis] = wobble_squared(self.linear(axis), f"Omega_{axis}", f"stability_{axis}")
+        return self._squared[axis]
+
+    def wobble(self, axis: str) -> Quantity:
+        if axis not in self._wobbles:
+            grows = self.stability(axis).step.outcome == "unstable"
+            self._wobbles[axis] = wobble_rate(
+                self.stability(axis), f"kappa_{axis}" if grows else None, key=f"wobble_{axis}"
+            )
+        return self._wobbles[axis]
+
+    def wobble_period(self, axis: str) -> Quantity:
+        return period(self.wobble(axis), f"tau_{axis}", key=f"wobble_period_{axis}")
+
+    def asks(self) -> dict[str, Callable[[], object]]:
+        """Every name that a part may ask by."""
+        of_axes: dict[str, Callable[[], object]] = {}
+        for axis in AXES:
+            of_axes[f"stability_{axis}"] = partial(self.stability, axis)
+            of_axes[f"wobble_{axis}"] = partial(self.wobble, axis)
+            of_axes[f"wobble_period_{axis}"] = partial(self.wobble_period, axis)
+        return {
+            "inertia_tensor": lambda: self.inertia_tensor,
+            "spin": lambda: self.spin,
+            "angular_momentum": lambda: self.angular_momentum,
+            "angular_momentum_size": lambda: magnitude(self.angular_momentum, key="angular_momentum_size"),
+            "kinetic_energy": lambda: self.kinetic_energy,
+            "angle_between": lambda: angle_between(self.spin, self.angular_momentum),
+            "torque": lambda: self.torque,
+            "torque_size": lambda: magnitude(self.torque, key="torque_size"),
+            "euler_equations": lambda: self.equations,
+            "energy_rate": lambda: self.energy_rate,
+            "squared_momentum_rate": lambda: self.squared_momentum_rate,
+            "momentum_rate_in_body": lambda: self.rate_in_body,
+            "momentum_rate_in_space": self.rate_in_space,
+            **of_axes,
+            "body_cone_rate": lambda: body_cone_rate(self.equations),
+        }
+
+
+def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
+    """The answers by the names that parts ask for."""
+    answers = Answers(described)
+    found = answered(asked, answers.asks(), "a rotation")
+    if described.body is not None:
+        drawn_turning(answers, "angle_between" in asked)
+    return found
+
+
+STOCK = Stock(RotationKeys, read, solve)
