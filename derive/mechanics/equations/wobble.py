@@ -6,7 +6,7 @@ acceleration is that of a place in a turning body.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -19,7 +19,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.euler_equations import RateOfMomentum
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Quantity, is_zero, require_kind
+from derive.steps.step import Fact, Quantity, is_zero
 
 __all__ = ["body_cone_rate", "linearised_rotation", "wobble_rate", "wobble_squared"]
 
@@ -334,9 +334,13 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         raise Rejected(Complaint("not-free", "`body_cone_rate` is about a body on which no torque acts"))
     across, other, about = (tidied(diff(left, rate(w))) for left, w in zip(lefts, of.moving, strict=True))
     if not is_zero(across - other):
-        raise Rejected(Complaint("no-symmetry", "`body_cone_rate` is about a body whose moments about x and y are equal"))
+        raise Rejected(
+            Complaint("no-symmetry", "`body_cone_rate` is about a body whose moments about x and y are equal")
+        )
     if is_zero(about - across):
-        raise Rejected(Complaint("no-cone", "the three moments are equal, so that the angular velocity stays where it is"))
+        raise Rejected(
+            Complaint("no-cone", "the three moments are equal, so that the angular velocity stays where it is")
+        )
     coupling = tidied(-diff(lefts[1], x, z))  # (I_z - I_x) omega_z omega_x is what omega_y changes by
 
     def rate_of_angle() -> Expr:

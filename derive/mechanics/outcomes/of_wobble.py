@@ -52,6 +52,4 @@ outcomes_of(
     "wobble.wobble_rate",
     {**{word: _root_is(False) for word in ("stable", "symmetric", "conditional")}, "unstable": _root_is(True)},
 )
-outcomes_of(
-    "wobble.body_cone_rate", {"oblate": _excess_is(1), "prolate": _excess_is(-1), "generic": _excess_is(None)}
-)
+outcomes_of("wobble.body_cone_rate", {"oblate": _excess_is(1), "prolate": _excess_is(-1), "generic": _excess_is(None)})
