@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -34,6 +34,7 @@ from derive.stock.keys.parts import (
     ParticleKeys,
     SpringKeys,
 )
+from derive.stock.keys.placed import BODIES, ROLLING, MovingBodyKeys, RollingKeys
 from derive.stock.keys.places import (
     COORDINATES,
     PLACES,
@@ -62,6 +63,8 @@ class SystemKeys(Record):
         called="places",
     )
     particles: Mapping[Word, ParticleKeys] = key("particles by name", PARTICLES)
+    bodies: Mapping[Word, MovingBodyKeys] = key("rigid bodies by name", BODIES)
+    rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
     gravity: Tree | None = key("the acceleration of free fall, downwards; without it nothing has weight", SCALAR)
     springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
     central: Sequence[CentralKeys] = key("potential energies of the distance of two places", CENTRAL)
@@ -113,6 +116,13 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     for described in sorts:
         with faults:
             parts += each([partial(one.part, places, known) for one in described])
+    with faults:
+        alone = len(written.bodies) == 1
+        found = each([partial(body.part, name, alone, places, known) for name, body in written.bodies.items()])
+        parts += [replace(part, name=str(name)) for part, name in zip(found, written.bodies, strict=True)]
+    with faults:
+        names = {str(name) for name in written.bodies}
+        parts += each([partial(one.part, places, known, names) for one in written.rolling])
     gravity = _value(written.gravity, "gravity", "acceleration", known, faults)
     energy = _value(written.potential, "potential", "energy", known, faults)
     if energy is not None:
@@ -143,7 +153,8 @@ def _value(node: Tree | None, name: str, kind: str, letters: InLetters, faults: 
 
 def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
     """The letters of forces of constraint, which results may be solved for."""
-    names = [dict(part.named)["force"] for part in parts if part.maker == "constraint"]
+    makers = ("constraint", "rolling")
+    names = [dict(part.named)["force"] for part in parts if part.maker in makers and "force" in dict(part.named)]
     return {name: Declared(name, scalar(name), "force") for name in names}
 
 

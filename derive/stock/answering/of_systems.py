@@ -16,6 +16,7 @@ from derive.mechanics import (
     Coordinate,
     System,
     accelerations,
+    angular_velocity,
     conjugate_momentum,
     conserved,
     coordinate,
@@ -41,6 +42,7 @@ from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume
 from derive.steps.step import Quantity
 from derive.stock.keys.parts import Part
+from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
 
 
@@ -81,11 +83,33 @@ class Answers:
 
     @cached_property
     def system(self) -> System:
-        parts = [part.made() for part in self.described.parts]
-        if self.described.gravity is not None:
-            parts.append(weight(self.described.gravity))
-        with told_at(self.described.place):
-            return System(*parts)
+        described = self.described
+        parts = [part.made() for part in described.parts if part.maker not in ("body", "rolling")]
+        if described.gravity is not None:
+            parts.append(weight(described.gravity))
+        with told_at(described.place):
+            return System(*self.bodies.values(), *parts, *self.rolling)
+
+    @cached_property
+    def bodies(self) -> dict[str, Any]:
+        """Bodies that are somewhere, by name."""
+        found = {}
+        for part in self.described.parts:
+            if part.maker == "body":
+                with told_at(part.place):
+                    found[part.name] = put(*part.of, **dict(part.named))
+        return found
+
+    @cached_property
+    def rolling(self) -> tuple[Any, ...]:
+        """The conditions of rolling without slipping."""
+        found: list[Any] = []
+        for part in self.described.parts:
+            if part.maker == "rolling":
+                name, at, ground = part.of
+                with told_at(part.place):
+                    found += rolls(self.bodies[name], at, ground, **dict(part.named))
+        return tuple(found)
 
     @cached_property
     def kinetic_energy(self) -> Quantity:
@@ -207,6 +231,12 @@ class Answers:
             "linearised": lambda: self.linearised,
             "normal_modes": lambda: self.normal_modes,
             "period": lambda: self.period,
+            "no_slip": lambda: self._some(
+                tuple(each for each in self.rolling if isinstance(each, Quantity)), "nothing rolls in this system"
+            ),
+            "angular_velocity": lambda: tuple(
+                angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane
+            ),
             "accelerations": lambda: accelerations(*self.motions.values()),
             "multipliers": lambda: multipliers(*self.motions.values()),
         }

@@ -42,6 +42,7 @@ class Part:
     of: tuple[Any, ...]
     named: tuple[tuple[str, Any], ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
+    name: str = ""
 
     def made(self) -> Any:
         with told_at(self.place):

@@ -1,0 +1,124 @@
+"""Bodies that move, as `given:` describes them: where they are, how they turn, what they roll on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from sympy import Expr
+
+from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
+from derive.course.stock import InLetters, each, told_at
+from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
+from derive.errors import did_you_mean, rejected
+from derive.mechanics import RigidBody, no_slip, rolling_constraint
+from derive.mechanics.systems.places import Axes
+from derive.stock.keys.bodies import Bodies, BodyKeys, DescribedBody
+from derive.stock.keys.parts import Part, list_of_parts
+from derive.stock.keys.places import PLACE, Places, WrittenPlace
+
+POINT = as_written({"anyOf": [{"type": "string"}, {"type": "array", "items": SCALAR.schema, "minItems": 3}]})
+
+
+@dataclass(frozen=True)
+class MovingBodyKeys(BodyKeys):
+    """The keys of one of `bodies:`."""
+
+    moments: Tree | None = key(
+        "in place of a shape its principal moments of inertia, or in a plane the one across it, about the centre of "
+        "mass, or about the point at which it is held",
+        as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 3, "maxItems": 3}]}),
+    )
+    middle: tuple[Tree, ...] = key(
+        "with `moments`, where its centre of mass is, along its own axes", list_of(SCALAR, "components", length=3)
+    )
+    turned: Tree | None = key(
+        "in a plane the angle by which it is turned from right to up, else the axes that turn with it", SCALAR
+    )
+    centre: WrittenPlace | None = key("where its centre of mass is", PLACE)
+    held: Tree | None = key("in place of it, the point of the body that is held, by name or components", POINT)
+    on: WrittenPlace | None = key("where that point is held; without it the origin", PLACE)
+    across: str | None = key("in a plane, which of its axes lies across it", one_of(("x", "y", "z")))
+
+    def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Part:
+        called = "" if alone else str(name).replace("_", " ")
+        if (self.centre is None) == (self.held is None):
+            rejected("missing-key", "a body needs either `centre` or `held`, which says where it is", self.places[""])
+        if self.turned is None:
+            rejected("missing-key", "a body needs `turned`, which says how it is turned", self.places[""])
+        body: DescribedBody | RigidBody = (
+            self._by_moments(called, letters) if self.moments else Bodies(letters).body(self, called)
+        )
+        turned = self._turned(self.turned, places, letters)
+        named: list[tuple[str, Any]] = [("across", self.across)]
+        if self.centre is not None:
+            named.append(("centre", places.at(self.centre, "centre")))
+        else:
+            named.append(("held", self._point(letters, body)))
+            named.append(("on", places.at(self.on, "on") if self.on else None))
+        return Part("body", (body, turned), tuple(named), self.places[""])
+
+    def _turned(self, turned: Tree, places: Places, letters: InLetters) -> Axes | Expr:
+        if isinstance(turned, Scalar) and turned.text.strip() in {str(name) for name in places.turns}:
+            return places.axes(turned.word)
+        return letters.of_kind(turned, "turned", "angle")
+
+    def _by_moments(self, called: str, letters: InLetters) -> RigidBody:
+        if self.mass is None:
+            rejected("missing-key", "a body that is told by its moments needs `mass`", self.places[""])
+        nodes = self.moments.items if isinstance(self.moments, Sequence) else (self.moments,)
+        kind = "moment of inertia"
+        moments = tuple(each([partial(letters.value, node, "moments", kind) for node in nodes if node]))
+        mass = letters.value(self.mass, "mass", "mass")
+        middle = tuple(each([partial(letters.of_kind, node, "middle", "length") for node in self.middle]))
+        with told_at(self.places[""]):
+            known: dict[str, Any] = {"centre": middle} if middle else {}
+            body = RigidBody(mass, moments if len(moments) == 3 else moments[0], **known)
+            return body.named(called) if called else body
+
+    def _point(self, letters: InLetters, body: DescribedBody | RigidBody) -> Any:
+        if isinstance(self.held, Scalar):
+            return body.point(self.held.word) if isinstance(body, DescribedBody) else self.held.text.strip()
+        assert isinstance(self.held, Sequence)
+        return tuple(each([partial(letters.of_kind, node, "held", "length") for node in self.held.items]))
+
+
+@dataclass(frozen=True)
+class RollingKeys(Record):
+    """The keys of one of `rolling:`, a body that rolls without slipping."""
+
+    body: Word | None = key("the body, by its name", TEXT, required=True)
+    at: WrittenPlace | None = key("where it touches what it rolls on", PLACE, required=True)
+    ground: WrittenPlace | None = key("a place of what it rolls on, where that moves", PLACE)
+    force: Word | None = key("the letter of the force that keeps it from slipping, where that is wanted", TEXT)
+
+    def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Part:
+        assert self.body is not None
+        assert self.at is not None
+        if self.body not in names:
+            rejected("no-such-body", f"there is no body `{self.body}`", self.body.place, did_you_mean(self.body, names))
+        ground = places.at(self.ground, "ground") if self.ground else None
+        force = (("force", str(self.force)),) if self.force else ()
+        return Part("rolling", (str(self.body), places.at(self.at, "at"), ground), force, self.places[""])
+
+
+BODIES = mapping_of(record_of(MovingBodyKeys, "a body", "a mapping with `shape` or `moments`", "the body `{}`"))
+ROLLING = list_of_parts(RollingKeys, "rolling")
+
+
+def put(body: DescribedBody | RigidBody, turned: Axes | Expr, **known: Any) -> Any:
+    """The body where it is, by its centre of mass or by the point that is held."""
+    made: Any = body.body() if isinstance(body, DescribedBody) else body
+    if known.get("centre") is not None:
+        return made.placed(turned, known["centre"], across=known["across"])
+    return made.held(turned, known["held"], on=known["on"], across=known["across"])
+
+
+def rolls(body: Any, at: Any, ground: Any, force: str = "") -> tuple[Any, ...]:
+    """The conditions of rolling: solved, or kept by forces."""
+    if force:
+        return rolling_constraint(body, at, force, ground)
+    found = no_slip(body, at, ground)
+    return found if isinstance(found, tuple) else (found,)
