@@ -179,8 +179,8 @@ def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[E
     written = with_unknown(difference, unknown, u)
     if left_over(written, unknown):
         raise _unsolvable(of, unknown)
-    core = Mul(*(f for f in Mul.make_args(written) if f.has(u) and not f.is_positive))
-    outside = written / core
+    core = Mul(*(f for f in Mul.make_args(written) if f.has(u) and not f.xreplace({u: unknown}).is_positive))
+    outside = (written / core).xreplace({u: unknown})
     polynomial = core.as_numer_denom()[0].as_poly(u)
     below = core.as_numer_denom()[1]
     powers = [n for (n,), _ in polynomial.terms()] if polynomial else []

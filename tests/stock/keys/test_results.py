@@ -1,0 +1,73 @@
+"""What is made of answers by the `results:` of a description."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import explicit
+from tests.stock.described import edited, messages, solved
+
+m_1, m_2, g, x_0 = symbols("m_1 m_2 g x_0", positive=True)
+
+ATWOOD = """\
+title: Atwood's machine
+solve: system
+symbols: {m_1: mass, m_2: mass, g: acceleration, l: length, x_0: length}
+given:
+  coordinates: {x: length, y: length}
+  particles:
+    left: {mass: m_1, at: [0, -x]}
+    right: {mass: m_2, at: [l, -y]}
+  gravity: g
+  constraints: {condition: x + y, equals: l, force: S}
+  results:
+    made: MADE
+statement: Two masses.
+parts:
+  - ask: Find it.
+    answer: [accelerations, made]
+"""
+
+
+@pytest.mark.parametrize(
+    ("made", "value"),
+    [
+        ("{limit: acceleration_x, for: m_2, to: 0}", g),
+        ("{put_in: acceleration_x, values: {m_2: m_1/3}}", g / 2),
+        ("{limit: acceleration_x, for: m_2, to: infinity}", -g),
+    ],
+)
+def test_what_is_made_of_an_answer(made: str, value: object, tmp_path: Path) -> None:
+    found = explicit(solved(tmp_path, edited(ATWOOD, ("MADE", made)))["made"].value)
+    found = getattr(found, "args", [found])[0] if found.func.__name__ in {"Truncated", "Expansion"} else found
+    assert equal(found, value)
+
+
+def test_equations_are_solved_for_what_is_wanted(tmp_path: Path) -> None:
+    """Of the three equations one may want the force alone."""
+    made = "{where: acceleration_x, is: '>', for: m_1}"
+    steps = solved(tmp_path, edited(ATWOOD, ("MADE", made)))
+    assert str(explicit(steps["made"].value)) == "m_1 > m_2"
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        ("{for: m_2}", "`made` needs one of `solve`, `put_in`"),
+        ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `solve`"),
+        ("{limit: acceleration_z, for: m_2, to: 0}", "there is no answer `acceleration_z`"),
+        ("{limit: made, for: m_2, to: 0}", "`made` is made of itself"),
+        ("{limit: acceleration_x, to: 0}", "`limit` needs one letter as its `for`"),
+        ("{limit: accelerations, for: m_2, to: 0}", "`limit` is about one answer, but these are 2"),
+        ("{speed: lagrangian, for: m_1, start: 0}", "`speed` needs a coordinate as its `for`"),
+        ("{limit: acceleration_x, for: m_2, order: many}", "`order` must be a whole number, but it is `many`"),
+        ("{limt: acceleration_x}", "a result has no key `limt`"),
+    ],
+)
+def test_what_cannot_be_made_is_told(made: str, said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(ATWOOD, ("MADE", made)))
+    assert any(said in message for message in found), found
