@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, oo
+from sympy import Expr, Integer, oo
 
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
 from derive.course.stock import InLetters, told_at
@@ -173,7 +173,7 @@ def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 
 def _where(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    bound = more[0] if more else result.bound if result.bound is not None else Expr()
+    bound = more[0] if more else result.bound if result.bound is not None else Integer(0)
     return where(result.only(of), result.relation, bound, result.letter, key=result.name)
 
 
