@@ -23,10 +23,11 @@ ENVIRONMENT := pyproject.toml constraints.txt tools/bootstrap.py
 
 .PHONY: all help check bench test schemas mutants clean always $(SETS)
 
-all: .venv/.runtime $(SETS)
+# The library is for looking things up: it is built when it is asked for.
+all: .venv/.runtime $(filter-out library,$(SETS))
 
 help:
-	@echo 'make          the PDFs of every set, in build/; installs what it needs into .venv first'
+	@echo 'make          the PDFs of every set but the library, in build/; installs what it needs into .venv first'
 	@$(foreach set,$(SETS),echo 'make $(set)      the PDFs of $(set)';)
 	@echo 'make check    derive every problem, verify each line, compare with the reference'
 	@echo 'make test     lint, types and the whole test suite'

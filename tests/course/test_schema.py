@@ -12,16 +12,36 @@ import pytest
 from derive.course.parts import AnswerForm, Question
 from derive.course.problem import load_problem
 from derive.course.problem_set import SetKeys
-from derive.course.reference.statements import EntryKeys, ErratumKeys, GroupKeys, stated_groups
+from derive.course.reference.statements import EntryKeys, ErratumKeys, GroupKeys, OwnKeys, stated_groups
 from derive.course.schema import FIGURES, TEXT, Record, key, list_of, mapping_of, object_schema, one_of, read_record
+from derive.course.stock import stock_names, stock_script
 from derive.course.written import DrawingKeys, ProblemKeys
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Source, Word, yaml_tree
 from derive.errors import Faults
+from derive.stock.keys.bodies import PartKeys
+from derive.stock.keys.parts import (
+    CentralKeys,
+    ChargeKeys,
+    ConstraintKeys,
+    DampingKeys,
+    ForceKeys,
+    ParticleKeys,
+    SpringKeys,
+)
+from derive.stock.keys.placed import MovingBodyKeys, RollingKeys
+from derive.stock.keys.places import WayKeys
+from derive.stock.keys.results import ResultKeys
 from tests.courses import ROOT
 
 DOCUMENTED = {
     "README.md": (ProblemKeys, Question, AnswerForm, DrawingKeys, SetKeys),
     "docs/references.md": (GroupKeys, EntryKeys, ErratumKeys),
+    "docs/yaml-alone.md": (
+        OwnKeys,
+        *(stock_script(name).keys for name in stock_names()),
+        *(ParticleKeys, SpringKeys, CentralKeys, ForceKeys, DampingKeys, ChargeKeys, ConstraintKeys),
+        *(MovingBodyKeys, RollingKeys, PartKeys, ResultKeys, WayKeys),
+    ),
 }
 
 
