@@ -35,7 +35,7 @@ def _has_edges(facts: Judged) -> bool:
 def _is_symmetric_about_its_centre(facts: Judged) -> bool:
     """No third moment about the centre of mass is left along a direction of no symmetry, by integration."""
     body = facts.subject.body
-    return is_zero(body.over_mass(lambda r: (r[0] + 2 * r[1] + 5 * r[2]) ** 3, body.middle))
+    return is_zero(body.over_mass(lambda r: (71 * r[0] + 113 * r[1] + 29 * r[2]) ** 3, body.middle))
 
 
 def _on_the_axis(facts: Judged) -> bool:
