@@ -195,7 +195,8 @@ class Answers:
         if across is None:
             message = f"the theorem of perpendicular axes is about flat bodies, but {self.asked.described.told} is none"
             rejected("not-flat", message, None)
-        return perpendicular_axes(*(self.moment(axis) for axis in AXES if axis != across))
+        first, second = (self.moment(axis) for axis in AXES if axis != across)
+        return perpendicular_axes(first, second)
 
     def parallel_axes(self) -> Quantity:
         """From the centre to the point of the tensor; where that is the centre, from where its own axes begin."""

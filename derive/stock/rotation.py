@@ -114,7 +114,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
     with faults:
         if found.get("moments"):
             with told_at(written.places["moments"]):
-                RigidBody(found["moments"])
+                RigidBody(moments=found["moments"])
     found["moments"] = found.get("moments") or None
     return DescribedRotation(
         chosen=known.chosen, measured=tuple(known.numbers.measured), place=written.places[""], **found
@@ -160,7 +160,7 @@ class Answers:
             return inertia_tensor(self.body, self.about)
         assert self.described.moments is not None
         with told_at(self.described.place):
-            return RigidBody(self.described.moments, self.about).tensor
+            return RigidBody(moments=self.described.moments, about=self.about).tensor
 
     @property
     def is_steady(self) -> bool:
@@ -211,7 +211,7 @@ class Answers:
             rejected("is-steady", message, None, "leave out `along` and `rates`")
         rate = rate_in_space(self.angular_momentum, self.changing)
         acting = self.described.torque
-        return euler_equations(rate, acting) if acting else euler_equations(rate)  # type: ignore[arg-type]
+        return euler_equations(rate, acting) if acting else euler_equations(rate)
 
     def _along_principal_axes(self) -> None:
         if not self.inertia_tensor.value.is_diagonal():

@@ -164,8 +164,9 @@ def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str =
     Second route: on the surface of given angular momentum the energy has a minimum or a maximum where the curvatures
     have one sign, and their product gives the rate; the accelerations of particles, of which the trace of the squared
     matrix of the motion is -2 Omega^2.
-    Outcomes: stable (positive), unstable (negative), marginal (zero: a moment across is equal to that about the axis),
-    symmetric (the two moments across are equal), conditional (it depends on the order of the moments).
+    Outcomes: greatest, least (positive: the moment about the axis is the greatest of the three, or the least), unstable
+    (negative), marginal (zero: a moment across is equal to that about the axis), symmetric (the two moments across are
+    equal), conditional (it depends on the order of the moments).
     Source: Landau, Lifshitz, *Mechanics*, section 37; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
     disturbed = linear[0].needed(Disturbed)
@@ -253,7 +254,12 @@ def _stability(value: Expr, disturbed: Disturbed) -> str:
         return "marginal"
     if is_zero(disturbed.moments[i] - disturbed.moments[j]):
         return "symmetric"
-    return "stable" if value.is_positive else "unstable" if value.is_negative else "conditional"
+    if value.is_negative:
+        return "unstable"
+    if not value.is_positive:
+        return "conditional"
+    about = disturbed.moments[disturbed.axis]
+    return "greatest" if tidied(about - disturbed.moments[i]).is_positive else "least"
 
 
 def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble_rate") -> Quantity:
@@ -267,7 +273,7 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
     Source: Landau, Lifshitz, *Mechanics*, section 37.
     """
     of, disturbed = squared.needed(WobbleOf), squared.needed(Disturbed)
-    outcome = squared.step.outcome
+    outcome = {"greatest": "stable", "least": "stable"}.get(squared.step.outcome, squared.step.outcome)
     if outcome == "marginal":
         message = f"`{squared.key}` vanishes: a disturbance grows as the time itself, at no rate of its own"
         raise Rejected(Complaint("no-rate", message))
@@ -318,7 +324,7 @@ def _root_of(square: Expr) -> Expr:
 
 
 def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: str = "body_cone_rate") -> Quantity:
-    """Rate at which the angular velocity of a free symmetric body goes round its axis, Omega_b = (I_z - I_x) omega_z/I_x.
+    """Rate at which omega goes round the axis of a free symmetric body, Omega_b = (I_z - I_x) omega_z/I_x.
 
     equations   Euler's equations for the axes x, y and z in turn, without torque, of a body with I_x = I_y
     Second route: the rate of the angle of omega about the axis, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2

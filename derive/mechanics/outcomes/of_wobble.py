@@ -18,7 +18,7 @@ def _sign(value: Expr) -> int | None:
 
 
 def _order_is(wanted: str) -> Predicate:
-    """By the moment about the axis: the greatest or the least of all, between the others, or as great as one of them."""
+    """By the moment about the axis: the greatest of all, the least, between the others, or as great as one of them."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -30,7 +30,7 @@ def _order_is(wanted: str) -> Predicate:
             return wanted == "symmetric"
         if None in signs:
             return wanted == "conditional"
-        return wanted == ("stable" if signs[0] == signs[1] else "unstable")
+        return wanted == {(1, 1): "greatest", (-1, -1): "least"}.get((signs[0], signs[1]), "unstable")
 
     return is_so
 
@@ -46,7 +46,7 @@ def _root_is(grows: bool) -> Predicate:
 
 outcomes_of(
     "wobble.wobble_squared",
-    {word: _order_is(word) for word in ("stable", "unstable", "marginal", "symmetric", "conditional")},
+    {word: _order_is(word) for word in ("greatest", "least", "unstable", "marginal", "symmetric", "conditional")},
 )
 outcomes_of(
     "wobble.wobble_rate",

@@ -8,7 +8,7 @@ from functools import partial
 
 from sympy import Expr
 
-from derive.algebra.dimensions import NUMBER
+from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.direction import Direction
 from derive.algebra.kinds import named
 from derive.course.expression import read_expression
@@ -72,7 +72,7 @@ class Directions:
         faults.stop()
         return Axis(Direction(None, (x[0], y[0], z[0])))
 
-    def _component(self, node: Tree, name: str) -> tuple[Expr, object]:
+    def _component(self, node: Tree, name: str) -> tuple[Expr, Dimension]:
         if not isinstance(node, Scalar) or node.empty:
             return self.letters.of_kind(node, f"a component of {name}", "number"), NUMBER
         return read_expression(node, self.letters.letters)
