@@ -48,7 +48,14 @@ FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 ENGINE = {name for name in MODULES if name.partition(".")[0] in {"errors", "algebra", "steps", "mechanics", "figures"}}
 PRINTING = {"cli.options", "cli.commands", "cli.terminal", "building.doctor"}
 VERB_MODULES = sorted(name for name in MODULES if name.startswith("mechanics."))
-DEFINITIONS = {"any_angular_velocity", "changing_angular_velocity", "principal_tensor", "let", "axis_vector"}
+DEFINITIONS = {
+    "any_angular_velocity",
+    "changing_angular_velocity",
+    "constant_angular_velocity",
+    "principal_tensor",
+    "let",
+    "axis_vector",
+}
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
 

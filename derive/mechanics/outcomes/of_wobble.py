@@ -30,7 +30,9 @@ def _order_is(wanted: str) -> Predicate:
             return wanted == "symmetric"
         if None in signs:
             return wanted == "conditional"
-        return wanted == {(1, 1): "greatest", (-1, -1): "least"}.get((signs[0], signs[1]), "unstable")
+        if signs[0] != signs[1]:
+            return wanted == "unstable"
+        return wanted == ("greatest" if signs[0] == 1 else "least")
 
     return is_so
 

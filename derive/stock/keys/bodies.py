@@ -240,12 +240,16 @@ class Bodies:
             help_line = f"write `{meant}`" if meant else did_you_mean(name, shapes())
             message = f"there is no shape `{written.shape}`"
             rejected("no-such-shape", message, written.shape.place, help_line or f"they are {', '.join(shapes())}")
-        way = _way_that_is_told(shape, written, whole_mass is not None)
+        faults = Faults()
+        way = _way_that_is_told(shape, written, whole_mass is not None, faults)
         readings: list[Callable[[], Any]] = [partial(self._size, shape, size, written) for size in way]
-        if whole_mass is None:
-            assert written.mass is not None
+        if whole_mass is None and written.mass is not None:
             readings.append(partial(self.letters.value, written.mass, "mass", "mass"))
-        *found, mass = [*each(readings), *([whole_mass] if whole_mass is not None else [])]
+        found: list[Any] = []
+        with faults:
+            found = each(readings)
+        faults.stop()
+        mass = found.pop() if whole_mass is None else whole_mass
         sizes = dict(zip(way, found, strict=True))
         with told_at(written.shape.place):
             return _made(shape, sizes, mass)
@@ -354,9 +358,8 @@ def _point_of(body: Body, name: Word) -> str:
     return DescribedBody("", (body,), False).point(name)
 
 
-def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool) -> tuple[str, ...]:
-    """The sizes of a shape as they are written, after complaints about those that lack or are not its own."""
-    faults = Faults()
+def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
+    """The sizes of a shape that are written, and complaints about those that lack or are not its own."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))
@@ -377,7 +380,6 @@ def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool) -> 
         faults.error("unknown-key", message, written.places[odd], help="any other body is told by `position`")
     if written.mass is None and not has_mass:
         faults.error("missing-key", f"{shape.name} needs `mass`", written.places["shape"])
-    faults.stop()
     return tuple(size for size in way if size in given)
 
 

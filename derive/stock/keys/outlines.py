@@ -15,7 +15,7 @@ def drawn(body: Body) -> None:
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
-    """A body with the axis about which it turns; with its angular momentum too, where the angle between them is asked."""
+    """A body with the axis about which it turns, and with its angular momentum where that angle is asked for."""
     body, described = answers.body, answers.described
     if not isinstance(body, RoundBody | EdgedBody):
         return

@@ -1,0 +1,138 @@
+"""Bodies that are described in YAML alone: what parts ask of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import ImmutableDenseMatrix, Rational, cos, pi, sin, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.building.solution import rendered
+from tests.stock.bodies import CONE, CONE_IS
+from tests.stock.described import course_with, edited, messages, solved
+
+R, h, M, m = symbols("R h M m", positive=True)
+alpha = symbols("alpha", real=True)
+
+
+def diagonal(*entries: object) -> ImmutableDenseMatrix:
+    return ImmutableDenseMatrix(3, 3, lambda i, j: entries[i] if i == j else 0)
+
+
+def test_the_cone_about_its_apex(tmp_path: Path) -> None:
+    """Landau, section 32."""
+    across = Rational(3, 5) * M * (R**2 / 4 + h**2)
+    found = solved(tmp_path, CONE)["inertia_tensor"]
+    assert equal(found.value, diagonal(across, across, Rational(3, 10) * M * R**2))
+
+
+@pytest.mark.parametrize(
+    ("body", "answer", "key", "value"),
+    [
+        (CONE_IS, "centre_of_mass", "centre_of_mass", ImmutableDenseMatrix([0, 0, 3 * h / 4])),
+        (CONE_IS, "density", "density", 3 * M / (pi * R**2 * h)),
+        (CONE_IS, "volume", "volume", pi * R**2 * h / 3),
+        (CONE_IS, "moment_of_inertia_z", "moment_of_inertia_z", Rational(3, 10) * M * R**2),
+        (CONE_IS, "radius_of_gyration_z", "radius_of_gyration_z", sqrt(Rational(3, 10)) * R),
+        (CONE_IS, "inertia_tensor_xy", "inertia_tensor_xy", 0),
+        (CONE_IS, "inertia_tensor_zz", "inertia_tensor_zz", Rational(3, 10) * M * R**2),
+        (CONE_IS, "parallel_axes", "inertia_tensor_zz", Rational(3, 10) * M * R**2),
+    ],
+)
+def test_what_parts_may_ask_of_a_cone(body: str, answer: str, key: str, value: object, tmp_path: Path) -> None:
+    """Goldstein, section 5.3; the moments by hand from the density 3 M/(pi R^2 h)."""
+    text = edited(CONE, (CONE_IS, body), ("answer: inertia_tensor", f"answer: {answer}"))
+    assert equal(solved(tmp_path, text)[key].value, value)
+
+
+def test_parallel_axes_to_the_centre(tmp_path: Path) -> None:
+    text = edited(CONE, ("  about: apex\n", ""), ("answer: inertia_tensor", "answer: parallel_axes"))
+    found = solved(tmp_path, text)
+    assert equal(found["inertia_tensor"].value[0, 0], Rational(3, 20) * M * (R**2 + h**2 / 4))
+    assert "apex_tensor" in found
+
+
+def test_the_plate_and_its_axes(tmp_path: Path) -> None:
+    """Of a rectangle R by h about its corner: I_xx = M h^2/3, I_yy = M R^2/3, I_xy = -M R h/4."""
+    asks = "[turned_tensor, moment_about, perpendicular_axes, principal_angle]"
+    edits = (CONE_IS, "{shape: plate, sides: [R, h], mass: M}"), ("about: apex", "about: corner")
+    more = "about: corner\n  direction: [1, 1, 0]\n  turned: {z: alpha}"
+    found = solved(
+        tmp_path, edited(edited(CONE, *edits), ("about: corner", more), ("answer: inertia_tensor", f"answer: {asks}"))
+    )
+    assert equal(found["moment_about"].value, M * (R**2 + h**2) / 6 - M * R * h / 4)
+    assert equal(found["perpendicular_axes"].value, M * (R**2 + h**2) / 3)
+    turned = M * h**2 / 3 * cos(alpha) ** 2 + M * R**2 / 3 * sin(alpha) ** 2 - M * R * h / 2 * sin(alpha) * cos(alpha)
+    assert equal(found["turned_tensor"].value[0, 0], turned)
+
+
+def test_principal_axes_of_a_cube_about_its_corner(tmp_path: Path) -> None:
+    """Taylor, example 10.4: M R^2/6, and twice 11/12 M R^2."""
+    text = edited(
+        CONE,
+        (CONE_IS, "{shape: cuboid, sides: [R, R, R], mass: M}"),
+        ("about: apex", "about: corner"),
+        ("answer: inertia_tensor", "answer: [principal_moments, principal_axes]"),
+    )
+    found = solved(tmp_path, text)
+    moments = found["principal_moments"].value
+    assert equal(moments, ImmutableDenseMatrix([M * R**2 / 6, *[Rational(11, 12) * M * R**2] * 2]))
+    assert "principal_axis_1" in found
+
+
+def test_a_wire_whose_density_grows(tmp_path: Path) -> None:
+    """Density proportional to x along a rod: its centre of mass at two thirds."""
+    grows = "{position: [x, 0, 0], limits: {x: [0, h]}, mass: M, density: x}"
+    text = edited(CONE, (CONE_IS, grows), ("  about: apex\n", ""), ("answer: inertia_tensor", "answer: centre_of_mass"))
+    assert equal(solved(tmp_path, text)["centre_of_mass"].value, ImmutableDenseMatrix([2 * h / 3, 0, 0]))
+
+
+def test_several_bodies_have_names(tmp_path: Path) -> None:
+    both = "bodies: {upper rod: {shape: rod, length: h, mass: M, about: end}, disc: {shape: disc, radius: R, mass: m}}"
+    text = edited(
+        CONE,
+        (f"body: {CONE_IS}", both),
+        ("  about: apex\n", ""),
+        ("answer: inertia_tensor", "answer: [upper_rod_moment_of_inertia_x, disc_moment_of_inertia_z]"),
+    )
+    found = solved(tmp_path, text)
+    assert equal(found["upper_rod_moment_of_inertia_x"].value, M * h**2 / 3)
+    assert equal(found["disc_moment_of_inertia_z"].value, m * R**2 / 2)
+
+
+def test_the_body_is_drawn(tmp_path: Path) -> None:
+    page = rendered(course_with(tmp_path, CONE), "trial/one")
+    assert "A drawing in space of a circular cone" in page.texts["text"]
+
+
+def test_numbers_go_behind_letters(tmp_path: Path) -> None:
+    text = edited(CONE, ("radius: R, height: h, mass: M", "radius: 10 cm, height: 20 cm, mass: 3 kg"))
+    page = rendered(course_with(tmp_path, text), "trial/one")
+    assert "kg m" in page.texts["text"]
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (("about: apex", "about: apx"), "6: a cone has no point `apx`"),
+        (("answer: inertia_tensor", "answer: inertia_tensr"), "10: a body has no answer called `inertia_tensr`"),
+        (("answer: inertia_tensor", "answer: mass"), "10: the mass of a cone is given"),
+        (("answer: inertia_tensor", "answer: area"), "10: the area of a cone is no step: it is known"),
+        (("answer: inertia_tensor", "answer: moment_about"), "10: `moment_about` needs `direction`"),
+        (("answer: inertia_tensor", "answer: turned_tensor"), "10: `turned_tensor` needs `turned`"),
+        (
+            ("answer: inertia_tensor", "answer: perpendicular_axes"),
+            "10: the theorem of perpendicular axes is about flat bodies, but a cone is none",
+        ),
+        ((f"  body: {CONE_IS}\n", ""), "5: `given` needs a `body`, or `bodies`"),
+        (("about: apex", "direction: [0, 0, 0]"), "6: `direction` has no direction: every component is zero"),
+    ],
+)
+def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
+    assert said in messages(tmp_path, edited(CONE, edit))
+
+
+def test_answers_that_do_not_apply_are_told_at_once(tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(CONE, ("answer: inertia_tensor", "answer: [mass, turned_tensor]")))
+    assert [message.partition(":")[0] for message in found] == ["10", "10"]

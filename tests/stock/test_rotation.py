@@ -1,0 +1,109 @@
+"""Rotations that are described in YAML alone: what parts ask of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import ImmutableDenseMatrix, Rational, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, explicit
+from derive.building.solution import rendered
+from tests.stock.bodies import BLOCK, BLOCK_IS
+from tests.stock.described import course_with, edited, messages, solved
+
+a, M, A, B, C, omega = symbols("a M A B C omega", positive=True)
+x, y, z = symbols("omega_x omega_y omega_z", real=True)
+TURNS = (BLOCK_IS, "moments: [A, B, C]"), ("  along: diagonal\n", "")
+
+
+def asked(answer: str) -> tuple[str, str]:
+    return "answer: torque", f"answer: {answer}"
+
+
+def test_a_block_about_its_diagonal(tmp_path: Path) -> None:
+    """By hand: I = M a^2/12 diag(13, 10, 5), omega = omega/sqrt 14 (1, 2, 3)."""
+    found = solved(tmp_path, edited(BLOCK, asked("[angular_momentum, kinetic_energy, torque, torque_size]")))
+    front = M * a**2 * omega / (12 * sqrt(14))
+    assert equal(found["angular_momentum"].value, front * ImmutableDenseMatrix([13, 20, 15]))
+    assert equal(found["kinetic_energy"].value, Rational(7, 24) * M * a**2 * omega**2)
+    assert equal(found["torque"].value, M * a**2 * omega**2 / 28 * ImmutableDenseMatrix([-5, 4, -1]))
+    assert equal(found["torque_size"].value, sqrt(42) / 28 * M * a**2 * omega**2)
+
+
+def test_moments_and_components_that_are_given(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [A, B, C]"), ("rate: omega\n  along: diagonal", "rates: [omega, omega, 0]")
+    found = solved(tmp_path, edited(BLOCK, *edits))
+    assert equal(found["torque"].value, ImmutableDenseMatrix([0, 0, (B - A) * omega**2]))
+
+
+def test_moments_and_an_axis(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [A, B, C]"), ("along: diagonal", "along: [1, 0, 1]")
+    found = solved(tmp_path, edited(BLOCK, *edits, asked("kinetic_energy")))
+    assert equal(found["kinetic_energy"].value, (A + C) * omega**2 / 4)
+
+
+def test_euler_equations_and_what_they_keep(tmp_path: Path) -> None:
+    names = "[euler_equations, energy_rate, squared_momentum_rate, momentum_rate_in_body, momentum_rate_in_space]"
+    found = solved(tmp_path, edited(BLOCK, *TURNS, asked(names)))
+    x_dot = symbols("omega_x_dot", real=True)
+    assert equal(found["euler_x"].value, Relation(A * x_dot - (B - C) * y * z, "=", 0))
+    assert found["kinetic_energy_rate"].value == 0
+    assert found["squared_momentum_rate"].value == 0
+
+
+def test_euler_equations_with_a_torque(tmp_path: Path) -> None:
+    text = edited(BLOCK, *TURNS, ("  rate: omega\n", "  torque: [0, 0, A*omega**2]\n"), asked("euler_equations"))
+    assert equal(explicit(solved(tmp_path, text)["euler_z"].value).right, A * omega**2)
+
+
+def test_the_three_axes_of_a_block(tmp_path: Path) -> None:
+    """Of edges a, 2a, 3a the moments are as 13, 10 and 5: 8 3/50, -3 5/65, 8 5/130."""
+    edits = ("  along: diagonal\n", ""), asked("[stability_x, wobble_y, wobble_period_z]")
+    found = solved(tmp_path, edited(BLOCK, *edits))
+    assert equal(found["stability_x"].value, Rational(12, 25) * omega**2)
+    assert equal(found["wobble_y"].value, sqrt(Rational(3, 13)) * omega)
+    assert equal(found["wobble_z"].value, sqrt(Rational(4, 13)) * omega)
+    assert "wobble_period_z" in found
+
+
+def test_the_wobble_of_the_earth(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [A, A, C]"), ("  along: diagonal\n", ""), asked("body_cone_rate")
+    assert equal(solved(tmp_path, edited(BLOCK, *edits))["body_cone_rate"].value, (C - A) / A * z)
+
+
+def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:
+    text = rendered(course_with(tmp_path, edited(BLOCK, asked("angle_between"))), "trial/one").texts["text"]
+    assert " ".join(text.split()).count("an axis of rotation along (1, 2, 3)") == 2
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (("along: diagonal", "along: diagnal"), "7: `along` must be a direction, but `diagnal` names none"),
+        (("along: diagonal", "along: [1, a, 0]"), "7: of the components of `along` one is a length, another a number"),
+        (("along: diagonal", "along: [1, 0]"), "7: `along` must be a direction or three components"),
+        (("along: diagonal", "rates: [omega, 0, 0]"), "7: `rate` is given, and `rates` too"),
+        (("rate: omega", "rate: a"), "6: `rate` must be an angular speed, but `a` is a length"),
+        (("  rate: omega\n", ""), "6: a rotation along an axis needs its `rate`"),
+        ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` is given, and `body` too"),
+        ((BLOCK_IS, "moments: [A, B]"), "5: `moments` must be three moments of inertia, `[A, B, C]`, but it is a list"),
+        ((BLOCK_IS, "moments: [A, A, 3*A]"), "5: no body has such moments: that about z is more than the other two"),
+        ((BLOCK_IS, "moments: [A, B, C]"), "5: a body that is told by its moments has no diagonal"),
+        ((f"  {BLOCK_IS}\n", ""), "5: `given` needs `body` or `moments`"),
+        (("along: diagonal", "about: edge"), "7: a cuboid has no point `edge`"),
+        (("answer: torque", "answer: euler_equations"), "11: Euler's equations are about a body that turns in any way"),
+        (("answer: torque", "answer: tork"), "11: a rotation has no answer called `tork`"),
+        (("  along: diagonal\n", ""), "5: nothing says how this body turns"),
+    ],
+)
+def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(BLOCK, edit))
+    assert any(message.startswith(said) for message in found), found
+
+
+def test_euler_equations_are_along_principal_axes(tmp_path: Path) -> None:
+    edits = ("along: diagonal", "about: corner"), asked("euler_equations")
+    (found,) = messages(tmp_path, edited(BLOCK, *edits))
+    assert found.startswith("11: the axes of this body are no principal axes")
