@@ -35,9 +35,12 @@ from sympy import (
 )
 
 from derive.algebra import expressions as ex
+from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.encoding import as_data, decoded, encoded, from_data
+from derive.algebra.expansion import Expansion
 from derive.algebra.node import NODES, Node
 from derive.algebra.rounding import Rounded
+from derive.algebra.swing import SwingTime
 from tests.mechanics.block import known_block
 
 x, y = symbols("x y", real=True)
@@ -84,6 +87,10 @@ EXPRESSIONS = [
     ex.Component(omega, "y"),
     ex.Relation(ex.TimeRate(ex.Partial(x**2 * y, x), x, y), "=", ex.At(ex.Slope(x**3, x, Integer(2)), x, a)),
     ex.Truncated(1 - x**2 / 2, x, Integer(0), Integer(3)),
+    Amplitudes(a, b),
+    Determinant(ImmutableDenseMatrix([[a, x], [y, b]])),
+    Expansion(a * b / (a + b), a, oo, Integer(1)),
+    SwingTime(b * (cos(x) - cos(a)), x, a, Integer(2)),
 ]
 
 
