@@ -17,7 +17,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import TIME, Factors, Partial, Relation, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, explicit, rate, scalar
 from derive.algebra.samples import points
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -26,7 +26,11 @@ from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.effective import SeenWith
+from derive.mechanics.systems.forced import ActedOn
+from derive.mechanics.systems.forces import MagneticForce
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import changes
 from derive.steps.step import Fact, Quantity, compared_with, is_zero, require_kind
 
 __all__ = ["equilibria", "potential_at_rest"]
@@ -46,18 +50,20 @@ class RestOf(Fact):
 
 
 def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_rest") -> Quantity:
-    """Potential energy that a system at rest sees, V = -L without the rates: U, less what the given motion has of T.
+    """Potential energy that a system at rest sees, V = -L without the rates: U, less what the given motion has of T;
+    and less F . r for each constant force F that is given at a place r.
 
     of   the Lagrangian, J; an energy without rates is its own answer
     Second route: the work of the forces and of the inertia of the mass points at rest, -dV for any displacement.
-    Errors: the Lagrangian holds the time itself.
+    Outcomes: generic, pushed (constant forces are given).
+    Errors: the Lagrangian holds the time itself; a given force is not constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
     """
     require_kind("potential_at_rest", "of", of, "energy")
     if explicit(of.value).has(TIME):
         raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
-    moving = list(of.coordinates)
-    if not explicit(of.value).free_symbols & {rate(q) for q in moving}:
+    moving, pushes = list(of.coordinates), _given_pushes(of)
+    if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
         return of
     still = {rate(q, n): ZERO for q in moving for n in (1, 2)}
     matter = of.needed(Matter)
@@ -68,17 +74,38 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         done = (_force_at_rest(matter, q, still) * mark for q, mark in zip(moving, marks, strict=True))
         return Add(*lost), Add(*done)
 
+    def law(L: Expr) -> Expr:
+        return Terms(-L, *(-push for push in pushes)) if pushes else Factors(Integer(-1), L)
+
     return establish(
         "equilibria.potential_at_rest",
         scalar(symbol),
-        lambda L: Factors(Integer(-1), L),
+        law,
         {"lagrangian": of},
         lines=Lines(put_in=None, motion=still),
         routes={"work": work},
+        outcome="pushed" if pushes else "generic",
+        telling=Telling(judged_by={"moving": tuple(still)}),
         key=key,
         kind="energy",
-        facts=[Matter(matter.points, matter.loads, matter.coordinates)],
+        facts=[Matter(matter.points, matter.loads, matter.coordinates, matter.others)],
     )
+
+
+def _given_pushes(of: Quantity) -> list[Expr]:
+    """F . r of the constant forces that are given; others do not have a potential energy that is told here."""
+    acted = of.fact(ActedOn)
+    found = []
+    for push in acted.forces if acted is not None else ():
+        if isinstance(push, MagneticForce):
+            continue  # it vanishes at rest
+        strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
+        if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
+            message = f"a force is given that is not constant, {push.components[0]}: where it leaves rest is not told"
+            help_line = "a force with a potential energy U is given by `potential(U)`"
+            raise Rejected(Complaint("changes", message, help=help_line))
+        found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]
+    return found
 
 
 def _force_at_rest(matter: Matter, q: Symbol, still: Mapping[Symbol, Expr]) -> Expr:
@@ -225,10 +252,16 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
     )
 
 
+def matter_behind(potential: Quantity) -> Matter | None:
+    """What made a potential energy: mass points and forces, or of an effective one those with momenta held constant."""
+    seen, own = potential.fact(SeenWith), potential.fact(Matter)
+    return seen.matter if seen is not None else own if own is not None and (own.loads or own.points) else None
+
+
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
     """dU/dq by the virtual work of what made U, else as the first order of U in a small displacement."""
-    matter = potential.fact(Matter)
-    if matter is not None and (matter.loads or matter.points):
+    matter = matter_behind(potential)
+    if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
         return -_force_at_rest(matter, q, still)
     return expanded(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)

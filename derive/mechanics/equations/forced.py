@@ -7,7 +7,7 @@ from typing import Any
 from sympy import Add, Expr, Integer, Mul, Pow, atan, cos, diff, expand, sin, sqrt, tan
 
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation
 from derive.mechanics.equations.unknowns import lecture_form
@@ -93,6 +93,9 @@ def steady_amplitude(
 def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
     if loss == 0:
         return lecture_form(force / sqrt(stiff**2))
+    common = common_factor([force, stiff, loss])
+    if common.is_positive:
+        force, stiff, loss = (tidied(each / common) for each in (force, stiff, loss))
     return force / sqrt(Add(stiff**2, lecture_form(loss**2)))
 
 

@@ -1,7 +1,8 @@
 """Equations of motion to first order about a state of rest, in any number of coordinates.
 
-M eta_ddot + G eta_dot + K eta = 0, with eta the displacements. The matrices are read off the equations of motion; the
-second route has them from the kinetic energy of mass points and from the virtual work of the forces, to second order.
+M eta_ddot + G eta_dot + K eta = f(t), with eta the displacements and f what drives them. The matrices are read off the
+equations of motion; the second route has them from the kinetic energy of mass points and from the virtual work of all
+forces, drag and given ones among them, to second order.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import oscillations
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with, is_zero
 
@@ -39,8 +41,8 @@ class Rest(Fact):
 
 @dataclass(frozen=True)
 class Linear(Fact):
-    """Linear equations M eta_ddot + G eta_dot + K eta = 0 together: the matrices, the displacements, and where
-    the state of rest exists."""
+    """Linear equations M eta_ddot + G eta_dot + K eta = f(t) together: the matrices, the displacements, where the
+    state of rest exists, and what drives them."""
 
     missing = "is not an equation of motion to first order"
     mass: MatrixBase
@@ -48,6 +50,7 @@ class Linear(Fact):
     stiffness: MatrixBase
     displacements: tuple[Coordinate, ...]
     exists: Relation | None = None
+    driven: tuple[Expr, ...] = ()
 
 
 def linearised(
@@ -55,30 +58,40 @@ def linearised(
     at: Quantity | Mapping[Any, Expr] | Expr | None = None,
     key: str = "linearised",
 ) -> Quantity | tuple[Quantity, ...]:
-    """Equations of motion to first order in the displacements from rest, M eta_ddot + G eta_dot + K eta = 0.
+    """Equations of motion to first order in the displacements from rest, M eta_ddot + G eta_dot + K eta = f(t).
 
     motion   the equations, as `equations_of_motion` yields them; or one, of one coordinate
     at       the state of rest: as `equilibria` yields it, or `{theta: 0, phi: pi}`; all coordinates 0 unless given
     key      what the keys begin with: linearised_theta, one for each coordinate
-    Where a coordinate is not 0 at rest its displacement is called eta; eta_1, eta_2, ... where there are several.
+    Drag gives G; what depends on the time alone, f, drives the motion. Where a coordinate is not 0 at rest its
+    displacement is called eta; eta_1, eta_2, ... where there are several.
     Second route: M from the kinetic energy of the mass points, K from the virtual work of the forces, to second order.
-    Outcomes: generic, displaced (some coordinate is not 0 at rest).
-    Errors: a force is left at that place; a value is missing; the equations hold the time.
+    Outcomes: generic, displaced (some coordinate is not 0 at rest), and with a drag or what drives them damped,
+    displaced_damped, driven, displaced_driven.
+    Errors: a force is left at that place; a value is missing; the coefficients change in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
-    Source: that of `linearised`.
     """
     if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
-        return oscillations.linearised(motion, at, key)
+        if _is_of_energies_alone(motion):
+            return oscillations.linearised(motion, at, key)
+        q = motion.needed(OfCoordinate).coordinate
+        return _together((motion,), {q: ZERO if at is None else at}, [key])[0]
     equations = (motion,) if isinstance(motion, Quantity) else tuple(motion)
+    return _together(equations, at, [f"{key}_{each.needed(OfCoordinate).coordinate.symbol.name}" for each in equations])
+
+
+def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
+    """The linear equations of all coordinates."""
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     place = _place_of(equations, moving, at)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
     mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
-    linear = Linear(mass, turning, stiffness, eta, exists)
+    driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
+    linear = Linear(mass, turning, stiffness, eta, exists, driven)
     rests = [at] if isinstance(at, Quantity) else []
-    return tuple(_one(equations, i, moving, place, linear, rests, key) for i in range(len(equations)))
+    return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
 
 def _one(
@@ -92,7 +105,7 @@ def _one(
 ) -> Quantity:
     """The linear equation that belongs to one coordinate.
 
-    Outcomes: generic, displaced.
+    Outcomes: generic, displaced, damped, displaced_damped, driven, displaced_driven.
     Source: that of `linearised`.
     """
     eta = linear.displacements
@@ -110,21 +123,40 @@ def _one(
     return establish(
         "linearised.equation",
         None,
-        lambda *_: Relation(left, "=", 0),
+        lambda *_: Relation(left, "=", linear.driven[i]),
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
-        outcome="displaced" if away else "generic",
+        outcome=_outcome(linear, i, bool(away)),
         telling=Telling(
             points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
-            judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta)},
+            judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta), **_loss(linear)},
             formulas=counted,
         ),
-        key=f"{key}_{moving[i].symbol.name}",
+        key=key,
         parents=[*equations, *rests],
         facts=[linear, OfCoordinate(eta[i])],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
+
+
+def _is_of_energies_alone(equation: Quantity) -> bool:
+    """Whether it comes from a Lagrangian that does not hold the time."""
+    return equation.fact(FromLagrangian) is not None and not explicit(equation.value).has(TIME)
+
+
+def _outcome(linear: Linear, own: int, displaced: bool) -> str:
+    if linear.driven[own] != 0:
+        return "displaced_driven" if displaced else "driven"
+    if _loss(linear)["loss"] != 0:
+        return "displaced_damped" if displaced else "damped"
+    return "displaced" if displaced else "generic"
+
+
+def _loss(linear: Linear) -> dict[str, Expr]:
+    """Twice the rate at which small motions lose their energy: what of G is symmetric."""
+    rates = [s.rate for s in linear.displacements]
+    return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
 
 
 def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
@@ -155,17 +187,23 @@ def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, E
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Without rates and accelerations nothing is left of the equations there, at any time."""
+    """Without rates and accelerations nothing is left of the equations there but what drives them as time passes."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
-        if value.has(TIME):
+        slopes = [diff(value, s) for q in moving for s in (q.symbol, q.rate, q.acceleration)] if value.has(TIME) else []
+        if any(_at_rest(slope, moving, place).has(TIME) for slope in slopes):
             message = f"`{equation.key}` holds the time itself, so that it has no constant coefficients"
             raise Rejected(Complaint("changes", message))
-        left = _at_rest(value, moving, place)
+        left = lasting(_at_rest(value, moving, place))
         if not is_zero(left):
             message = f"`{equation.key}` is not in equilibrium at {where}: {left} is left for 0"
             raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+
+
+def lasting(value: Expr) -> Expr:
+    """What of a sum does not depend on the time."""
+    return Add(*(term for term in Add.make_args(value.expand()) if not term.has(TIME))) if value.has(TIME) else value
 
 
 def _coefficients(
@@ -203,7 +241,8 @@ def _of_second_order(
     for other, s in zip(moving, eta, strict=True):
         mass = diff(kinetic, q.rate, other.rate)
         turning = diff(kinetic, q.rate, other.symbol) - diff(kinetic, q.symbol, other.rate) - diff(force, other.rate)
-        stiffness = -diff(force, other.symbol) - diff(kinetic, q.symbol, other.symbol)
+        stiffness = diff(kinetic, q.rate, TIME, other.symbol) - diff(force + diff(kinetic, q.symbol), other.symbol)
         for value, letter in ((mass, s.acceleration), (turning, s.rate), (stiffness, s.symbol)):
             terms.append(_at_rest(value, moving, place) * letter)
-    return Relation(Add(*terms), "=", 0)
+    driving = force + diff(kinetic, q.symbol) - diff(kinetic, q.rate, TIME)
+    return Relation(Add(*terms), "=", _at_rest(driving, moving, place))

@@ -14,14 +14,13 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
-from derive.algebra.expressions import At, Relation, Slope, explicit, scalar
+from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.equilibria import expanded, potential_at_rest, slope_otherwise
+from derive.mechanics.equations.equilibria import expanded, matter_behind, potential_at_rest, slope_otherwise
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
-from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Form, Level, Quantity, is_zero, require_kind
@@ -63,7 +62,8 @@ def stability(
     Outcomes: stable, unstable, depends (on the sign of what is told), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
     level (several coordinates: to second order the energy does not change in one direction, and nowhere falls).
-    Errors: a force is left there; coordinates are missing.
+    Errors: a force is left there; coordinates are missing; of several coordinates the energy has no minimum, but what
+    is linear in the rates, as in a frame that turns or a magnetic field, may hold the state all the same.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
     Source: that of `stability`.
     """
@@ -202,8 +202,7 @@ def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
 
 def _small_force(place: Place, q: Symbol) -> Expr:
     """What a unit of displacement adds to the force that drives back."""
-    matter = place.potential.fact(Matter)
-    if matter is not None and (matter.loads or matter.points):
+    if matter_behind(place.potential) is not None:
         u = Symbol("u_small", real=True)
         moved = {s: at + (u if s == q else 0) for s, at in place.values.items()}
         return diff(slope_otherwise(place.potential, q).subs(moved, simultaneous=True), u).subs(u, 0)
@@ -224,6 +223,8 @@ def _of_several(place: Place, key: str) -> Quantity:
     minors = [_minor(matrix, n) for n in range(1, len(moving) + 1)]
     values = [tidied(explicit(minor)) for minor in minors]
     letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
+    outcome = _of_minors(matrix, values)
+    _check_nothing_else_holds_it(place, outcome)
     told: dict[str, tuple[Any, Any]] = {}
     if place.exists is not None:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
@@ -248,7 +249,7 @@ def _of_several(place: Place, key: str) -> Quantity:
             arranged=lambda _: ImmutableDenseMatrix(values),
         ),
         routes={"any_direction": in_any_direction},
-        outcome=_of_minors(matrix, values),
+        outcome=outcome,
         telling=Telling(
             formulas=told,
             judged_by={
@@ -277,3 +278,20 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
     if any(sign_by_factors(tidied(value)) == -1 for value in falling):
         return "unstable"
     return "level" if signs[-1] == 0 and None not in signs and -1 not in signs else "depends"
+
+
+def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
+    """A minimum is stable whatever forces turn the motion aside; what is none they may hold, as a top that spins."""
+    matter = matter_behind(place.potential)
+    if outcome == "stable" or matter is None:
+        return
+    still = {rate(q, n): ZERO for q in matter.coordinates for n in (1, 2)}
+    moving = place.coordinates
+    for p, q in ((p, q) for i, p in enumerate(moving) for q in moving[:i]):
+        turned = diff(matter.momentum_along(p), q) - diff(matter.momentum_along(q), p)
+        turned += diff(matter.force_along(p), rate(q)) - diff(matter.force_along(q), rate(p))
+        if not is_zero(turned.xreplace(still).subs(dict(place.values), simultaneous=True)):
+            message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
+            message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
+            help_line = "the equations of motion to first order tell, `linearised(motion, at=...)`"
+            raise Rejected(Complaint("not-decided", message, help=help_line))

@@ -82,6 +82,9 @@ def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
         held = next(s for s in together.displacements if any(each.value.left.has(s.rate) for each in linear))
         message = f"`normal_modes` needs equations without rates, but there is a term with the rate of {held.symbol}"
         raise Rejected(Complaint("wrong-argument", message))
+    if any(force != 0 for force in together.driven):
+        message = "`normal_modes` needs equations that nothing drives, but there is a force that depends on the time"
+        raise Rejected(Complaint("wrong-argument", message))
     if together.stiffness != together.stiffness.T or together.mass != together.mass.T:
         raise Rejected(Complaint("wrong-argument", "`normal_modes` needs forces that have a potential energy"))
     for matrix, role in ((together.mass, "mass"), (together.stiffness, "stiffness")):

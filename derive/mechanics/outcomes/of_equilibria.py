@@ -162,7 +162,18 @@ def _depends(border: str | None) -> Predicate:
     return is_so
 
 
+def _is_what_the_lagrangian_has(facts: Judged) -> bool:
+    """Whether nothing of it comes from elsewhere: V + L is of the rates alone, and vanishes with them."""
+    moving = facts.inputs["moving"]
+    whole = explicit(facts.result + facts.inputs["lagrangian"])
+    return is_zero(whole.subs(dict.fromkeys(moving, 0)))
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
+    "equilibria.potential_at_rest": {
+        "generic": _is_what_the_lagrangian_has,
+        "pushed": lambda facts: not _is_what_the_lagrangian_has(facts),
+    },
     "equilibria.condition": {
         "generic": lambda facts: lasts(_residual(facts)),
         "zero": lambda f: vanishes(_residual(f)),

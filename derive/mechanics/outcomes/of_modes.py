@@ -131,8 +131,25 @@ def _displaced(facts: Judged) -> bool:
     return any(not is_zero(value) for value in facts.inputs["place"])
 
 
+def _linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
+    """At rest or elsewhere, with a drag or without, by what the equation itself holds."""
+
+    def is_so(facts: Judged) -> bool:
+        found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
+        return found[0] == displaced and found[2] == driven and lossy in (None, found[1])
+
+    return is_so
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "linearised.equation": {"generic": lambda facts: not _displaced(facts), "displaced": _displaced},
+    "linearised.equation": {
+        "generic": _linear(displaced=False, lossy=False, driven=False),
+        "displaced": _linear(displaced=True, lossy=False, driven=False),
+        "damped": _linear(displaced=False, lossy=True, driven=False),
+        "displaced_damped": _linear(displaced=True, lossy=True, driven=False),
+        "driven": _linear(displaced=False, lossy=None, driven=True),
+        "displaced_driven": _linear(displaced=True, lossy=None, driven=True),
+    },
     "modes.characteristic": {"one": _degree(1), "several": _degree(None)},
     "modes.frequency": {
         f"{word}{suffix}": _frequency(sign, repeated)

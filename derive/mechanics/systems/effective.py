@@ -86,6 +86,16 @@ class ReducedMatter(Matter):
         return bound(bound(explicit(value), accelerations), dict(self.rates))
 
 
+@dataclass(frozen=True)
+class SeenWith(Fact):
+    """What sees an effective potential energy: the Lagrangian, the constant momenta, and the matter that has these."""
+
+    missing = "is not an effective potential energy"
+    lagrangian: Quantity
+    constants: tuple[Quantity, ...]
+    matter: Matter
+
+
 def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, key: str | None = None) -> Quantity:
     """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; it is known by its letter from then on.
 
@@ -95,7 +105,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
     Second route: the sum of m v . dr/dq over the mass points; and its rate by functions of time is the sum of
     (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
-    Errors: L contains q, or does not depend on its rate.
+    Errors: L contains q, or does not depend on its rate; a force without a potential energy acts along q.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     required(of.coordinates, q, "conserved", of)
@@ -108,6 +118,9 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
         raise Rejected(Complaint("not-cyclic", message))
     letter = letter_of_momentum(q) if value is None else scalar(value) if isinstance(value, str) else value
     matter = of.needed(Matter)
+    if _pushed(matter, q) != 0:
+        message = f"`conserved`: a force that is not in `{of.key}` acts along {q.symbol.name}"
+        raise Rejected(Complaint("not-cyclic", message))
     moving = list(of.coordinates)
 
     def by_virtual_work(found: Expr) -> tuple[Expr, Expr]:
@@ -130,6 +143,11 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
     )
 
 
+def _pushed(matter: Matter, q: Coordinate) -> Expr:
+    """What acts along a coordinate and is not in the Lagrangian."""
+    return tidied(explicit(matter.force_along(q.symbol) - matter.stored_force_along(q.symbol)))
+
+
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
     """The coordinates that are left."""
     found = coordinates_of(of)
@@ -141,6 +159,12 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
         if q not in found:
             raise Rejected(Complaint("wrong-argument", f"`{verb}`: {q.symbol.name} is given twice"))
         found.remove(q)
+    for q in found:
+        pushed = _pushed(of.needed(Matter), q)
+        at_rest = pushed.xreplace({rate(s): ZERO for s in of.coordinates})
+        if (pushed if verb == "routhian" else at_rest) != 0:
+            message = f"`{verb}`: a force without a potential energy acts along {q.symbol.name}"
+            raise Rejected(Complaint("wrong-argument", message, help="its equation of motion has that force"))
     if not found:
         message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate is left"
         raise Rejected(Complaint("wrong-argument", message))
@@ -156,7 +180,8 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
     Second route: by mass points and forces: -dR/dp is the rate of the cyclic coordinate, dR/dq_dot and dR/dq of the
     others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot with the
     rates put in.
-    Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left.
+    Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left; a force without a potential
+    energy acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
     """
     if not constants:
@@ -229,7 +254,7 @@ def effective_potential(
     Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with the conserved momenta put in; and T_2 - T_0
     + U with the rates put in.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U).
-    Errors: L contains the time; no coordinate is left.
+    Errors: L contains the time; no coordinate is left; a force without a potential energy acts at rest.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
     if TIME in explicit(of.value).free_symbols:
@@ -274,7 +299,7 @@ def effective_potential(
         outcome="reduced" if constants else "driven" if _is_driven(of) else "unchanged",
         key=key,
         kind="energy",
-        facts=[FromLagrangian(of)],
+        facts=[FromLagrangian(of), SeenWith(of, tuple(constants), reduced)],
     )
 
 
