@@ -35,6 +35,7 @@ from derive.mechanics.equations.roots import *
 from derive.mechanics.equations.solving import *
 from derive.mechanics.equations.special_cases import *
 from derive.mechanics.equations.stability import *
+from derive.mechanics.equations.steady import *
 from derive.mechanics.equations.substitution import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *

@@ -1,17 +1,19 @@
 """The numbers behind the letters of a problem, for the few verbs that must know what the case is.
 
 A derivation stays symbolic; but whether a top spins fast enough is a question about numbers. While a script runs, the
-numbers that its problem gives are known here, and `sign_known` takes them where the letters alone do not decide.
+ranges of its letters and the numbers that its problem gives are known here, and `sign_known` takes them where the
+letters alone do not decide.
 """
 
 from __future__ import annotations
 
 from math import prod
 
-from sympy import Expr, Mul
+from sympy import Expr, Mul, Pow
 
 from derive.algebra.expressions import bound, explicit
 from derive.algebra.normal_form import vanishes
+from derive.algebra.ranges import sign_within
 from derive.algebra.tidy import tidied
 from derive.steps.record import current_run
 
@@ -25,7 +27,7 @@ def with_numbers(expr: Expr) -> Expr:
 
 
 def sign_known(expr: Expr) -> int | None:
-    """The sign of an expression, by its letters or else by their numbers: 1, -1, 0; None where neither decides it."""
+    """The sign of an expression, by its letters, their ranges or their numbers: 1, -1, 0; None if none decides."""
     factors = [_sign_of_factor(factor) for factor in Mul.make_args(tidied(expr))]
     if 0 in factors:
         return 0
@@ -39,6 +41,11 @@ def _sign_of_factor(factor: Expr) -> int | None:
         return 1
     if factor.is_negative:
         return -1
+    if isinstance(factor, Pow) and not factor.exp.is_Integer and factor.exp.is_real:
+        return 1 if sign_known(factor.base) == 1 else None
+    ranged = sign_within(factor)
+    if ranged is not None:
+        return ranged
     value = with_numbers(factor)
     if value.free_symbols or not value.is_real:
         return None

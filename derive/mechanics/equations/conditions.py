@@ -73,7 +73,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         {"quantity": of, "bound": bound},
         lines=Lines(
             put_in=Level.STANDARD,
-            after=[Form(result, "solved", nonzero=_divided_out(difference, alone, solved))],
+            after=_in_steps(difference, result),
             result=False,
             arranged=lambda _: result,
         ),
@@ -212,6 +212,16 @@ def _divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...
     factor = tidied(difference / (alone - solved))
     sign = sign_known(factor)
     return (factor,) if sign == 1 else (-factor,) if sign == -1 else ()
+
+
+def _in_steps(difference: Expr, result: Relation) -> list[Form]:
+    """Solved at once; or for the square of a positive letter, and then for the letter."""
+    alone, solved = result.sides
+    divided = _divided_out(difference, alone, solved)
+    squares = Relation(alone**2, result.mark, tidied(solved**2))
+    if divided or not (alone.is_positive and solved.is_positive):
+        return [Form(result, "solved", nonzero=divided)]
+    return [Form(squares, "solved", nonzero=_divided_out(difference, *squares.sides)), Form(result, "solved")]
 
 
 def _unsolvable(of: Quantity, unknown: Expr) -> Rejected:

@@ -6,9 +6,11 @@ from sympy import Abs, Dummy, Expr, Integer, Mul, Symbol, nan, sqrt
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.ranges import sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import assumed
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["boundary_case", "positive_where"]
@@ -162,9 +164,21 @@ def sign_by_factors(value: Expr) -> int | None:
         base, power = factor.as_base_exp()
         forms = (factor, factor.expand()) if not power.is_Integer else (base**power, base.expand() ** power)
         if not any(form.is_positive or form.is_negative for form in forms):
+            ranged = sign_within(factor)
+            if ranged is not None:
+                found *= ranged
+                continue
+            if _is_square_that_lasts(base, power):
+                continue
             return None
         found *= -1 if any(form.is_negative for form in forms) else 1
     return found
+
+
+def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
+    """An even power of a real letter that stands below a fraction, or is assumed not to vanish."""
+    lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
+    return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
 
 def boundary_case(condition: Quantity) -> Relation | None:

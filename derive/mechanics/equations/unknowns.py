@@ -21,7 +21,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.known_numbers import sign_known
-from derive.steps.record import coordinate_named
+from derive.steps.record import assume, coordinate_named
 from derive.steps.step import Quantity
 
 __all__ = ["unknown"]
@@ -131,11 +131,22 @@ def polynomial_in(verb: str, equation: Quantity, unknowns: Sequence[Expr]) -> tu
     left = residual_of(verb, equation)
     marks = [mark_for(unknown) for unknown in unknowns]
     for unknown, mark in zip(unknowns, marks, strict=True):
-        left = with_unknown(left, unknown, mark)
+        left = _without_factors_of_its_letter(with_unknown(left, unknown, mark), unknown, mark)
         if left_over(left, unknown):
             message = f"`{verb}`: `{equation.key}` contains {letter_of(unknown).name} otherwise than in {unknown}"
             raise Rejected(Complaint("wrong-argument", message))
     return left, marks
+
+
+def _without_factors_of_its_letter(left: Expr, unknown: Expr, mark: Dummy) -> Expr:
+    """Of sin(theta)(a cos(theta) - b) the bracket, for the unknown cos(theta): where sin(theta) does not vanish."""
+    factors = Mul.make_args(left)
+    beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
+    rest = Mul(*(f for f in factors if f not in beside))
+    if not beside or not rest.has(mark):
+        return left
+    assume(Relation(Mul(*beside), "!=", Integer(0)))
+    return rest
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:

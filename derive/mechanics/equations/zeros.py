@@ -37,6 +37,7 @@ from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
 from derive.algebra.tidy import tidied
 from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.steps.record import assume
 
 HIGHEST = 6  # power of a coordinate
 ONE = Integer(1)
@@ -289,7 +290,20 @@ def _allowed(value: Expr, q: Symbol) -> list[Zero]:
     if not q.is_positive:
         return [Zero(value)]
     sign = sign_by_factors(value)
+    if sign is None and _is_square_of_letters(value):
+        return [Zero(value)]
     return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]
+
+
+def _is_square_of_letters(value: Expr) -> bool:
+    """Whether it is positive once some letters do not vanish, which is then assumed: l^2 of a momentum."""
+    above, below = value.as_numer_denom()
+    squares = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
+    if not below.is_positive or not all(b.is_Symbol and b.is_real and n.is_even for b, n in squares):
+        return False
+    for base, _ in squares:
+        assume(Relation(base, "!=", Integer(0)))
+    return True
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:

@@ -13,5 +13,6 @@ from derive.mechanics.outcomes import of_modes as of_modes
 from derive.mechanics.outcomes import of_motion as of_motion
 from derive.mechanics.outcomes import of_rotation as of_rotation
 from derive.mechanics.outcomes import of_shapes as of_shapes
+from derive.mechanics.outcomes import of_steady as of_steady
 from derive.mechanics.outcomes import of_systems as of_systems
 from derive.mechanics.outcomes import of_wobble as of_wobble

@@ -1,0 +1,369 @@
+"""Steady motions: the cyclic coordinates turn at constant rates while the others do not move; and what small
+oscillations there are about them, the momenta of the cyclic coordinates held constant.
+
+Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.6 and 5.7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, expand, factor, sin, sqrt
+from sympy.simplify.fu import TR5, TR6
+
+from derive.algebra.amplitudes import determinant_of
+from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, bound, explicit, rate, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.equilibria import RestOf, matter_behind
+from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.linearised import Rest
+from derive.mechanics.equations.oscillations import SquareOf
+from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.zeros import sign_where
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.systems.dalembert import Load, Matter
+from derive.mechanics.systems.effective import ReducedMatter, SeenWith
+from derive.mechanics.systems.forced import ActedOn
+from derive.mechanics.systems.lagrangian import coordinates_of
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import sign_known
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Quantity, compared_with, is_zero, require_kind
+
+__all__ = ["frequency_squared_about", "steady_motion"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Steady(Fact):
+    """A steady motion: the values of what does not move, the rates of what turns, and what they must fulfil."""
+
+    missing = "is not the condition of a steady motion, as `steady_motion` yields it"
+    lagrangian: Quantity
+    values: Mapping[Symbol, Expr]
+    rates: Mapping[Symbol, Expr]
+    conditions: tuple[Expr, ...]
+
+
+def steady_motion(
+    of: Quantity,
+    rates: Mapping[Any, Any] | None = None,
+    at: Mapping[Any, Any] | None = None,
+    key: str = "steady_motion",
+) -> Quantity | tuple[Quantity, ...]:
+    """Condition of a steady motion, dL/dq = 0 with q_dot = 0 for each coordinate that is not cyclic, the cyclic ones
+    turning at constant rates; one for each coordinate that is not cyclic.
+
+    of      the Lagrangian, J, which does not contain the time
+    rates   of the cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its own letter
+    at      where the others stay, `{theta: alpha}`; one that is not given keeps its own letter
+    key     what the keys begin with; with the name of the coordinate where there are several
+    Second route: the mass points carried along by this very motion, their accelerations as functions of the time:
+    sum of (m a - F) . dr/dq = 0.
+    Outcomes: generic, always (it holds whatever the rates are).
+    Errors: L contains the time, has no cyclic coordinate or no other; a force without a potential energy acts; a rate
+    is given of a coordinate that is not cyclic; it can never hold.
+    Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
+    """
+    require_kind("steady_motion", "of", of, "energy")
+    L = explicit(of.value)
+    if L.has(TIME) or of.fact(ActedOn) is not None:
+        why = "holds the time itself" if L.has(TIME) else "has forces beside it that have no potential energy"
+        raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {why}"))
+    every = coordinates_of(of)
+    turning = [q for q in every if not L.has(q.symbol)]
+    still = [q for q in every if L.has(q.symbol)]
+    if not turning or not still:
+        missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so nothing turns steadily"
+        raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
+    given_rates, values = _given("rate", rates, turning, turning), _given("value", at, still, turning)
+    steady_rates = {q.symbol: given_rates.get(q.symbol, q.rate) for q in turning}
+    places = {q.symbol: values.get(q.symbol, q.symbol) for q in still}
+    motion = {letter: ZERO for q in every for letter in (q.rate, q.acceleration)}
+    motion |= {rate(q): value for q, value in steady_rates.items()} | values
+    conditions = tuple(lecture_form(bound(diff(L, q.symbol), motion)) for q in still)
+    steady = Steady(of, places, steady_rates, conditions)
+    single = len(still) == 1
+    found = tuple(_condition(steady, q, motion, key if single else f"{key}_{q.symbol.name}") for q in still)
+    return found[0] if single else found
+
+
+def _given(
+    role: str, given: Mapping[Any, Any] | None, allowed: Sequence[Coordinate], turning: Sequence[Coordinate]
+) -> dict[Symbol, Expr]:
+    """What is given for each coordinate, all of it constant."""
+    known = {q.symbol for q in allowed}
+    found: dict[Symbol, Expr] = {}
+    for q, value in (given or {}).items():
+        letter = q.symbol if isinstance(q, Coordinate) else q
+        if letter not in known:
+            wrong = "not cyclic" if role == "rate" else "cyclic, or no coordinate of it"
+            message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
+            raise Rejected(Complaint("wrong-argument", message))
+        number = value.value if isinstance(value, Quantity) else ZERO + value
+        turns = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this very motion
+        require_constant("steady_motion", role, number.xreplace({s: Dummy(s.name, real=True) for s in turns}))
+        found[letter] = number
+    return found
+
+
+def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str) -> Quantity:
+    """The condition that belongs to one coordinate.
+
+    Outcomes: generic, always.
+    Source: that of `steady_motion`.
+    """
+    of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
+    slope = bound(diff(explicit(of.value), q.symbol), motion)
+    core = _without_positive(_rates_first(lecture_form(-slope), steady))
+    if core.is_nonzero:
+        raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
+    told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
+    told |= {f"turns_{n}": (rate(s), v) for n, (s, v) in enumerate(steady.rates.items(), 1) if rate(s) != v}
+    return establish(
+        "steady.motion",
+        None,
+        lambda L: Relation(Partial(L, q.symbol), "=", 0),
+        {"lagrangian": of},
+        lines=Lines(put_in=None, motion=motion, arranged=lambda _: Relation(core, "=", 0)),
+        routes={"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))},
+        outcome="always" if core == 0 else "generic",
+        telling=Telling(
+            formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
+            judged_by={"coordinate": q.symbol},
+        ),
+        key=key,
+        facts=[steady, OfCoordinate(q)],
+    )
+
+
+def _rates_first(value: Expr, steady: Steady) -> Expr:
+    """With a plus sign before the highest power of a rate."""
+    for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
+        for each in Mul.make_args(value):
+            polynomial = each.as_poly(letter)
+            if each.is_Add and polynomial is not None and polynomial.degree() > 1:
+                return lecture_form(-value) if polynomial.LC().could_extract_minus_sign() else value
+    return value
+
+
+def _without_positive(value: Expr) -> Expr:
+    return Mul(*(f for f in Mul.make_args(value) if not f.is_positive and not (f.is_Rational and f.is_nonzero)))
+
+
+def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
+    """What is left of d'Alembert's principle for mass points whose places are those of this motion at each time."""
+    motion: dict[Symbol, Expr] = {**steady.values}
+    motion |= {s: s + v * TIME for s, v in steady.rates.items()}
+    rates = {rate(s): steady.rates.get(s, ZERO) for s in matter.coordinates}
+    left: Expr = ZERO
+    for point in matter.points:
+        for c in (explicit(x) for x in point.place):
+            way = diff(c, q).subs(motion, simultaneous=True)
+            left += point.mass * diff(c.subs(motion, simultaneous=True), TIME, 2) * way
+    works = (load.work_along(q) for load in (*matter.loads, *matter.others) if isinstance(load, Load))
+    return left - explicit(Add(*works)).xreplace(rates).subs(motion, simultaneous=True)
+
+
+# --- small oscillations about it --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class About:
+    """A potential energy of one coordinate, what sees it, where, and what holds there besides.
+
+    rates     of the cyclic coordinates there
+    momenta   what the letters of their momenta are there, where these are not given themselves
+    letter    one that the condition of the steady motion determines, and its value
+    """
+
+    potential: Quantity
+    matter: Matter
+    q: Symbol
+    place: Expr
+    rates: Mapping[Symbol, Expr]
+    momenta: Mapping[Symbol, Expr]
+    letter: Mapping[Symbol, Expr]
+
+    def there(self, value: Expr) -> Expr:
+        """The value at that place, where nothing but the cyclic coordinates moves."""
+        still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
+        return bound(explicit(value), still).subs(self.q, self.place)
+
+    def known(self, value: Expr) -> Expr:
+        """With the momenta that belong to the rates, and by the condition without one letter."""
+        return bound(bound(value, self.momenta), self.letter)
+
+
+def frequency_squared_about(
+    of: Quantity, at: Quantity, without: Expr | None = None, symbol: str = "omega_0", key: str = "frequency_squared"
+) -> Quantity:
+    """Square of the frequency of small oscillations, omega_0^2 = U''(q_0)/mu(q_0), of one coordinate with the kinetic
+    energy (1/2) mu(q) q_dot^2: about rest, or about a steady motion, U then being the effective potential energy.
+
+    of        a potential energy, an effective one, or a Lagrangian, J
+    at        a state of rest of it, as `equilibria` yields it; or of an effective potential energy the condition of a
+    steady motion of the same Lagrangian, as `steady_motion` yields it
+    without   the letter that the condition of the steady motion takes out; the shortest result unless given
+    The momenta of the cyclic coordinates stay what they are in the steady motion.
+    Second route: d'Alembert's principle for all coordinates, the cyclic ones free, to first order in the displacements:
+    its determinant vanishes for oscillations of this frequency.
+    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
+    Errors: several coordinates are left; the condition is that of another Lagrangian, or does not take out the letter.
+    Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
+    """
+    about = _about_steady(of, at, without) if at.fact(Steady) is not None else _about_rest(of, at)
+    q, energy = about.q, explicit(about.potential.value)
+    mass = tidied(about.there(diff(about.matter.momentum_along(q), rate(q))))
+    curvature = about.there(diff(energy, q, 2))
+    if is_zero(mass):
+        raise Rejected(Complaint("wrong-argument", f"nothing has a mass along {q.name} there, so nothing oscillates"))
+    result = _of_plain_sign(lecture_form(about.known(curvature / mass)))
+    exists = at.needed(Rest).exists if at.fact(Rest) is not None else None
+    told = {
+        **{f"momentum_{n}": (p, value) for n, (p, value) in enumerate(about.momenta.items(), 1)},
+        **dict(zip(("taken_out",), about.letter.items(), strict=False)),
+    }
+    return establish(
+        "steady.frequency_squared",
+        scalar(symbol) ** 2,
+        lambda U, *_: Ratio(At(Slope(U, q, Integer(2)), q, about.place), mass),
+        {"potential": about.potential, "at": at},
+        lines=Lines(
+            put_in=None,
+            arranged=lambda _: result,
+            motion={**about.letter, **{p: about.known(value) for p, value in about.momenta.items()}},
+            means={scalar(symbol): sqrt(curvature / mass)},
+        ),
+        routes={"all_coordinates": lambda found: (about.known(_determinant(about, found)), ZERO)},
+        outcome=_sort(result, exists),
+        key=key,
+        kind="squared angular speed",
+        telling=Telling(
+            formulas={
+                **{role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
+                **({"exists": (exists, exists)} if exists is not None else {}),
+            },
+            points_to={"where": at},
+        ),
+        facts=[SquareOf(symbol)],
+    )
+
+
+def _of_plain_sign(value: Expr) -> Expr:
+    """Each factor with sines or with cosines, as its sign is shown: 1 + 3 cos^2, not 4 - 3 sin^2."""
+
+    def shown(part: Expr) -> Expr:
+        base, power = part.as_base_exp()
+        forms = [base, *(way(base).expand() for way in (TR5, TR6))] if base.has(sin, cos) else [base]
+        return min(forms, key=lambda f: (sign_by_factors(f) is None, int(f.count_ops()), str(f))) ** power
+
+    forms = [Mul(*map(shown, Mul.make_args(form))) for form in (value, factor(value))]
+    return min(forms, key=lambda f: (sign_known(f) is None, int(f.count_ops()), str(f)))
+
+
+def _sort(value: Expr, exists: Relation | None) -> str:
+    sign = sign_known(value)
+    sign = sign_where(value, exists) if sign is None else sign
+    return "conditional" if sign is None else ("neutral", "stable", "unstable")[sign]
+
+
+def _about_rest(of: Quantity, at: Quantity) -> About:
+    potential = at.needed(RestOf).potential
+    if not (of.step == potential.step or potential.rests_on(of)):
+        raise Rejected(Complaint("different-subjects", f"`{at.key}` is no state of rest of `{of.key}`"))
+    matter = _matter(potential)
+    q = _only(potential)
+    place = at.needed(Rest).values[q]
+    rates = dict(matter.rates) if isinstance(matter, ReducedMatter) else {}
+    about = About(potential, matter, q, place, {}, {}, {})
+    return About(potential, matter, q, place, {s: about.there(v) for s, v in rates.items()}, {}, {})
+
+
+def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
+    steady, seen = at.needed(Steady), of.needed(SeenWith)
+    if seen.lagrangian.step != steady.lagrangian.step:
+        message = f"`{at.key}` and `{of.key}` belong to different Lagrangians"
+        raise Rejected(Complaint("different-subjects", message))
+    q, matter = _only(of), seen.matter
+    if {c.needed(OfCoordinate).coordinate.symbol for c in seen.constants} != set(steady.rates):
+        message = f"`{of.key}` does not have all cyclic coordinates put aside"
+        raise Rejected(Complaint("wrong-argument", message))
+    place = steady.values[q]
+    about = About(of, matter, q, place, steady.rates, {}, {})
+    going = {rate(s): v for s, v in steady.rates.items()}
+    momenta = {c.symbol: lecture_form(about.there(bound(explicit(c.value), going))) for c in seen.constants}
+    whole = About(of, matter, q, place, steady.rates, momenta, {})
+    mass = about.there(diff(matter.momentum_along(q), rate(q)))
+    value = whole.known(about.there(diff(explicit(of.value), q, 2)) / mass)
+    letter = _taken_out(steady.conditions[0], value, without, at)
+    return About(of, matter, q, place, steady.rates, momenta, letter)
+
+
+def _matter(potential: Quantity) -> Matter:
+    found = matter_behind(potential)
+    return found if found is not None and found.coordinates else potential.needed(Matter)
+
+
+def _only(potential: Quantity) -> Symbol:
+    left = _matter(potential).coordinates
+    if len(left) != 1:
+        names = ", ".join(q.name for q in left)
+        message = f"`frequency_squared_about` needs one coordinate that is left, but `{potential.key}` has {names}"
+        raise Rejected(Complaint("wrong-argument", message, help="`normal_modes` has the frequencies of several"))
+    return left[0]
+
+
+def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity) -> dict[Symbol, Expr]:
+    """The letter that makes the result shortest once the condition has taken it out; none where it holds by itself."""
+    if is_zero(condition):
+        return {}
+    letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
+    ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := _alone(condition, s)) is not None]
+    if not ways:
+        message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
+        raise Rejected(Complaint("wrong-argument", message))
+    return min(ways, key=lambda way: (int(lecture_form(bound(value, way)).count_ops()), str(way)))
+
+
+def _alone(condition: Expr, s: Symbol) -> Expr | None:
+    """The letter by the condition, in which it stands in the first degree, or in the second alone."""
+    polynomial = condition.as_numer_denom()[0].as_poly(s)
+    powers = [n for (n,) in polynomial.monoms()] if polynomial is not None else []
+    if powers == [1, 0]:
+        a, b = polynomial.all_coeffs()
+        return tidied(-b / a)
+    if powers == [2, 0] and s.is_positive:
+        a, _, b = polynomial.all_coeffs()
+        return sqrt(tidied(-b / a))
+    return None
+
+
+def _determinant(about: About, found: Expr) -> Expr:
+    """Of what first order leaves of d'Alembert's principle, where every displacement grows as e^(s t), s^2 = -omega^2.
+
+    The cyclic coordinates have the factor s in each entry, which is taken out of their rows and columns.
+    """
+    matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
+    moving = [about.q, *about.rates]
+    s = Dummy("s")
+    still = {rate(q, n): ZERO for q in moving for n in (1, 2)} | {rate(q): v for q, v in about.rates.items()}
+
+    def entry(i: int, j: int) -> Expr:
+        left = explicit(matter.inertia_along(moving[int(i)]) - matter.force_along(moving[int(i)]))
+        other = moving[int(j)]
+        slopes = [diff(left, rate(other, n) if n else other) for n in range(3)]
+        at_place = [slope.xreplace(still).subs(about.q, about.place) for slope in slopes]
+        if j:  # a cyclic coordinate stands there by its rates alone: counted by its rate
+            return at_place[1] + s * at_place[2]
+        return at_place[0] + s * at_place[1] + s**2 * at_place[2]
+
+    matrix = ImmutableDenseMatrix(len(moving), len(moving), entry)
+    polynomial = expand(determinant_of(matrix)).as_poly(s)
+    lowest = min(n for (n,) in polynomial.monoms())
+    powers = [(n - lowest, c) for (n,), c in polynomial.terms()]
+    return Add(*(c * (s**n if n % 2 else (-found) ** (n // 2)) for n, c in powers))
