@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
-from sympy import Add, Expr, Mul, Rational, Symbol, cos, factor, sin
+from sympy import Add, Expr, Integer, Mul, Rational, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
 
+from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
 from derive.algebra.expressions import rate
 from derive.algebra.tidy import tidied
 
@@ -20,20 +22,28 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     """The terms gathered by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
     orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
     present = [s for s in orders if value.has(s)]
-    value = value.expand()
-    if value == 0 or not present:
-        return tidied(value)
     try:
-        gathered = value.as_poly(*present)
+        gathered = _gathered(value, present) if present else []
     except PolynomialError:
-        return tidied(value)
-    if gathered is None:
-        return tidied(value)
+        gathered = []
+    if not gathered:
+        return tidied(value.expand())
     parts: list[Expr] = []
-    for powers, c in gathered.terms():
+    for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
         parts += Add.make_args(part) if not any(powers) else [part]  # terms without rates stand side by side
     return Add(*parts, evaluate=len(parts) < 2)
+
+
+def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
+    """Products of powers of the letters, the highest first, with what multiplies them; none if it is no polynomial."""
+    try:
+        return coefficients(value, letters)
+    except Outside:
+        polynomial = value.expand().as_poly(*letters)
+        if polynomial is None:
+            return []
+        return [(n, Coefficient(partial(Add, c), len(Add.make_args(c.expand())))) for n, c in polynomial.terms()]
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
@@ -57,14 +67,30 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
     return Add(*parts)
 
 
-def _with_its_rates(coefficient: Expr, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
+def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
     """(1/2)(I + M R^2/4) q_dot^2: half of a mass stands before its squared rate, and no denominator before a sum."""
-    if halves and any(n == 2 for _, n in rates) and coefficient.expand().is_Add:
-        inside, whole = spread(2 * coefficient), _shorter_as_product(tidied(coefficient))
+    powers = [s**n for s, n in rates]
+    if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
+        inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
         if _has_fractions_inside(inside) or int(inside.count_ops()) > int(whole.count_ops()):  # (3/4) m (R - a)^2
-            return Mul(whole, *(s**n for s, n in rates))
-        return Mul(Rational(1, 2), inside, *(s**n for s, n in rates), evaluate=False)
-    return Mul(_shorter_as_product(spread(coefficient)), *(s**n for s, n in rates))
+            return Mul(whole, *powers)
+        return Mul(Rational(1, 2), inside, *powers, evaluate=False)
+    found = _tidied(coefficient, Integer(1))
+    spread_out = _spread(found.value)
+    return Mul(_shortest(Factored(spread_out, found.is_prime and spread_out == found.value)), *powers)
+
+
+def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
+    """What has no angles, and one function of the angles, each for itself if the second is no sum."""
+    if coefficient.written:
+        number, turning = tidied(coefficient.angles).as_coeff_Mul()
+        if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
+            return coefficient.written(times * number, turning)
+    return Factored(tidied(times * coefficient.whole()), False)
+
+
+def _shortest(found: Factored) -> Expr:
+    return found.value if found.is_prime else _shorter_as_product(found.value)
 
 
 def _has_fractions_inside(value: Expr) -> bool:
@@ -80,7 +106,10 @@ def _shorter_as_product(value: Expr) -> Expr:
 
 def spread(value: Expr) -> Expr:
     """I + M a^2/4, not (4 I + M a^2)/4: a number below a sum is put into it where that makes a term simpler."""
-    value = tidied(value)
+    return _spread(tidied(value))
+
+
+def _spread(value: Expr) -> Expr:
     number, letters = value.as_coeff_Mul()
     sums = [f for f in Mul.make_args(letters) if f.is_Add]
     if number.q == 1 or len(sums) != 1:

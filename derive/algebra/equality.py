@@ -6,7 +6,8 @@
     definition      nothing to compare: the line says what a symbol means
     approximation   a rounded value or a series, itself checked
 
-Points come first: they are cheap and refute at once. A sample never counts as a proof.
+What is a polynomial in letters, sines and cosines is decided at once. Else points come first: they are cheap and refute
+at once. A sample never counts as a proof.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5
 
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.normal_form import vanishes
+from derive.algebra.normal_form import is_identity, vanishes
 from derive.algebra.ranges import settled
 from derive.algebra.samples import (
     DIGITS,
@@ -146,6 +147,8 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
     if not (isinstance(left, Expr) and isinstance(right, Expr) and left.is_commutative and right.is_commutative):
         return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is no number")
     left, right = _stripped(left, right)
+    if is_identity(left, right):
+        return Verdict(Grade.PROVED, "polynomial normal form")
     for sample in _samples(left, right, FIRST):
         if not sample.agree:
             return _refutation(sample)
@@ -214,13 +217,13 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         if left.mark != right.mark:
             return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
         return _equal_scalars(left.residual, right.residual)
-    if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
-        return Verdict(Grade.PROVED, "both sides squared, neither negative")
     for sign in (1, -1):
         if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
             if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
                 return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
             return Verdict(Grade.PROVED, "polynomial normal form")
+    if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
+        return Verdict(Grade.PROVED, "both sides squared, neither negative")
     whole = factor = _ratio(left.residual, right.residual)
     for known in nonzero:
         factor = _without_factor(factor, known)

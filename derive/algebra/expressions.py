@@ -33,6 +33,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.amounts import Amount as Amount
 from derive.algebra.amounts import MatrixAmount as MatrixAmount
+from derive.algebra.derivatives import derivative
 from derive.algebra.dimensions import Dimension, power, product, quotient
 from derive.algebra.kinds import common, dimension_of_kind
 from derive.algebra.mass_integral import MassIntegral as MassIntegral
@@ -306,7 +307,7 @@ class Partial(ScalarNode):
 
     def doit(self, **hints: Any) -> Expr:
         f, variable = self.args
-        return diff(explicit(f), variable)
+        return derivative(explicit(f), variable)
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
         return quotient(*(of(arg) for arg in self.args))
@@ -327,8 +328,9 @@ class TimeRate(ScalarNode):
         f, *coordinates = self.args
         value = explicit(f)
         moving = [rate(q, n) if n else q for q in coordinates for n in range(3)]
-        along = [diff(value, s) * rate(s) for s in moving if s in value.free_symbols]
-        return Add(*along, diff(value, TIME))
+        present = value.free_symbols
+        along = [derivative(value, s) * rate(s) for s in moving if s in present]
+        return Add(*along, derivative(value, TIME))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
         return quotient(of(self.args[0]), DURATION)

@@ -42,6 +42,7 @@ from sympy.core.function import AppliedUndef
 from sympy.polys.polyerrors import PolynomialError
 from sympy.polys.rings import sring
 
+from derive.algebra import trig_polynomials
 from derive.algebra.expressions import PLUS_MINUS, explicit
 from derive.algebra.ranges import settled
 from derive.algebra.samples import is_zero_everywhere
@@ -57,8 +58,24 @@ def vanishes(expr: Expr) -> bool:
     expr = settled(explicit(expr))
     if expr == 0:
         return True
-    if not isinstance(expr, Expr) or expr.has(nan, zoo, oo, -oo) or _is_too_large(expr):
+    if not isinstance(expr, Expr) or expr.has(nan, zoo, oo, -oo):
         return False
+    try:
+        return trig_polynomials.is_zero(expr)
+    except trig_polynomials.Outside:
+        return not _is_too_large(expr) and _vanishes_by_relations(expr)
+
+
+def is_identity(left: Expr, right: Expr) -> bool:
+    """Whether two expressions are one polynomial in letters, sines and cosines; False means "not shown"."""
+    try:
+        return trig_polynomials.are_equal(left, right)
+    except trig_polynomials.Outside:
+        return False
+
+
+def _vanishes_by_relations(expr: Expr) -> bool:
+    """The same for all that is not a polynomial in letters, sines and cosines."""
     if expr.is_rational_function() and expr.expand() == 0:
         return True
     try:

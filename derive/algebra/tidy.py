@@ -19,6 +19,7 @@ from sympy import (
     Mul,
     Pow,
     Rational,
+    Symbol,
     cancel,
     cos,
     expand,
@@ -34,6 +35,7 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6, TR10i
 
+from derive.algebra.coefficients import Outside, in_front, is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
@@ -59,6 +61,8 @@ def _signs_squared(value: Any) -> Any:
 def _tidied_scalar(value: Expr) -> Expr:
     if value.is_Atom or value.is_number and not value.has(Pow):
         return value
+    if (sum_of_angles := _by_addition_theorem(value)) is not None:
+        return sum_of_angles
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):
@@ -69,11 +73,49 @@ def _tidied_scalar(value: Expr) -> Expr:
     return min((_as_one_fraction(form) for form in (value, *_by_one_square(value), *_by_one_angle(value))), key=_length)
 
 
+def _by_addition_theorem(value: Expr) -> Expr | None:
+    """cos(a -+ b) of cos a cos b +- sin a sin b, and sin(a +- b) of sin a cos b +- cos a sin b; nothing is shorter."""
+    terms = [_two_turning(term) for term in value.args] if value.is_Add and len(value.args) == 2 else []
+    found = [term for term in terms if term is not None]
+    if len(found) != 2:
+        return None
+    (sign, first), (other, second) = sorted(found, key=lambda term: term[1].keys() != {cos})
+    alike = sign == other
+    if first.keys() == {cos} and second.keys() == {sin} and first[cos] == second[sin]:
+        a, b = sorted(first[cos], key=str)
+        return sign * cos(a - b if alike else a + b)
+    if first.keys() == second.keys() == {sin, cos} and first[sin] == second[cos] and first[cos] == second[sin]:
+        (a,), (b,) = first[sin], first[cos]
+        return sign * sin(a + b if alike else a - b)
+    return None
+
+
+def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
+    """A product of two sines or cosines of different letters: its sign, and the angles of each function."""
+    number, product = term.as_coeff_Mul()
+    if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
+        return None
+    found: dict[type, set[Symbol]] = {}
+    for function in product.args:
+        if not isinstance(function, sin | cos) or not function.args[0].is_Symbol:
+            return None
+        found.setdefault(type(function), set()).add(function.args[0])
+    return (int(number), found) if len(set().union(*found.values())) == 2 else None
+
+
 def _as_one_fraction(value: Expr) -> Expr:
     try:
-        return min((_in_front(cancel(value)), _in_front(value)), key=_length)
+        expanded = _in_front_expanded(value)
+        return expanded if is_multiplied_out(value) else min((expanded, _in_front(value)), key=_length)
     except PolynomialError:
         return _in_front(value)
+
+
+def _in_front_expanded(value: Expr) -> Expr:
+    try:
+        return in_front(value)
+    except Outside:
+        return _in_front(cancel(value))
 
 
 def _by_one_square(value: Expr) -> list[Expr]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from sympy import Expr, diff
 
 from derive.algebra.expressions import Slope, explicit
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -22,7 +23,7 @@ def _even_in(sign: int) -> Predicate:
 
 
 def _cyclic(facts: Judged) -> bool:
-    return is_zero(diff(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
+    return is_zero(slope(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
 
 
 def _not_cyclic(facts: Judged) -> bool:

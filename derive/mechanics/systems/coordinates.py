@@ -1,7 +1,7 @@
 """Generalized coordinates: what varies in a motion, its rates, and how anything that depends on it changes in time.
 
 A coordinate q is a plain name, and so are its rates q_dot and q_ddot: `TimeRate` differentiates by the chain rule. The
-second route makes q a function of t and leaves the differentiation to SymPy.
+second route makes q a function of t, by its Taylor series about the moment t.
 """
 
 from __future__ import annotations
@@ -10,11 +10,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Derivative, Expr, Function, MatrixBase, Symbol, diff
+from sympy import Derivative, Expr, Function, Integer, MatrixBase, Symbol, diff, factorial
 
 from derive.algebra.collect import by_rates
-from derive.algebra.expressions import TIME, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import RATES, TIME, TimeRate, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.taylor import NoSeries, taylor
 from derive.errors import Complaint, Rejected
 from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named
@@ -131,19 +132,34 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
 
 
 def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 1) -> Any:
-    """The n-th time derivative with every coordinate a function of t: the second route to what `TimeRate` yields."""
-    coordinates = list(coordinates)
-    value = changing(expr, coordinates)
-    for _ in range(order):
-        value = value.diff(T) if isinstance(value, MatrixBase) else diff(value, T)
-    return unchanging(value, coordinates)
+    """The n-th time derivative with every coordinate a function of t: the second route to what `TimeRate` yields.
+
+    By the Taylor series of the coordinates about the moment t, or, where a function has none here, by SymPy.
+    """
+    coordinates, expr = list(coordinates), explicit(expr)
+    if isinstance(expr, MatrixBase):
+        return expr.applyfunc(lambda entry: by_functions_of_time(entry, coordinates, order))
+    try:
+        return taylor(expr, _series_of(coordinates), order)[order] * factorial(order)
+    except NoSeries:
+        return unchanging(diff(changing(expr, coordinates), T, order), coordinates)
+
+
+def _series_of(coordinates: Iterable[Symbol]) -> dict[Symbol, tuple[Expr, ...]]:
+    """q + q_dot s + q_ddot s^2/2 + ... about the moment t, as far as the rates have names, and those of the rates."""
+    series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
+    for q in coordinates:
+        rates = [q, *(rate(q, n) for n in range(1, len(RATES)))]
+        for first in range(len(RATES) - 1):
+            series[rates[first]] = tuple(each / factorial(n) for n, each in enumerate(rates[first:]))
+    return series
 
 
 def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
 
     quantity   a scalar that depends on coordinates; its unit per second is that of the result
-    Second route: the coordinates as functions of t, differentiated by SymPy.
+    Second route: the coordinates as functions of t, each by its Taylor series.
     Outcomes: generic, zero.
     Errors: the quantity has no plain letter as its name.
     Source: Taylor, *Classical Mechanics*, section 7.1.

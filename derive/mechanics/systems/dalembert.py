@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from sympy import Expr, Integer, Rational, Symbol, cos, diff, sin
+from sympy import Expr, Integer, Rational, Symbol, cos, sin
 
 from derive.algebra.expressions import TIME, explicit
+from derive.algebra.taylor import slope
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.steps.step import Fact
 
@@ -123,7 +124,7 @@ def _dot(u: Vector, v: Vector) -> Expr:
 
 
 def _along(v: Vector, q: Symbol) -> Vector:
-    return tuple(diff(x, q) for x in v)
+    return tuple(slope(x, q) for x in v)
 
 
 def plane_body(mass: Expr, place: Sequence[Any], inertia: Expr, angle: Expr, coordinates: Sequence[Symbol]) -> Matter:

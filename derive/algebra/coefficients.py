@@ -1,0 +1,197 @@
+"""The coefficients of a sum by the powers of some of its letters, multiplied out without building its terms one by one.
+
+Functions stand as letters here: cos(a - b) is one, and what it has to do with cos a is another module's business.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import reduce
+from math import gcd
+from typing import NamedTuple
+
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, S, Symbol, cos, sin
+
+from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
+
+__all__ = ["Coefficient", "Outside", "coefficients", "in_front", "is_multiplied_out"]
+
+ONES = (1 << WIDTH) - 1
+PHASE = 2  # bits below those of the letters
+
+
+class Coefficient(NamedTuple):
+    """What multiplies a product of powers, and of how many terms it is the sum.
+
+    Where it is a product of what has no angles and what has nothing else: `angles`, and how the first is written with a
+    number and with what became of the angles, its common factors in front.
+    """
+
+    whole: Callable[[], Expr]
+    terms: int
+    written: Callable[[Rational, Expr], Factored] | None = None
+    angles: Expr = S.One
+
+
+class Factored(NamedTuple):
+    """A sum with the common factors of its terms in front, and whether it is known that no product is shorter."""
+
+    value: Expr
+    is_prime: bool
+
+
+def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
+    """The powers of the letters that occur together, the highest first, each with what multiplies them.
+
+    Raises `Outside` for what is no polynomial, or one that is too large.
+    """
+    ring = _Kept.ring = _Expanded() if _Kept.ring.is_full else _Kept.ring
+    form = ring.form(value)
+    places = [ring.place(letter) for letter in letters]
+    mask = sum(ONES << place for place in places)
+    gathered: dict[int, Terms] = {}
+    for monomial, coefficient in form.terms.items():
+        gathered.setdefault(monomial & mask, {})[monomial & ~mask] = coefficient
+    found = [
+        (tuple((powers >> place) & ONES for place in places), ring.coefficient(terms, form.below))
+        for powers, terms in gathered.items()
+    ]
+    return sorted(found, key=lambda entry: entry[0], reverse=True)
+
+
+def in_front(value: Expr) -> Expr:
+    """A polynomial multiplied out, with the common factors of its terms in front; raises `Outside` for what is none."""
+    ring = _Kept.ring = _Expanded() if _Kept.ring.is_full else _Kept.ring
+    form = ring.form(value)
+    return ring.factored(form.terms, Rational(1, form.below)).value if form.terms else S.Zero
+
+
+def is_multiplied_out(value: Expr) -> bool:
+    """Whether it is a sum of products of powers of letters and of functions."""
+    return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
+
+
+def _is_power(factor: Expr) -> bool:
+    base, power = factor.as_base_exp()
+    known = base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
+    return bool(known and power.is_Integer and power.is_positive or factor.is_Rational)
+
+
+class _Expanded(Ring):
+    """What is multiplied out: letters, and functions of what is multiplied out; nothing is divided by."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._names: dict[int, Expr] = {}
+        self._angles = 0  # the bits of all sines and cosines
+        self._built: dict[tuple[frozenset[tuple[int, int]], int], Expr] = {}
+
+    def place(self, letter: object) -> int:
+        place = super().place(letter)
+        if place not in self._names:
+            assert isinstance(letter, Expr)
+            self._names[place] = letter
+            self._angles |= ONES << place if isinstance(letter, sin | cos) else 0
+        return place
+
+    def function(self, expr: Expr) -> Form:
+        if not isinstance(expr, sin | cos):
+            raise Outside
+        angle = expr.args[0]
+        if angle.is_Symbol:
+            return self.letter(expr)
+        if not all(part.is_Symbol or part.is_Rational for term in Add.make_args(angle) for part in Mul.make_args(term)):
+            raise Outside
+        return self.letter(expr)
+
+    def coefficient(self, terms: Terms, below: int) -> Coefficient:
+        product = self._as_product(terms)
+        if product is None:
+            return Coefficient(lambda: self.expression(terms, below), len(terms))
+        rest, turning = product
+        return Coefficient(
+            lambda: self.expression(terms, below),
+            len(terms),
+            lambda number, turning: self.factored(rest, number / below, turning),
+            self.expression(turning, 1),
+        )
+
+    def _as_product(self, terms: Terms) -> tuple[Terms, Terms] | None:
+        """Where all parts without angles are multiplied by the same sum of sines and cosines."""
+        by_rest: dict[int, Terms] = {}
+        for monomial, coefficient in terms.items():
+            angles = monomial & self._angles
+            by_rest.setdefault(monomial - angles, {})[angles] = coefficient
+        first = next(iter(by_rest.values()))
+        lead = min(first)
+        content = gcd(*first.values()) * (1 if first[lead] > 0 else -1)
+        turning = {angles: coefficient // content for angles, coefficient in first.items()}
+        rest: Terms = {}
+        for monomial, part in by_rest.items():
+            times = part.get(lead, 0) // turning[lead]
+            if part != {angles: times * coefficient for angles, coefficient in turning.items()}:
+                return None
+            rest[monomial] = times
+        return rest, turning
+
+    def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
+        """The common factors of the terms in front, with a number and one factor more."""
+        lowest = reduce(_common, terms)
+        if number < 0:
+            terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
+        content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
+        whole, below = (number * content).as_numer_denom()
+        rest = {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}
+        inner = self.expression(rest, 1) * Mul(*self._powers(lowest), other)
+        if whole != 1:
+            inner = Mul(whole, inner, evaluate=False) if inner.is_Add else whole * inner
+        found = Mul(inner, Pow(below, -1))
+        is_prime = len(terms) == 1 or (below == 1 or found.is_Mul) and _is_linear_in_some_letter(rest)
+        return Factored(found, is_prime)
+
+    def expression(self, terms: Terms, below: int) -> Expr:
+        key = (frozenset(terms.items()), below)
+        found = self._built.get(key)
+        if found is None:
+            parts = (Mul(Rational(c, below), *self._powers(monomial)) for monomial, c in terms.items())
+            found = self._built[key] = Add(*parts)
+        return found
+
+    def _powers(self, monomial: int) -> Iterator[Expr]:
+        """The letters of a monomial, from the first: the places are whole numbers of `WIDTH` bits above the lowest."""
+        monomial >>= PHASE
+        place = PHASE
+        while monomial:
+            lowest = (monomial & -monomial).bit_length() - 1
+            skipped = lowest - lowest % WIDTH
+            monomial >>= skipped
+            place += skipped
+            yield self._names[place] ** Integer(monomial & ONES)
+            monomial >>= WIDTH
+            place += WIDTH
+
+
+def _common(one: int, other: int) -> int:
+    """The letters that two monomials share, in the lower of their powers."""
+    shared, place = 0, PHASE
+    while one >> place and other >> place:
+        shared += min((one >> place) & ONES, (other >> place) & ONES) << place
+        place += WIDTH
+    return shared
+
+
+def _is_linear_in_some_letter(terms: Terms) -> bool:
+    """Whether a letter stands in one term alone, in its first power: then only common factors divide the sum."""
+    place, every = PHASE, reduce(int.__or__, terms)
+    while every >> place:
+        powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]
+        if powers == [1]:
+            return True
+        place += WIDTH
+    return False
+
+
+class _Kept:
+    """The ring that goes from one sum to the next."""
+
+    ring = _Expanded()

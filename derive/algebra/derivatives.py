@@ -1,0 +1,48 @@
+"""Partial derivatives of sums, products, whole powers, sines and cosines, in the form that SymPy gives them."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, sin
+
+__all__ = ["derivative"]
+
+ZERO, ONE = Integer(0), Integer(1)
+
+
+@lru_cache(maxsize=4096)  # a force, a momentum and an equation of motion differentiate the same Lagrangian
+def derivative(expr: Expr, s: Symbol) -> Expr:
+    """The partial derivative by a letter."""
+    if not isinstance(expr, Expr) or not isinstance(s, Symbol):
+        return diff(expr, s)
+    return _derivative(expr, s)
+
+
+def _derivative(expr: Expr, s: Symbol) -> Expr:
+    if expr.is_Atom:
+        return ONE if expr == s else ZERO
+    if expr.is_Add:
+        return Add(*(_derivative(term, s) for term in expr.args))
+    if expr.is_Mul:
+        return Add(*_by_factors(expr, s))
+    if isinstance(expr, Pow) and expr.exp.is_Integer:
+        inner = _derivative(expr.base, s)
+        return expr * (inner * expr.exp / expr.base) if inner else ZERO
+    if isinstance(expr, sin | cos):
+        inner = _derivative(expr.args[0], s)
+        outer = cos(expr.args[0]) if isinstance(expr, sin) else -sin(expr.args[0])
+        return outer * inner if inner else ZERO
+    return diff(expr, s)
+
+
+def _by_factors(product: Mul, s: Symbol) -> list[Expr]:
+    terms = []
+    for i, factor in enumerate(product.args):
+        inner = _derivative(factor, s)
+        if inner:
+            changed = ONE
+            for other in (*product.args[:i], inner, *product.args[i + 1 :]):
+                changed = changed * other
+            terms.append(changed)
+    return terms

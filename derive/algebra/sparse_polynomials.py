@@ -1,0 +1,153 @@
+"""Sums of monomials in many letters, kept sparse: what is added and multiplied is whole numbers.
+
+The powers of all letters of a monomial stand side by side in one whole number, with their signs, so that monomials are
+multiplied by one addition. How much work a sum takes is counted, whatever is known of it already: an expression that
+takes too much is refused in every run alike.
+
+Source: Monagan, Pearce, *Sparse polynomial division using a heap*, J. Symb. Comp. 46 (2011), section 2 (packed
+monomials).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import lcm
+from typing import NamedTuple
+
+from sympy import Expr, Pow, Symbol
+
+from derive.algebra.expressions import PLUS_MINUS
+
+WIDTH = 24  # bits for the power of a letter, its sign included
+PARTS = 64  # into which a letter that stands for an angle may be divided
+FARTHEST = 2 ** (WIDTH - 2) // PARTS  # power that a letter may have
+HIGHEST = 60  # power of a sum, and multiple of an angle
+WORK = 200_000  # products of two terms that one expression may take
+LETTERS = 300  # and forms that are kept; with more the table is begun anew
+FORMS = 20_000
+
+Terms = dict[int, int]
+
+
+class Outside(Exception):
+    """The expression is no such sum, or too large for one."""
+
+
+class Form(NamedTuple):
+    """The sum of whole multiples of monomials, over one whole number.
+
+    No power in it is beyond `reach`, and so many products of two terms were taken for it.
+    """
+
+    terms: Terms
+    below: int = 1
+    reach: int = 0
+    cost: int = 0
+
+
+ONE = Form({0: 1})
+
+
+class Ring:
+    """Letters with their places in a monomial, and the forms that are already known.
+
+    The lowest two bits of a monomial count factors i, at most one; then each letter has `WIDTH` bits.
+    """
+
+    def __init__(self) -> None:
+        self.letters: dict[object, int] = {}
+        self.forms: dict[Expr, Form] = {}
+
+    @property
+    def is_full(self) -> bool:
+        return len(self.forms) > FORMS or len(self.letters) > LETTERS
+
+    def form(self, expr: Expr) -> Form:
+        """The form of an expression; raises `Outside` where it has none."""
+        found = self.forms.get(expr)
+        if found is None:
+            found = self.forms[expr] = self._made(expr)
+        return found
+
+    def _made(self, expr: Expr) -> Form:
+        if expr.is_Rational:
+            return Form({0: int(expr.p)} if expr.p else {}, int(expr.q))
+        if isinstance(expr, Symbol):
+            if not expr.is_commutative or expr == PLUS_MINUS:
+                raise Outside
+            return self.letter(expr)
+        if expr.is_Add:
+            return self.sum([self.form(arg) for arg in expr.args])
+        if expr.is_Mul:
+            return self._product_of([self.form(arg) for arg in expr.args])
+        if isinstance(expr, Pow) and expr.exp.is_Integer:
+            n = int(expr.exp)
+            return self.power(self.form(expr.base), n) if n >= 0 else self.power(self.inverse(expr.base), -n)
+        return self.function(expr)
+
+    def function(self, expr: Expr) -> Form:
+        """The form of what is neither a sum, nor a product, nor a power."""
+        raise Outside
+
+    def inverse(self, base: Expr) -> Form:
+        """The form of one over an expression."""
+        raise Outside
+
+    def letter(self, letter: object) -> Form:
+        return Form({1 << self.place(letter): 1}, reach=1)
+
+    def place(self, letter: object) -> int:
+        """The bit at which the power of a letter begins."""
+        return self.letters.setdefault(letter, 2 + WIDTH * len(self.letters))
+
+    def sum(self, forms: Sequence[Form]) -> Form:
+        below = lcm(*(form.below for form in forms))
+        terms: Terms = {}
+        for form in forms:
+            scale = below // form.below
+            for monomial, coefficient in form.terms.items():
+                terms[monomial] = terms.get(monomial, 0) + coefficient * scale
+        cost = sum(form.cost + len(form.terms) for form in forms)
+        return _checked(Form(_without_zeros(terms), below, max(form.reach for form in forms), cost))
+
+    def difference(self, left: Form, right: Form) -> Form:
+        opposite = {monomial: -coefficient for monomial, coefficient in right.terms.items()}
+        return self.sum([left, right._replace(terms=opposite)])
+
+    def _product_of(self, forms: Sequence[Form]) -> Form:
+        found = ONE
+        for form in sorted(forms, key=lambda form: len(form.terms)):
+            found = self.product(found, form)
+        return found
+
+    def product(self, a: Form, b: Form) -> Form:
+        cost = a.cost + b.cost + len(a.terms) * len(b.terms)
+        terms: Terms = {}
+        found = _checked(Form(terms, a.below * b.below, a.reach + b.reach, cost))
+        for m, c in a.terms.items():
+            for n, d in b.terms.items():
+                monomial, coefficient = m + n, c * d
+                if monomial & 2:  # i i = -1
+                    monomial, coefficient = monomial - 2, -coefficient
+                terms[monomial] = terms.get(monomial, 0) + coefficient
+        return found._replace(terms=_without_zeros(terms)) if len(a.terms) > 1 else found
+
+    def power(self, form: Form, n: int) -> Form:
+        if n > (HIGHEST if len(form.terms) > 1 else FARTHEST):
+            raise Outside
+        found = ONE
+        for bit in bin(n)[2:]:
+            found = self.product(found, found)
+            if bit == "1":
+                found = self.product(form, found)
+        return found
+
+
+def _without_zeros(terms: Terms) -> Terms:
+    return {monomial: coefficient for monomial, coefficient in terms.items() if coefficient}
+
+
+def _checked(form: Form) -> Form:
+    if form.cost > WORK or form.reach > FARTHEST:
+        raise Outside
+    return form

@@ -1,0 +1,103 @@
+"""Taylor series of a formula along a motion: each letter goes by its own series, and these are added and multiplied.
+
+No derivative is taken anywhere: if x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
+x_j y_(k-j), and those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s.
+
+Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import reduce
+
+from sympy import Add, Expr, Integer, Pow, Rational, Symbol, cos, diff, sin
+
+__all__ = ["NoSeries", "slope", "taylor"]
+
+ZERO = Integer(0)
+
+Series = tuple[Expr, ...]
+
+
+class NoSeries(Exception):
+    """The formula has a function whose series is not known here, or a letter whose series is not long enough."""
+
+
+def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> Series:
+    """The coefficients of s^0, ..., s^order; letters without a series are constants. Raises `NoSeries`."""
+    return _Arithmetic(letters, order).of(expr)
+
+
+def slope(expr: Expr | int, letter: Symbol) -> Expr:
+    """How it changes with one letter, all others kept: the coefficient of s where the letter goes by q + s."""
+    expr = ZERO + expr  # a plain number too
+    if letter not in expr.free_symbols:
+        return ZERO
+    try:
+        return taylor(expr, {letter: (letter, Integer(1))}, 1)[1]
+    except NoSeries:
+        return diff(expr, letter)
+
+
+class _Arithmetic:
+    def __init__(self, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> None:
+        self._letters = letters
+        self._orders = range(order + 1)
+        self._known: dict[Expr, Series] = {}
+
+    def of(self, expr: Expr) -> Series:
+        found = self._known.get(expr)
+        if found is None:
+            found = self._known[expr] = self._found(expr)
+        return found
+
+    def _found(self, expr: Expr) -> Series:
+        if expr.is_Atom:
+            return self._atom(expr)
+        if expr.is_Add:
+            return tuple(Add(*parts) for parts in zip(*(self.of(term) for term in expr.args), strict=True))
+        if expr.is_Mul:
+            return reduce(self._product, (self.of(factor) for factor in expr.args))
+        if isinstance(expr, Pow) and expr.exp.is_Integer:
+            x = self.of(expr.base)
+            if not any(x[1:]):
+                return self._constant(expr)
+            return reduce(self._product, [x if expr.exp > 0 else self._one_over(x)] * abs(int(expr.exp)))
+        if isinstance(expr, sin | cos):
+            return self._turning(self.of(expr.args[0]))[isinstance(expr, cos)]
+        if not expr.free_symbols & self._letters.keys():
+            return self._constant(expr)
+        raise NoSeries
+
+    def _constant(self, expr: Expr) -> Series:
+        return (expr, *(ZERO for _ in self._orders[1:]))
+
+    def _atom(self, expr: Expr) -> Series:
+        series = self._letters.get(expr)
+        if series is None:
+            return self._constant(expr)
+        if len(series) < len(self._orders):
+            raise NoSeries
+        return tuple(series[: len(self._orders)])
+
+    def _product(self, x: Series, y: Series) -> Series:
+        if not any(x[1:]):
+            return tuple(x[0] * part for part in y)
+        return tuple(Add(*(x[j] * y[k - j] for j in range(k + 1))) for k in self._orders)
+
+    def _one_over(self, x: Series) -> Series:
+        """Its product with x is 1 + 0 s + ..."""
+        found = [1 / x[0]]
+        for k in self._orders[1:]:
+            found.append(-Add(*(x[j] * found[k - j] for j in range(1, k + 1))) / x[0])
+        return tuple(found)
+
+    def _turning(self, u: Series) -> tuple[Series, Series]:
+        """The sine and the cosine."""
+        sine, cosine = [sin(u[0])], [cos(u[0])]
+        for k in self._orders[1:]:
+            steps = [(Rational(j, k) * u[j], k - j) for j in range(1, k + 1) if u[j]]
+            sine.append(Add(*(step * cosine[i] for step, i in steps)))
+            cosine.append(-Add(*(step * sine[i] for step, i in steps)))
+        return tuple(sine), tuple(cosine)

@@ -1,0 +1,104 @@
+"""What stands before products of powers, and common factors in front: as SymPy has them."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Expr, Integer, Rational, cos, factor_terms, sin, sqrt, symbols, together
+
+from derive.algebra.coefficients import Outside, coefficients, in_front, is_multiplied_out
+from derive.algebra.normal_form import vanishes
+
+a, b, c = symbols("a b c", positive=True)
+x, y, p, q = symbols("x y p q", real=True)
+
+VALUES = [
+    (a * x + b * y) ** 2 / 2 + c * x,
+    a * (b + 1) * x**2 * y - (a - b) ** 2 * y / 3 + Rational(1, 7),
+    (a + b) * (cos(p) * cos(q) + sin(p) * sin(q)) * x * y + b * sin(p - q) * x,
+    (x * cos(p)) ** 2 + (x * sin(p)) ** 2,
+    c,
+    x + y - y,
+]
+
+
+@pytest.mark.parametrize("value", VALUES, ids=str)
+def test_coefficients_are_those_of_the_polynomial_in_its_order(value: Expr) -> None:
+    expected = value.expand().as_poly(x, y).terms()
+    found = coefficients(value, (x, y))
+    assert [powers for powers, _ in found] == [powers for powers, _ in expected]
+    for (_, coefficient), (_, other) in zip(found, expected, strict=True):
+        assert vanishes(coefficient.whole() - other)
+        assert coefficient.terms == len(other.expand().as_ordered_terms())
+
+
+@pytest.mark.parametrize("value", VALUES, ids=str)
+def test_a_coefficient_in_two_factors_is_their_product(value: Expr) -> None:
+    for _, coefficient in coefficients(value, (x, y)):
+        if coefficient.written:
+            letters = coefficient.written(Integer(3), Integer(1)).value
+            assert not letters.has(sin, cos)
+            assert vanishes(letters * coefficient.angles - 3 * coefficient.whole())
+            assert vanishes(coefficient.written(Integer(1), a).value * coefficient.angles - a * coefficient.whole())
+
+
+def test_angles_stand_apart_where_all_terms_share_them() -> None:
+    ((_, shared),) = coefficients((a + b) * cos(p) * x + (a + b) * sin(q) * x, (x,))
+    assert shared.written is not None
+    assert {shared.angles, shared.written(Integer(1), Integer(1)).value} == {cos(p) + sin(q), a + b}
+    ((_, mixed),) = coefficients(a * cos(p) * x + b * sin(q) * x, (x,))
+    assert mixed.written is None
+
+
+@pytest.mark.parametrize(
+    ("value", "is_prime"),
+    [
+        ((a + b) * x, True),
+        (3 * a * x, True),
+        (a * (b - c) * x, True),
+        ((a * b + a * c + b**2) * x, True),
+        ((a**2 - b**2) * x, False),
+        ((a**2 + 2 * a * b + b**2) * x, False),
+        ((a / 2 + b / 3) * x, False),
+    ],
+    ids=str,
+)
+def test_a_sum_that_is_linear_in_a_letter_has_no_factors(value: Expr, is_prime: bool) -> None:
+    ((_, coefficient),) = coefficients(value, (x,))
+    assert coefficient.written is not None
+    assert coefficient.written(Integer(1), Integer(1)).is_prime is is_prime
+
+
+@pytest.mark.parametrize("value", [sqrt(a) * x, x / (a + b), x**-1, abs(x), sin(p / (a + b)) * x, cos(sqrt(a)) * x])
+def test_what_is_no_polynomial_is_left_to_others(value: Expr) -> None:
+    with pytest.raises(Outside):
+        coefficients(value, (x,))
+    with pytest.raises(Outside):
+        in_front(value)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        a * b - a * c,
+        2 * a + 2 * b,
+        -2 * a - 4 * b,
+        a / 2 + b / 3,
+        -a / 2 - b / 3,
+        3 * a * b / 2 + 3 * a * c / 2,
+        -a * b - a * c,
+        a**2 * x - a * x**2,
+        a * sin(p) - b * sin(p),
+        Integer(0),
+        Rational(3, 4) * a,
+        (a + b) ** 2 - a**2,
+    ],
+    ids=str,
+)
+def test_common_factors_stand_in_front_as_sympy_puts_them(value: Expr) -> None:
+    numerator, denominator = together(value.expand()).as_numer_denom()
+    assert in_front(value) == factor_terms(numerator) / denominator
+
+
+def test_sums_of_products_are_told_from_what_is_to_be_multiplied_out() -> None:
+    assert is_multiplied_out(a**2 * sin(p) / 3 - b + 1)
+    assert not any(map(is_multiplied_out, (a * (b + c), (a + b) ** 2, 1 / a, sqrt(a), sin(2 * p))))

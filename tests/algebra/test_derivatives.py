@@ -1,0 +1,33 @@
+"""Partial derivatives, in the form that SymPy gives them."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Expr, Integer, Symbol, cos, diff, exp, log, sin, sqrt, symbols
+
+from derive.algebra.derivatives import derivative
+
+a, b = symbols("a b", positive=True)
+q, p = symbols("q p", real=True)
+
+VALUES = [
+    q,
+    a,
+    Integer(3),
+    a * q**2 / 2 + b * q,
+    a * (1 - cos(q - p)) ** 2 * q,
+    sin(q) * cos(q) * p / (a + b * sin(q)),
+    sin(a * q**2) ** 3,
+    1 / q**2,
+    (a + q) ** -1,
+    sqrt(a**2 + q**2) * q,
+    exp(-a * q) * log(q**2 + 1),
+    a**q,
+    cos(cos(q)),
+]
+
+
+@pytest.mark.parametrize("value", VALUES, ids=str)
+@pytest.mark.parametrize("letter", [q, p])
+def test_the_derivative_is_that_of_sympy(value: Expr, letter: Symbol) -> None:
+    assert derivative(value, letter) == diff(value, letter)

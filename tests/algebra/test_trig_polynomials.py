@@ -1,0 +1,140 @@
+"""The form that only equal expressions share: decided as the relations decide, whatever was asked before."""
+
+from __future__ import annotations
+
+import pytest
+from algebra.test_corpus import PROVED, SLIPS
+from sympy import Expr, I, Rational, S, cos, diff, pi, sin, sqrt, symbols, tan
+
+from derive.algebra.normal_form import _vanishes_by_relations, is_identity, vanishes
+from derive.algebra.trig_polynomials import HIGHEST, Outside, TrigRing, are_equal, is_zero
+
+a, b, m = symbols("a b m", positive=True)
+x, y, z, t = symbols("x y z t", real=True)
+SMALL = Rational(1, 10**9)
+
+EQUAL = [
+    (sin(x + y + z), sin(x + y) * cos(z) + cos(x + y) * sin(z)),
+    (cos(x / 2) ** 2, (1 + cos(x)) / 2),
+    (cos(x / 3) * cos(x / 2), (cos(5 * x / 6) + cos(x / 6)) / 2),
+    (sin(x) / cos(x), tan(x)),
+    (tan(x + y), (tan(x) + tan(y)) / (1 - tan(x) * tan(y))),
+    (1 / sin(x) ** 2 - 1 / tan(x) ** 2, S.One),
+    (1 / (a + b) / (a - b), 1 / (a**2 - b**2)),
+    (1 / (1 + 1 / (a + b)), (a + b) / (a + b + 1)),
+    ((a - b) ** -3 * (a**2 - 2 * a * b + b**2), 1 / (a - b)),
+    (1 / (2 * a + 2 * b), Rational(1, 2) / (a + b)),
+    (1 / (-a - b), -1 / (a + b)),
+    (1 / (I * a), -I / a),
+    (1 / (a + I * b), (a - I * b) / (a**2 + b**2)),
+    (m * (1 / (sin(x) * y)) ** 2 * sin(x), m / y**2 / sin(x)),
+    (sin(a * t + b * t), sin((a + b) * t)),
+    (x / y + y / x, (x**2 + y**2) / (x * y)),
+    (cos(12 * x), 2 * cos(6 * x) ** 2 - 1),
+    ((a + pi) ** 2, a**2 + 2 * pi * a + pi**2),
+]
+INSIDE = [pair for pair in PROVED if all(isinstance(side, Expr) for side in pair)]
+
+
+def decided(left: Expr, right: Expr) -> bool | None:
+    try:
+        return are_equal(left, right)
+    except Outside:
+        return None
+
+
+@pytest.mark.parametrize(("left", "right"), EQUAL, ids=str)
+def test_equal_expressions_have_one_form(left: Expr, right: Expr) -> None:
+    assert are_equal(left, right)
+    assert are_equal(right, left)
+    assert is_zero(left - right)
+
+
+@pytest.mark.parametrize(("left", "right"), EQUAL, ids=str)
+def test_a_small_difference_is_a_difference(left: Expr, right: Expr) -> None:
+    for other in (right + SMALL, right * (1 + SMALL * a), right + SMALL * sin(x), -right):
+        assert not are_equal(left, other)
+        assert not vanishes(left - other)
+
+
+def test_most_of_the_corpus_is_decided_here_and_as_by_the_relations() -> None:
+    verdicts = [decided(*pair) for pair in INSIDE]
+    assert False not in verdicts
+    assert verdicts.count(True) > 35
+    for (left, right), verdict in zip(INSIDE, verdicts, strict=True):
+        assert verdict is None or _vanishes_by_relations(left - right)
+
+
+def test_no_slip_of_the_corpus_is_taken_for_equal() -> None:
+    verdicts = [decided(left, slipped) for _, left, slipped in SLIPS]
+    assert True not in verdicts
+    assert verdicts.count(False) > 80
+
+
+def test_the_order_of_the_questions_does_not_matter() -> None:
+    """A half of an angle, once asked for, divides the angle for all that follows."""
+    questions = [
+        (sin(x) * cos(x), sin(2 * x) / 2),
+        (cos(x / 2) ** 2, (1 + cos(x)) / 2),
+        (cos(x), 1 - 2 * sin(x / 2) ** 2),
+    ]
+    for order in (questions, questions[::-1]):
+        assert all(are_equal(*pair) for pair in order)
+        assert not any(are_equal(left, right + cos(x / 4)) for left, right in order)
+
+
+def test_what_was_asked_before_does_not_count() -> None:
+    for n in (2, 3, 5, 7, 11):
+        assert are_equal(sin(x / n) * cos(x / n), sin(2 * x / n) / 2)
+        assert are_equal(cos(HIGHEST * x), 2 * cos(HIGHEST * x / 2) ** 2 - 1)
+    for _ in range(2):
+        assert decided(cos(x / 2) * cos(x / 64) * sin(x / 63), S.Zero) is None
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        sqrt(x),
+        abs(x),
+        sin(x + 1),
+        cos(x + pi / 5),
+        sin(sqrt(x)),
+        sin(x / (a + b)),
+        sin(sin(x)),
+        cos((HIGHEST + 1) * x),
+        1 / (sin(x) ** 2 + cos(x) ** 2 - 1),
+        (x - y) / (x * y - y * x),
+        (a + b + x + y + z) ** 40,
+        sin((a + b + x + y) ** 20),
+        x + Rational(1, 2) * 1.5,
+    ],
+    ids=str,
+)
+def test_what_is_not_for_this_module_is_left_to_others(value: Expr) -> None:
+    for _ in range(2):  # the second time it is known
+        with pytest.raises(Outside):
+            is_zero(value)
+    assert not is_identity(value, value + 1)
+
+
+def test_a_quotient_of_nothing_by_nothing_is_not_zero() -> None:
+    nothing = sin(x) ** 2 + cos(x) ** 2 - 1
+    assert not vanishes(nothing / nothing**2)
+    assert not is_identity((a - a * cos(x) ** 2 - a * sin(x) ** 2) / nothing, S.Zero)
+
+
+def test_a_derivative_of_many_angles_is_decided_though_it_is_long() -> None:
+    angles = symbols("theta_1:9", real=True)
+    total = sum(m * cos(p - q) for i, p in enumerate(angles) for q in angles[:i])
+    for q in angles:
+        apart = sum(m * (cos(p) * sin(q) - sin(p) * cos(q)) for p in angles if p != q)
+        assert are_equal(diff(total, q), -apart)
+        assert not are_equal(diff(total, q), apart)
+
+
+def test_a_divisor_keeps_its_letter_in_one_ring() -> None:
+    ring = TrigRing({})
+    ring.form(1 / (a + b))
+    count = len(ring.letters)
+    ring.form(3 / (2 * a + 2 * b) ** 2)
+    assert len(ring.letters) == count
