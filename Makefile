@@ -55,6 +55,7 @@ check: .venv/.runtime
 
 bench: .venv/.runtime
 	@$(PYTHON) bench/ratios.py
+	@$(PYTHON) bench/systems.py
 
 test: .venv/.tests
 	@$(PYTHON) -m ruff check --quiet .

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, factor, sin, sqrt, tan
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
 
 from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Dot, Factors, Terms, TimeRate, applied, bound, explicit, scalar
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.dalembert import MassPoint, Matter
@@ -213,7 +214,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
 
     def work(found: Expr) -> tuple[Expr, Expr]:
         marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
-        lost = [-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
+        lost = [-derivative(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
         return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
     masses = system.masses if system.weights else []

@@ -14,6 +14,7 @@ from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.constraint import Kept
@@ -226,7 +227,7 @@ def lagrangian(
     matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
 
     def energy(found: Expr) -> tuple[Expr, Expr]:
-        carried = Add(*(rate(q) * diff(found, rate(q)) for q in moving))
+        carried = Add(*(rate(q) * slope(found, rate(q)) for q in moving))
         return carried - found, kinetic.value + potential.value
 
     def of_mass_points(found: Expr) -> tuple[Expr, Expr]:
