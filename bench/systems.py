@@ -63,6 +63,7 @@ def laws_alone(kind: str, n: int) -> float:
     """L = T - U, d/dt dL/dq_dot - dL/dq, gathered by accelerations: what is written down, and nothing else."""
     from sympy import Add, Rational
 
+    import derive.mechanics  # noqa: F401  its time is not counted
     from derive.algebra.collect import by_accelerations
     from derive.algebra.expressions import Partial, TimeRate, bound, explicit, rate
     from derive.steps.record import recorded

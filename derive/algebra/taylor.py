@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import reduce
 
-from sympy import Add, Expr, Integer, Pow, Rational, Symbol, cos, diff, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, sin
 
 __all__ = ["NoSeries", "slope", "taylor"]
 
@@ -55,10 +55,13 @@ class _Arithmetic:
     def _found(self, expr: Expr) -> Series:
         if expr.is_Atom:
             return self._atom(expr)
-        if expr.is_Add:
-            return tuple(Add(*parts) for parts in zip(*(self.of(term) for term in expr.args), strict=True))
-        if expr.is_Mul:
-            return reduce(self._product, (self.of(factor) for factor in expr.args))
+        if expr.is_Add or expr.is_Mul:
+            parts = [self.of(part) for part in expr.args]
+            moving = [part for part in parts if any(part[1:])]
+            if not moving:
+                return self._constant(expr)
+            resting = [part[0] for part in parts if not any(part[1:])]
+            return self._sum(resting, moving) if expr.is_Add else self._times(Mul(*resting), moving)
         if isinstance(expr, Pow) and expr.exp.is_Integer:
             x = self.of(expr.base)
             if not any(x[1:]):
@@ -81,10 +84,15 @@ class _Arithmetic:
             raise NoSeries
         return tuple(series[: len(self._orders)])
 
+    def _sum(self, resting: list[Expr], moving: list[Series]) -> Series:
+        first, *others = zip(*moving, strict=True)
+        return (Add(*resting, *first), *(Add(*parts) for parts in others))
+
+    def _times(self, resting: Expr, moving: list[Series]) -> Series:
+        return tuple(resting * part for part in reduce(self._product, moving))
+
     def _product(self, x: Series, y: Series) -> Series:
-        if not any(x[1:]):
-            return tuple(x[0] * part for part in y)
-        return tuple(Add(*(x[j] * y[k - j] for j in range(k + 1))) for k in self._orders)
+        return tuple(Add(*(x[j] * y[k - j] for j in range(k + 1) if x[j] and y[k - j])) for k in self._orders)
 
     def _one_over(self, x: Series) -> Series:
         """Its product with x is 1 + 0 s + ..."""

@@ -127,3 +127,13 @@ def test_a_common_factor_times_the_rest_is_the_vector(entries: list[Expr]) -> No
     assert equal(common * rest, Matrix(entries))
     size, others = size_and_rest(Matrix(entries))
     assert equal(size**2 * others.dot(others), Matrix(entries).dot(Matrix(entries)))
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("other", [1, -1])
+def test_two_products_of_sines_and_cosines_are_those_of_one_sum(sign: int, other: int) -> None:
+    a, b = symbols("a b", real=True)
+    for value in (cos(a) * cos(b), sin(a) * sin(b)), (sin(a) * cos(b), cos(a) * sin(b)):
+        found = tidied(sign * value[0] + other * value[1])
+        assert equal(found, sign * value[0] + other * value[1])
+        assert len(found.atoms(sin, cos)) == 1
