@@ -19,6 +19,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import Factors, Ratio, column, component_names, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.bodies.components import centre_components
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
@@ -371,7 +372,8 @@ def centre_of_mass(
     body         mass, region
     origin       the point, by default where the body's own axes begin
     coordinates  "cartesian" or "cylindrical", where the body has both
-    Of a round body the one component that is not zero by symmetry is worked out as a step of its own.
+    Of a round body the one component that is not zero by symmetry is worked out as a step of its own; of a body that is
+    not its own image about its centre, each that does not vanish.
     Second route: the mean position of the body's equimomental particles.
     Outcomes: round; generic (the middle of a body that is its own image there); asymmetric.
     Errors: no such point, no such coordinates.
@@ -385,6 +387,9 @@ def centre_of_mass(
     rho = body.density
     whole = region.with_section_put_in().mass_integral(vector("r"), rho.symbol)
     on_axis = [_centre_on_axis(body, start, region, symbol, key)] if body.is_round and body.filling == "volume" else []
+    is_even = _is_its_own_image(body)
+    apart = {} if on_axis or is_even else centre_components(body, start, region, symbol, key)
+    left = column(*(apart[k].symbol if k in apart else Integer(0) for k in range(3)))
 
     def mean_of_particles() -> Any:
         total = column(0, 0, 0)
@@ -398,10 +403,11 @@ def centre_of_mass(
         lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
         {"mass": body.mass},
         routes={"particles": compared_with(mean_of_particles)},
-        outcome="round" if on_axis else "generic" if _is_its_own_image(body) else "asymmetric",
-        parents=[rho, *on_axis],
+        outcome="round" if on_axis else "generic" if is_even else "asymmetric",
+        parents=[rho, *on_axis, *apart.values()],
         lines=Lines(
-            between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis],
+            between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis]
+            + ([Form(left, "components", Level.STANDARD)] if apart else []),
             put_in=Level.FULL,
         ),
         kind="length",

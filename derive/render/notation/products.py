@@ -148,7 +148,8 @@ def roots_together(expr: Expr) -> Expr:
     roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
     if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
         return expr
-    inside = Mul(*(Pow(root.base, 2 * root.exp) for root in roots), evaluate=False)
+    squares = (Mul.make_args(Pow(root.base, 2 * root.exp)) for root in roots)
+    inside = Mul(*(f for square in squares for f in square), evaluate=False)
     return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
 
 
