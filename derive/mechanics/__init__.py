@@ -10,6 +10,7 @@ import derive.mechanics.outcomes.told  # noqa: F401  and what else its sentence 
 from derive.algebra.direction import Direction as Direction
 from derive.mechanics.arguments import checked
 from derive.mechanics.bodies.body import *
+from derive.mechanics.bodies.components import *
 from derive.mechanics.bodies.flat_shapes import *
 from derive.mechanics.bodies.general import *
 from derive.mechanics.bodies.hollow_shapes import *

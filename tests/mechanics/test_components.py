@@ -9,8 +9,8 @@ from sympy import Integer, pi, symbols
 
 import derive.mechanics.bodies.components as components
 from derive.algebra.equality import equal
-from derive.errors import Unverified
-from derive.mechanics import HalfDisc, HemisphericalShell, Plate, Triangle, centre_of_mass
+from derive.errors import Rejected, Unverified
+from derive.mechanics import Cone, HalfDisc, HemisphericalShell, Plate, Triangle, centre_component, centre_of_mass
 from derive.steps.derivation import with_ancestors
 
 R, a, b, M = symbols("R a b M", positive=True)
@@ -43,3 +43,9 @@ def test_a_wrong_density_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(components, "Ratio", lambda above, below: 2 * above / below)
     with pytest.raises(Unverified):
         centre_of_mass(HalfDisc(R, M))
+
+
+def test_one_component_alone() -> None:
+    assert equal(centre_component(Cone(R, a, M), "z", origin="base").value, a / 4)
+    with pytest.raises(Rejected, match="along"):
+        centre_component(HalfDisc(R, M), "w")

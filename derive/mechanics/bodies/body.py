@@ -19,7 +19,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import Factors, Ratio, column, component_names, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
-from derive.mechanics.bodies.components import centre_components
+from derive.mechanics.bodies.components import centre_component, is_its_own_image
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
@@ -27,7 +27,7 @@ from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Form, Level, Quantity, compared_with
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["Cuboid", "centre_of_mass", "density"]
@@ -387,8 +387,13 @@ def centre_of_mass(
     rho = body.density
     whole = region.with_section_put_in().mass_integral(vector("r"), rho.symbol)
     on_axis = [_centre_on_axis(body, start, region, symbol, key)] if body.is_round and body.filling == "volume" else []
-    is_even = _is_its_own_image(body)
-    apart = {} if on_axis or is_even else centre_components(body, start, region, symbol, key)
+    is_even = is_its_own_image(body)
+    there = start.seen(body.middle.position)
+    apart = {
+        k: centre_component(body, axis, start.name, coordinates, symbol, f"{key}_{axis}")
+        for k, axis in enumerate("xyz")
+        if not (on_axis or is_even or is_zero(there[k]))
+    }
     left = column(*(apart[k].symbol if k in apart else Integer(0) for k in range(3)))
 
     def mean_of_particles() -> Any:
@@ -416,15 +421,6 @@ def centre_of_mass(
         key=key,
         scope=Scope(about=Subject(body=body, point=start)),
     )
-
-
-def _is_its_own_image(body: Body) -> bool:
-    """Whether each particle has its like on the other side of the centre."""
-    if body.is_lopsided:
-        return False
-    centre = body.middle.position
-    seen = {(m, ImmutableDenseMatrix((r - centre).expand())) for m, r in body.particles()}
-    return all((m, -r) in seen for m, r in seen)
 
 
 def _centre_on_axis(body: Body, start: Point, region: Region, letter: str, key: str) -> Quantity:
