@@ -233,7 +233,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: frequency_squared(
             linearised(motion(l * TIME * sin(THETA.symbol), -l * TIME * cos(THETA.symbol), THETA))
         ),
-        "depends on the time t",
+        "holds the time itself",
     ),
     "values put into an inequality": (
         lambda: with_values(known_slab()["stability"], let("a", lambda: 2 * b, kind="length")),
