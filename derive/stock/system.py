@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
@@ -46,6 +46,7 @@ from derive.stock.keys.places import (
 )
 from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
+POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
 SYSTEM = "system"  # what the drawing of it is called
 
 
@@ -74,7 +75,7 @@ class SystemKeys(Record):
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
     conserved: Mapping[Word, Word] = key(
-        "letters for the constant momenta of cyclic coordinates: `phi: l`", mapping_of(TEXT)
+        "letters for the constant momenta of cyclic coordinates: `phi: l`, `phi: positive l`", mapping_of(TEXT)
     )
     at: Mapping[Word, Tree] = key(
         "the state about which equations are linearised and stability is judged; without it all states of rest",
@@ -90,7 +91,7 @@ class DescribedSystem(Described):
     coordinates: tuple[tuple[str, str, bool], ...] = ()
     parts: tuple[Part, ...] = ()
     gravity: Expr | None = None
-    conserved: tuple[tuple[str, str], ...] = ()
+    conserved: tuple[tuple[str, Symbol], ...] = ()
     at: tuple[tuple[str, Expr], ...] = ()
     results: tuple[Result, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
@@ -137,7 +138,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         coordinates=tuple((n, letters[n].kind, s == POSITIVE) for n, s in written.coordinates.items() if n in letters),
         parts=tuple(parts),
         gravity=gravity,
-        conserved=tuple((str(q), str(letter)) for q, letter in written.conserved.items()),
+        conserved=tuple(
+            (str(q), own[name].symbol) for q, word in written.conserved.items() if (name := _letter(word)[0]) in own
+        ),
         at=_state(written.at, letters, known, faults),
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
         place=written.places[""],
@@ -161,13 +164,20 @@ def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
 def _constants(written: Mapping[Word, Word], letters: Mapping[str, Declared], faults: Faults) -> dict[str, Declared]:
     """The letters of constant momenta."""
     found = {}
-    for q, name in written.items():
+    for q, word in written.items():
+        name, is_positive = _letter(word)
         if q not in letters:
             faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
             continue
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
-        found[str(name)] = Declared(str(name), constant(str(name)), kind)
+        found[name] = Declared(name, constant(name, positive=is_positive), kind)
     return found
+
+
+def _letter(word: Word) -> tuple[str, bool]:
+    """The letter of a constant, and whether it is counted so that it is positive."""
+    name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
+    return name, name != word
 
 
 def _state(

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 from sympy import Expr, Integer, Symbol
 
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Relation, explicit, scalar
 from derive.course.stock import told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected, did_you_mean, rejected
@@ -56,7 +56,7 @@ class OfSystem(Protocol):
     @property
     def gravity(self) -> Expr | None: ...
     @property
-    def conserved(self) -> tuple[tuple[str, str], ...]: ...
+    def conserved(self) -> tuple[tuple[str, Symbol], ...]: ...
     @property
     def at(self) -> tuple[tuple[str, Expr], ...]: ...
     @property
@@ -65,9 +65,9 @@ class OfSystem(Protocol):
     def place(self) -> Place | None: ...
 
 
-def constant(name: str) -> Symbol:
+def constant(name: str, positive: bool = False) -> Symbol:
     """The letter of a constant momentum, which is taken not to vanish."""
-    return Symbol(name, real=True, nonzero=True)
+    return scalar(name, positive=True) if positive else Symbol(name, real=True, nonzero=True)
 
 
 class Answers:
@@ -80,6 +80,7 @@ class Answers:
         }
         self._on_the_way: list[str] = []
         self._known: dict[str, Any] = {}
+        self._motions: dict[Any, Quantity] = {}
 
     @cached_property
     def system(self) -> System:
@@ -131,7 +132,7 @@ class Answers:
         found = {}
         for name, q in self.coordinates.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
-                found[name] = conserved(self.lagrangian, q, value=constant(letters.get(name, f"p_{name}")))
+                found[name] = conserved(self.lagrangian, q, value=letters.get(name) or constant(f"p_{name}"))
         return found
 
     @property
@@ -146,7 +147,7 @@ class Answers:
     @cached_property
     def effective_potential(self) -> Quantity:
         for momentum in self.cyclic.values():
-            assume(Relation(momentum.symbol, "!=", Integer(0)))
+            assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
         return effective_potential(self.lagrangian, *self.cyclic.values())
 
     @cached_property
@@ -162,7 +163,9 @@ class Answers:
         return {name: self.motion(q) for name, q in self.coordinates.items()}
 
     def motion(self, q: Coordinate) -> Quantity:
-        return equation_of_motion(self.lagrangian, q, key=f"motion_{q.symbol.name}")
+        if q.symbol not in self._motions:
+            self._motions[q.symbol] = equation_of_motion(self.lagrangian, q, key=f"motion_{q.symbol.name}")
+        return self._motions[q.symbol]
 
     @cached_property
     def potential_at_rest(self) -> Quantity:
@@ -254,7 +257,7 @@ class Answers:
         return found
 
     def _one_motion(self, name: str) -> Quantity:
-        return self.motions[name]
+        return self.motion(self.coordinates[name])
 
     def _one_momentum(self, q: Coordinate) -> Quantity:
         return conjugate_momentum(self.lagrangian, q)
