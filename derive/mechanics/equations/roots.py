@@ -28,7 +28,7 @@ from sympy import (
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, scalar
+from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import (
@@ -138,7 +138,7 @@ def _step(
 ) -> Quantity:
     root, alone = kept[i], len(kept) == 1
     others = [(each.value, each.times - (each is root)) for each in every]
-    numbered = letter or f"{letter_of(unknown).name}_{i + 1}"
+    numbered = letter or _numbered(letter_of(unknown).name, i + 1)
     name = unknown if alone and not letter else scalar(numbered, **_assumed(unknown))
 
     def vieta(found: Expr) -> tuple[Any, Any]:
@@ -348,6 +348,12 @@ def _turned(found: Sequence[RootOf]) -> bool:
     """The two roots of one factor whose leading coefficient is negative."""
     one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
     return one_factor and sign_known(found[0].coefficients[0]) == -1
+
+
+def _numbered(name: str, n: int) -> str:
+    """theta_1, and of a rate phi_1_dot."""
+    order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
+    return f"{name.removesuffix(order)}_{n}{order}"
 
 
 def _names(unknown: Expr, count: int) -> list[str]:

@@ -116,7 +116,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         mixed = (gained(*both) + gained(*(-w for w in both)) - first - second) / 2
         least = first if i == j else (first + second) / 2 - mp.sqrt((first - second) ** 2 / 4 + mixed**2)
         scale = abs(first) + abs(second) + abs(mixed) + abs(energy(*place)) + mp.mpf(10) ** -6
-        worst = min(worst, 0 if abs(least) < scale * mp.mpf(10) ** -8 else 1 if least > 0 else -1)
+        worst = min(worst, 0 if abs(least) < scale * mp.mpf(10) ** -16 else 1 if least > 0 else -1)
     return worst
 
 

@@ -109,7 +109,7 @@ class Turning:
         for i in range(3):
             if omega[i] != 0:
                 squares.setdefault(tensor[i, i], []).append(Pow(_factored(omega[i]), 2))
-        return Add(*(Mul(HALF, moment, Add(*of)) for moment, of in squares.items()), evaluate=False)
+        return Add(*(Mul(HALF, moment, Add(*of)) for moment, of in squares.items() if moment != 0), evaluate=False)
 
 
 def _factored(component: Expr) -> Expr:
@@ -178,7 +178,8 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         if all(turning.is_plane for turning in turnings):
             return gathered
         moved_on = [HALF * mover.mass * square.value for mover, square in zip(moved, speeds, strict=True)]
-        whole = Add(*moved_on, *(turning.written_out() for turning in turnings), evaluate=False)
+        turned = [turning.written_out() for turning in turnings]
+        whole = Add(*(term for term in (*moved_on, *turned) if term != 0), evaluate=False)
         return min((gathered, whole), key=lambda form: int(form.count_ops()))
 
     return establish(
@@ -229,7 +230,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
     return establish(
         "systems.potential_energy",
         scalar(symbol),
-        lambda: Terms(*heights, *stored) if heights or stored else Integer(0),
+        lambda: Terms(*heights, *stored) if len(heights) + len(stored) > 1 else Add(*heights, *stored),
         {},
         key=key,
         kind="energy",

@@ -238,7 +238,7 @@ def lagrangian(
     return establish(
         "lagrangian.lagrangian",
         scalar(symbol),
-        lambda t, u: Terms(*Add.make_args(t), *(-term for term in Add.make_args(u))),
+        lambda t, u: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u))),
         {"kinetic": kinetic, "potential": potential},
         lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
@@ -246,6 +246,12 @@ def lagrangian(
         kind="energy",
         facts=[matter, Energies(kinetic, potential), *acting(kinetic, potential)],
     )
+
+
+def _side_by_side(*terms: Expr) -> Expr:
+    """Terms as they stand, without one that is 0."""
+    present = [term for term in terms if term != 0]
+    return Terms(*present) if len(present) > 1 else Add(*present)
 
 
 def coordinates_of(of: Quantity) -> list[Coordinate]:

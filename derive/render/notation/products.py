@@ -159,11 +159,13 @@ def _is_fourth_root(factor: Pow) -> bool:
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
-    """The place of a letter among factors: masses, accelerations, lengths, (sums,) densities and numbers, rates."""
+    """The place of a letter among factors: a constant per mass, masses, accelerations, lengths, (sums,) densities and numbers, rates."""
     if dimension is None or dimension.is_number:
         return 4
     if dimension.current:
         return 1 if dimension.mass else 0  # a field stands behind the charge that is in it
+    if dimension.mass < 0:
+        return -1  # the gravitational constant stands before the masses
     if dimension.mass and dimension.length >= 0 and not (dimension.length and dimension.time):
         return 0  # a mass, a moment of inertia, a spring constant
     if dimension.mass:
