@@ -201,8 +201,11 @@ def _trace(together: Linear) -> Expr:
 def _root_of(square: Expr) -> Expr:
     """sqrt(k/m) under one root; a rational root is drawn, and so is that of a sine."""
     drawn = tidied(sqrt(square))
-    if drawn == 0 or square.has(sin) or not drawn.has(sqrt(square)) and not _is_irrational(drawn):
+    if drawn == 0 or square.has(sin) or not _is_irrational(drawn):
         return drawn
+    number, letters = square.as_coeff_Mul()
+    if number != 1 and sqrt(number).is_Rational and not _is_irrational(letters):
+        return sqrt(number) * Root(spread_or_by_terms(letters))
     return Root(square if _is_irrational(square) else spread_or_by_terms(square))
 
 
