@@ -70,3 +70,31 @@ def test_all_faults_are_told_at_once(tmp_path: Path) -> None:
     found = complaints(tmp_path, text)
     assert [c.place.line for c in found if c.place] == [6, 7, 8]
     assert found[2].help == "write it with its unit, `9.8 m/s^2`"
+
+
+PLANET = (
+    (
+        "  coordinates: {theta: angle}",
+        "  coordinates: {r: positive length, phi: angle}\n  conserved: {phi: positive J}",
+    ),
+    ("A: [l*sin(theta), -l*cos(theta)]", "O: [0, 0], A: [r*cos(phi), r*sin(phi)]"),
+    ("  gravity: g\n", "  springs: {constant: k, from: O, to: A}\n"),
+)
+
+
+def test_a_constant_may_be_counted_as_positive(tmp_path: Path) -> None:
+    """Taylor, section 8.4, for a spring: the circle has r^4 = J^2/(k m), the distance oscillates at 2 sqrt(k/m)."""
+    found = solved(tmp_path, edited(PENDULUM, *PLANET, ("equations_of_motion", "[equilibria, normal_modes]")))
+    J = symbols("J", positive=True)
+    assert equal(explicit(found["rest"].value) ** 4, J**2 / (k * m))
+    assert equal(explicit(found["frequency"].value), 2 * (k / m) ** Rational(1, 2))
+
+
+def test_nothing_is_added_that_is_zero(tmp_path: Path) -> None:
+    page = rendered(course_with(tmp_path, edited(PENDULUM, ("  gravity: g\n", ""))), "trial/one")
+    assert "+ 0" not in page.texts["text"]
+
+
+def test_one_equation_of_motion_is_derived_alone(tmp_path: Path) -> None:
+    found = solved(tmp_path, edited(PENDULUM, *PLANET, ("equations_of_motion", "motion_r")))
+    assert "motion_phi" not in found

@@ -65,7 +65,7 @@ def linearised(
     key      what the keys begin with: linearised_theta, one for each coordinate
     Drag gives G; what depends on the time alone, f, drives the motion. Where a coordinate is not 0 at rest its
     displacement is called eta; eta_1, eta_2, ... where there are several.
-    Second route: M from the kinetic energy of the mass points, K from the virtual work of the forces, to second order.
+    Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
     Outcomes: generic, displaced (some coordinate is not 0 at rest), and with a drag or what drives them damped,
     displaced_damped, driven, displaced_driven.
     Errors: a force is left at that place; a value is missing; the coefficients change in time.
@@ -233,16 +233,19 @@ def _of_second_order(
     place: Mapping[Symbol, Expr],
     eta: Sequence[Coordinate],
 ) -> Relation:
-    """The same from mass points and forces: T and the forces along the coordinates, differentiated at rest."""
-    matter = equations[i].needed(Matter)
-    kinetic, q = matter.kinetic_energy(), moving[i]
-    force = matter.force_along(q.symbol)
+    """The same from mass points and forces: momentum, and what pushes along the coordinate, differentiated at rest.
+
+    Not from a kinetic energy: where cyclic coordinates are put aside, that with the momenta put in tells no forces.
+    """
+    matter, q = equations[i].needed(Matter), moving[i]
+    momentum = explicit(matter.momentum_along(q.symbol))
+    pushed = explicit(matter.turning_along(q.symbol) + matter.force_along(q.symbol))
     terms = []
     for other, s in zip(moving, eta, strict=True):
-        mass = diff(kinetic, q.rate, other.rate)
-        turning = diff(kinetic, q.rate, other.symbol) - diff(kinetic, q.symbol, other.rate) - diff(force, other.rate)
-        stiffness = diff(kinetic, q.rate, TIME, other.symbol) - diff(force + diff(kinetic, q.symbol), other.symbol)
+        mass = diff(momentum, other.rate)
+        turning = diff(momentum, other.symbol) - diff(pushed, other.rate)
+        stiffness = diff(momentum, TIME, other.symbol) - diff(pushed, other.symbol)
         for value, letter in ((mass, s.acceleration), (turning, s.rate), (stiffness, s.symbol)):
             terms.append(_at_rest(value, moving, place) * letter)
-    driving = force + diff(kinetic, q.symbol) - diff(kinetic, q.rate, TIME)
+    driving = pushed - diff(momentum, TIME)
     return Relation(Add(*terms), "=", _at_rest(driving, moving, place))

@@ -159,7 +159,7 @@ def _is_fourth_root(factor: Pow) -> bool:
 
 
 def rank_of_dimension(dimension: Dimension | None) -> int:
-    """The place of a letter among factors: a constant per mass, masses, accelerations, lengths, (sums,) densities and numbers, rates."""
+    """The place of a letter among factors: per mass, masses, accelerations, lengths, (sums,) densities, rates."""
     if dimension is None or dimension.is_number:
         return 4
     if dimension.current:
