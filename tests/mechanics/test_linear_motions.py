@@ -24,12 +24,15 @@ from derive.mechanics import (
     equations_of_motion,
     equilibria,
     force,
+    kinetic_energy_of,
     lagrangian,
     linearised,
     normal_modes,
     point,
     potential,
+    potential_energy_of,
     put_in,
+    rate_of,
     solution,
     space,
     spring,
@@ -215,3 +218,18 @@ def test_an_effective_potential_under_given_forces_is_refused() -> None:
     L = lagrangian(System(Particle(m, at), outwards, potential(k * r**2 / 2)))
     with pytest.raises(Rejected, match="without a potential energy acts along r"):
         effective_potential(L, conserved(L, phi))
+
+
+def test_what_is_known_at_one_moment_has_no_rate() -> None:
+    """T at the lowest point does not hold theta any more, but it changes all the same."""
+    theta = coordinate("theta")
+    at = point(l * sin(theta), -l * cos(theta))
+    T = kinetic_energy_of(System(Particle(m, at), weight(g), potential(k * theta.symbol**2)))
+    U = potential_energy_of(System(Particle(m, at), weight(g)))
+    lowest = put_in(U, theta=0)
+    with pytest.raises(Rejected, match="`potential_energy_at_theta` is known only where theta was put in"):
+        rate_of(lowest)
+    again = put_in(put_in(T, {theta.rate: w}), {m: 2 * m}, key="heavier", symbol="K")
+    with pytest.raises(Rejected, match="known only where theta was put in"):
+        rate_of(again)
+    assert rate_of(put_in(U, {g: 2 * g}, key="elsewhere", symbol="W")).value != 0

@@ -19,7 +19,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.trajectory import followed
 from derive.mechanics.rotation.vectors import RateByParticles
-from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_rate
+from derive.mechanics.systems.coordinates import by_functions_of_time, kind_of_rate, require_all_times
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with
 
@@ -48,6 +48,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     Errors: equations that do not determine the highest rates; a quantity whose rate has still higher ones.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
+    require_all_times("rate_under", quantity)
     moving = _moving([quantity, *equations])
     motion = highest_rates(equations, moving)
     own_rate = explicit(TimeRate(quantity.value, *moving))

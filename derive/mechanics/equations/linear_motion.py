@@ -34,7 +34,7 @@ from sympy import (
 from sympy.simplify.fu import TR8
 
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, scalar
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
 from derive.mechanics.systems.coordinates import Coordinate
@@ -197,6 +197,9 @@ def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Re
 
 def _compared(left: Expr, mark: str, right: Expr) -> Relation:
     """gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, where both are squares of positive letters."""
+    shared = common_factor([left, right])
+    if shared.is_positive:
+        left, right = tidied(left / shared), tidied(right / shared)
     numbers = [side.as_coeff_Mul()[0] for side in (left, right)]
     common = igcd(*(n.p for n in numbers)) if all(n.is_Integer for n in numbers) else 1
     left, right = left / common, right / common

@@ -231,7 +231,9 @@ def frequency_squared_about(
     return establish(
         "steady.frequency_squared",
         scalar(symbol) ** 2,
-        lambda U, *_: Ratio(At(Slope(U, q, Integer(2)), q, about.place), mass),
+        lambda U, rest: Ratio(
+            At(Slope(U, q, Integer(2)), q, about.place if isinstance(at.value, Relation) else rest), mass
+        ),
         {"potential": about.potential, "at": at},
         lines=Lines(
             put_in=None,

@@ -18,7 +18,7 @@ from derive.mechanics.equations.unknowns import (
     unknown_of,
     with_unknown,
 )
-from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.systems.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import EVERYTHING
@@ -76,9 +76,20 @@ def put_in(of: Quantity, *others: Rests, key: str | None = None, symbol: str | N
             },
             judged_by={"replaced": [letter_of(target) for target, _ in told]},
         ),
-        facts=[fact for fact in of.facts if isinstance(fact, OfCoordinate)],
+        facts=[*(f for f in of.facts if isinstance(f, OfCoordinate)), *_at_one_moment(of, rests, there)],
         scope=Scope(differ=EVERYTHING, case_of=of),
     )
+
+
+def _at_one_moment(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> list[AtOneMoment]:
+    """That a coordinate or a rate was given a constant value, here or in what was put in."""
+    moving = coordinates_of(of, *rests)
+    every = {rate(q, n) if n else q: q for q in moving for n in range(len(RATES))}
+    fixed = [
+        every[letter_of(s)] for s, value in there if letter_of(s) in every and not value.free_symbols & {*every, TIME}
+    ]
+    fixed += [q for each in (of, *rests) if (known := each.fact(AtOneMoment)) for q in known.fixed]
+    return [AtOneMoment(tuple(dict.fromkeys(fixed)))] if fixed else []
 
 
 def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]]:

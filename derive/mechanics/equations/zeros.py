@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from sympy import (
+    Abs,
     Add,
     Expr,
     Integer,
@@ -250,7 +251,7 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
 
 def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
     """The real roots of q^n = v."""
-    sign = sign_by_factors(value)
+    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
     if sign is None:
         raise Unsolved(factor)
     if n % 2:
@@ -290,19 +291,20 @@ def _allowed(value: Expr, q: Symbol) -> list[Zero]:
     if not q.is_positive:
         return [Zero(value)]
     sign = sign_by_factors(value)
-    if sign is None and _is_square_of_letters(value):
-        return [Zero(value)]
+    if sign is None and (_is_square_of_letters(value) or _is_square_of_letters(-value)):
+        return [Zero(value)] if _is_square_of_letters(value) else []
     return [] if sign in (0, -1) else [Zero(value, positive(value) if sign is None else None)]
 
 
 def _is_square_of_letters(value: Expr) -> bool:
     """Whether it is positive once some letters do not vanish, which is then assumed: l^2 of a momentum."""
     above, below = value.as_numer_denom()
-    squares = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
-    if not below.is_positive or not all(b.is_Symbol and b.is_real and n.is_even for b, n in squares):
+    parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
+    letters = [base.args[0] if isinstance(base, Abs) else base if power.is_even else None for base, power in parts]
+    if not letters or not below.is_positive or not all(isinstance(s, Symbol) and s.is_real for s in letters):
         return False
-    for base, _ in squares:
-        assume(Relation(base, "!=", Integer(0)))
+    for letter in letters:
+        assume(Relation(letter, "!=", Integer(0)))
     return True
 
 

@@ -88,6 +88,22 @@ class OfCoordinate(Fact):
     coordinate: Coordinate
 
 
+@dataclass(frozen=True)
+class AtOneMoment(Fact):
+    """That these coordinates, or their rates, have the values of one moment: how it changes is no longer told."""
+
+    missing = "holds at all times"
+    fixed: tuple[Symbol, ...]
+
+
+def require_all_times(verb: str, quantity: Quantity) -> None:
+    """Refuse what is known at one moment only, where a law asks how it changes."""
+    known = quantity.fact(AtOneMoment)
+    if known is not None:
+        message = f"`{verb}`: `{quantity.key}` is known only where {known.fixed[0].name} was put in"
+        raise Rejected(Complaint("one-moment", message, help=f"`{verb}` first, then `put_in`"))
+
+
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
     """A coordinate by name, real, free to vary; `positive` where it is a distance, which cannot be negative."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
@@ -161,9 +177,10 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     quantity   a scalar that depends on coordinates; its unit per second is that of the result
     Second route: the coordinates as functions of t, each by its Taylor series.
     Outcomes: generic, zero.
-    Errors: the quantity has no plain letter as its name.
+    Errors: the quantity has no plain letter as its name; it is known at one moment only.
     Source: Taylor, *Classical Mechanics*, section 7.1.
     """
+    require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no letter that could take a dot"))
     moving = list(quantity.coordinates)
