@@ -5,9 +5,10 @@ A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.ste
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import cached_property
 from typing import Any, ClassVar, NoReturn, TypeVar
 
 from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol, nan
@@ -125,8 +126,8 @@ class Quantity:
     def key(self) -> str:
         return self.step.key
 
-    @property
-    def coordinates(self) -> dict[Symbol, str]:
+    @cached_property  # all that it rests on is asked, again and again
+    def coordinates(self) -> Mapping[Symbol, str]:
         """The coordinates that it may depend on, with their kinds: its own and those of what it rests on."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
