@@ -346,7 +346,7 @@ class _Writer:
         if prose is not None:
             nodes = self._told(prose.pieces, own)
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
-        return filled(self.words.phrase(step, self.before), {**self.page_names, **own})
+        return filled(self.words.phrase(step, self.before), own)  # no other step may slip in by its key
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """The numbers that a step puts in for the first time, in the units in which it does."""
