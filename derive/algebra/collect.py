@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from sympy import Add, Expr, Integer, Mul, Rational, Symbol, cos, factor, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
@@ -21,6 +21,11 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
 def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
     """The terms gathered by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
     orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
+    rooted = [term for term in Add.make_args(value) if _has_root_of(term, moving)]
+    if rooted and len(rooted) < len(Add.make_args(value)):
+        gathered = by_rates(Add(*(term for term in Add.make_args(value) if term not in rooted)), moving, highest, halves)
+        apart = [*Add.make_args(gathered), *map(tidied, rooted)]
+        return Add(*(term for term in apart if term != 0), evaluate=False)
     present = [s for s in orders if value.has(s)]
     try:
         gathered = _gathered(value, present) if present else []
@@ -44,6 +49,12 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
         if polynomial is None:
             return []
         return [(n, Coefficient(partial(Add, c), len(Add.make_args(c.expand())))) for n, c in polynomial.terms()]
+
+
+def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
+    """The force of a stretched spring stays a term of its own: on one denominator with the others nobody can read it."""
+    powers = (power for power in term.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer)
+    return any(power.base.has(*moving) for power in powers)
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from sympy import Expr, Symbol
 
+from derive.algebra.expressions import TIME
 from derive.algebra.dimensions import Dimension
 from derive.course.declared import declared_letters
 from derive.course.expression import Declared, read_expression
@@ -238,7 +239,8 @@ def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tupl
 def _entries(group: GroupKeys | OwnKeys, pinned: Problem, faults: Faults) -> list[Entry]:
     # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
     # the derivation knows of it comes back when the two are compared.
-    letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in pinned.symbols.items()}
+    known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
+    letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in known_to_all.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
     printed = {**letters, **_called_otherwise(group.letters, letters, faults)}
     reader = _EntryReader(letters, printed, numbers, faults)

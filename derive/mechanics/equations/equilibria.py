@@ -315,6 +315,7 @@ def _rest(
     def counted(found: Any) -> Verdict:
         return _counted(potential, sought[0], [each.values[sought[0]] for each in states], found)
 
+    distances = tuple(Integer(i) for i, q in enumerate(held) if q.is_positive)
     outcome = "where" if state.exists is not None else "only" if len(states) == 1 else "always"
     return establish(
         "equilibria.rest",
@@ -324,7 +325,7 @@ def _rest(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"no_force": no_force, **({"counted": counted} if len(sought) == 1 else {})},
         outcome=outcome,
-        telling=Telling(formulas=told, judged_by={"count": Integer(len(states))}),
+        telling=Telling(formulas=told, judged_by={"count": Integer(len(states)), "distances": distances}),
         key=f"rest_{n + 1}" if len(states) > 1 else "rest",
         kind=dict(potential.coordinates)[held[0]] if single else None,
         facts=[Rest(dict(state.values), state.exists), RestOf(potential, tuple(sought))],

@@ -48,9 +48,17 @@ def _letters(facts: Judged) -> set[Any]:
     return found | (set(exists.free_symbols) if exists is not None else set())
 
 
+def _is_there(facts: Judged, point: dict[Any, Expr]) -> bool:
+    """It is real, and what is a distance is positive."""
+    if not _is_real(facts.result, point):
+        return False
+    entries = _entries(facts.result)
+    return all(entries[int(i)].xreplace(point).evalf(30) > 0 for i in facts.inputs["distances"])
+
+
 def _anywhere(facts: Judged) -> bool:
-    """It is real whatever the numbers, and no condition is told."""
-    return "exists" not in facts.inputs and all(_is_real(facts.result, n) for n in _numbers(_letters(facts)))
+    """It is there whatever the numbers, and no condition is told."""
+    return "exists" not in facts.inputs and all(_is_there(facts, n) for n in _numbers(_letters(facts)))
 
 
 def _several(facts: Judged) -> bool:
@@ -58,10 +66,10 @@ def _several(facts: Judged) -> bool:
 
 
 def _under_its_condition(facts: Judged) -> bool:
-    """It is real just where the condition holds, which some of the numbers fulfil and some do not."""
+    """It is there just where the condition holds, which some of the numbers fulfil and some do not."""
     if "exists" not in facts.inputs:
         return False
-    tried = [(_holds(facts.inputs["exists"], n), _is_real(facts.result, n)) for n in _numbers(_letters(facts))]
+    tried = [(_holds(facts.inputs["exists"], n), _is_there(facts, n)) for n in _numbers(_letters(facts))]
     return all(holds == real for holds, real in tried) and {holds for holds, _ in tried} == {True, False}
 
 

@@ -80,7 +80,7 @@ class Answers:
         }
         self._on_the_way: list[str] = []
         self._known: dict[str, Any] = {}
-        self._motions: dict[Any, Quantity] = {}
+        self._moving: dict[str, Quantity] = {}
 
     @cached_property
     def system(self) -> System:
@@ -137,8 +137,13 @@ class Answers:
 
     @property
     def reduced(self) -> Quantity:
-        """The Lagrangian, or where momenta are constant the Routhian of what is left."""
-        return self.routhian if self.cyclic and len(self.cyclic) < len(self.coordinates) else self.lagrangian
+        """The Lagrangian, or where momenta are constant and no place is given the Routhian of what is left."""
+        is_left = self.cyclic and len(self.cyclic) < len(self.coordinates)
+        return self.routhian if is_left and not self._has_place_of_cyclic else self.lagrangian
+
+    @property
+    def _has_place_of_cyclic(self) -> bool:
+        return any(name in self.cyclic for name, _ in self.described.at)
 
     @cached_property
     def routhian(self) -> Quantity:
@@ -158,14 +163,14 @@ class Answers:
     def hamiltonian(self) -> Quantity:
         return hamiltonian(self.lagrangian)
 
-    @cached_property
+    @property
     def motions(self) -> dict[str, Quantity]:
-        return {name: self.motion(q) for name, q in self.coordinates.items()}
+        return {name: self.motion(name) for name in self.coordinates}
 
-    def motion(self, q: Coordinate) -> Quantity:
-        if q.symbol not in self._motions:
-            self._motions[q.symbol] = equation_of_motion(self.lagrangian, q, key=f"motion_{q.symbol.name}")
-        return self._motions[q.symbol]
+    def motion(self, name: str) -> Quantity:
+        if name not in self._moving:
+            self._moving[name] = equation_of_motion(self.lagrangian, self.coordinates[name], key=f"motion_{name}")
+        return self._moving[name]
 
     @cached_property
     def potential_at_rest(self) -> Quantity:
@@ -244,7 +249,7 @@ class Answers:
             "multipliers": lambda: multipliers(*self.motions.values()),
         }
         for name, q in self.coordinates.items():
-            found[f"motion_{name}"] = partial(self._one_motion, name)
+            found[f"motion_{name}"] = partial(self.motion, name)
             found[f"momentum_{name}"] = partial(self._one_momentum, q)
             found[f"conserved_{name}"] = partial(self._one_conserved, name)
         for result in self.described.results:
@@ -255,9 +260,6 @@ class Answers:
         if not found:
             raise Rejected(Complaint("wrong-argument", otherwise))
         return found
-
-    def _one_motion(self, name: str) -> Quantity:
-        return self.motion(self.coordinates[name])
 
     def _one_momentum(self, q: Coordinate) -> Quantity:
         return conjugate_momentum(self.lagrangian, q)

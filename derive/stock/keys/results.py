@@ -14,6 +14,7 @@ from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, rejected
 from derive.mechanics import (
     Coordinate,
+    beats,
     leaves_contact,
     limiting_case,
     maximum,
@@ -34,7 +35,7 @@ EXPRESSIONS = as_written(one_or_more(SCALAR.schema))
 INFINITE = {"infinity": oo, "-infinity": -oo}
 VERBS = (
     "solve", "put_in", "roots", "limit", "where", "maximum", "minimum", "leaves", "solution", "amplitude", "speed",
-    "period",
+    "period", "beats",
 )  # fmt: skip
 
 
@@ -58,6 +59,7 @@ class ResultKeys(Record):
     amplitude: Tree | None = key("a driven linear equation of motion of `for`, in its steady state", NAMES)
     speed: Tree | None = key("a conserved energy, which gives the rate of `for` from `start` and `start_rate`", NAMES)
     period: Tree | None = key("a squared rate, as `speed` gives it, to the `order` in the amplitude", NAMES)
+    beats: Tree | None = key("two frequencies, the slower first, of oscillations that are added", NAMES)
     unknowns: Tree | None = key("a letter, a rate such as `theta_dot`, or several", EXPRESSIONS, called="for")
     results: Tree | None = key("answers that are put in", NAMES)
     values: Mapping[Word, Tree] = key("values of letters and coordinates that are put in", mapping_of(SCALAR))
@@ -68,7 +70,7 @@ class ResultKeys(Record):
     start: Tree | None = key("the value at the start", SCALAR)
     start_rate: Tree | None = key("the rate at the start; without it zero", SCALAR)
     within: Tree | None = key("between which values it is sought, such as `[0, pi/2]`", as_written({"type": "array"}))
-    case: Word | None = key("`underdamped`, `critical` or `overdamped`, where the letters leave it open", TEXT)
+    case: Word | None = key("`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open", TEXT)
 
     def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
         """What is to be done, in letters; nothing after a complaint."""
@@ -128,6 +130,9 @@ class Result:
             return _MAKERS[self.verb](self, of, more, coordinates)
 
     def only(self, of: list[Quantity]) -> Quantity:
+        """The one answer; of several of one name that whose key this name is."""
+        if len(of) > 1 and len(self.of) == 1:
+            of = [quantity for quantity in of if quantity.key == self.of[0]] or of
         if len(of) != 1:
             rejected("wrong-argument", f"`{self.verb}` is about one answer, but these are {len(of)}", self.place)
         return of[0]
@@ -207,6 +212,12 @@ def _period(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
     return period_by_energy(result.only(of), key=result.name, **result.named({"order": result.order}))
 
 
+def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    if len(of) != 2:
+        rejected("wrong-argument", f"`beats` is about two frequencies, but these are {len(of)}", result.place)
+    return beats(*of, key=result.name)
+
+
 _MAKERS: Mapping[str, Callable[..., Any]] = {
     "solve": _solve,
     "put_in": _put_in,
@@ -220,6 +231,7 @@ _MAKERS: Mapping[str, Callable[..., Any]] = {
     "amplitude": _amplitude,
     "speed": _speed,
     "period": _period,
+    "beats": _beats,
 }
 
 
