@@ -23,7 +23,9 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
     rooted = [term for term in Add.make_args(value) if _has_root_of(term, moving)]
     if rooted and len(rooted) < len(Add.make_args(value)):
-        gathered = by_rates(Add(*(term for term in Add.make_args(value) if term not in rooted)), moving, highest, halves)
+        gathered = by_rates(
+            Add(*(term for term in Add.make_args(value) if term not in rooted)), moving, highest, halves
+        )
         apart = [*Add.make_args(gathered), *map(tidied, rooted)]
         return Add(*(term for term in apart if term != 0), evaluate=False)
     present = [s for s in orders if value.has(s)]
@@ -52,7 +54,7 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
-    """The force of a stretched spring stays a term of its own: on one denominator with the others nobody can read it."""
+    """Such as the force of a stretched spring, a term of its own: on one denominator with others nobody can read it."""
     powers = (power for power in term.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer)
     return any(power.base.has(*moving) for power in powers)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Rational, cos, sin, symbols
+from sympy import Rational, cos, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -98,3 +98,73 @@ def test_nothing_is_added_that_is_zero(tmp_path: Path) -> None:
 def test_one_equation_of_motion_is_derived_alone(tmp_path: Path) -> None:
     found = solved(tmp_path, edited(PENDULUM, *PLANET, ("equations_of_motion", "motion_r")))
     assert "motion_phi" not in found
+def test_a_letter_of_a_page_names_one_of_several_answers(tmp_path: Path) -> None:
+    """Taylor, section 5.6: of the amplitude and its lag the amplitude, whose name it is, is greatest."""
+    driven = (
+        ("theta: angle", "x: length"),
+        ("  places: {A: [l*sin(theta), -l*cos(theta)]}", "  places: {A: [x, 0]}"),
+        ("  gravity: g\n", DRIVEN),
+        ("k: spring constant", "k: spring constant, b: damping constant, F: force"),
+        ("equations_of_motion", "resonance"),
+    )
+    found = solved(tmp_path, edited(PENDULUM, *driven))["resonance_omega"].value
+    b = symbols("b", positive=True)
+    assert equal(found, sqrt(k / m - b**2 / (2 * m**2)))
+
+
+DRIVEN = """\
+  springs: {constant: k, from: [0, 0], to: A}
+  damping: {constant: b, at: A}
+  forces: {components: [F*cos(omega*t), 0], at: A}
+  results:
+    steady: {amplitude: motion_x, for: x}
+    resonance: {maximum: steady, for: omega}
+"""
+
+
+def test_two_swings_beat(tmp_path: Path) -> None:
+    """Two pendulums with a spring: Fowles, Cassiday, section 11.3."""
+    pair = (
+        ("theta: angle", "theta: angle, phi: angle"),
+        ("-l*cos(theta)]}", "-l*cos(theta)], B: [l + l*sin(phi), -l*cos(phi)]}"),
+        ("at: A}", "at: A}, other: {mass: m, at: B}"),
+        ("  gravity: g\n", BEATING),
+        ("equations_of_motion", "[normal_modes, beating]"),
+    )
+    found = solved(tmp_path, edited(PENDULUM, *pair))["beating"].value
+    assert equal(found, sqrt(g / l + 2 * k / m) - sqrt(g / l))
+
+
+BEATING = """\
+  gravity: g
+  springs: {constant: k, length: l, from: A, to: B}
+  at: {theta: 0, phi: 0}
+  results: {beating: {beats: [frequency_1, frequency_2]}}
+"""
+
+
+def test_a_place_of_a_cyclic_coordinate_asks_for_all_equations(tmp_path: Path) -> None:
+    """Of a pendulum on a free cart also the mode of no frequency."""
+    cart = (
+        ("theta: angle", "x: length, theta: angle"),
+        ("[l*sin(theta),", "[x + l*sin(theta),"),
+        ("at: A}", "at: A}, cart: {mass: m, at: [x, 0]}"),
+        ("  gravity: g\n", "  gravity: g\n  at: {x: 0, theta: 0}\n"),
+        ("equations_of_motion", "normal_modes"),
+    )
+    found = solved(tmp_path, edited(PENDULUM, *cart))
+    assert found["frequency_1"].value == 0
+    assert equal(found["frequency_2"].value, sqrt(2 * g / l))
+
+
+def test_a_distance_is_positive_at_rest(tmp_path: Path) -> None:
+    """A pendulum on a spring stands upright only where its weight does not press the spring together."""
+    hung = (
+        ("theta: angle", "r: positive length, theta: angle"),
+        ("[l*sin(theta), -l*cos(theta)]", "[r*sin(theta), -r*cos(theta)]"),
+        ("  gravity: g\n", "  gravity: g\n  springs: {constant: k, length: l, from: [0, 0], to: A}\n"),
+        ("equations_of_motion", "equilibria"),
+    )
+    found = solved(tmp_path, edited(PENDULUM, *hung))
+    assert equal(found["rest_1"].value[0], l + m * g / k)
+    assert found["rest_2"].step.outcome == "where"

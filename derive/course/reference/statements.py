@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, replace
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import TIME
 from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import TIME
 from derive.course.declared import declared_letters
 from derive.course.expression import Declared, read_expression
 from derive.course.parts import UNIT

@@ -314,7 +314,9 @@ def _sign(root: RootOf) -> int | None:
 def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Under which the root is real, or positive where it must be."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
-        return Relation(lecture_form(_without_positive(root.discriminant)), ">=", ZERO)
+        _, b, c = root.coefficients
+        mark = ">" if b == 0 and sign_known(c) else ">="  # of a x^2 + c with a = 0 there is no root
+        return Relation(lecture_form(_without_positive(root.discriminant)), mark, ZERO)
     if unknown.is_positive and _sign(root) is None:
         return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
     return None
