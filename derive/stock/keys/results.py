@@ -215,7 +215,8 @@ def _period(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
 def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     if len(of) != 2:
         rejected("wrong-argument", f"`beats` is about two frequencies, but these are {len(of)}", result.place)
-    return beats(*of, key=result.name)
+    slow, fast = of
+    return beats(slow, fast, key=result.name)
 
 
 _MAKERS: Mapping[str, Callable[..., Any]] = {
