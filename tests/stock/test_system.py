@@ -98,6 +98,8 @@ def test_nothing_is_added_that_is_zero(tmp_path: Path) -> None:
 def test_one_equation_of_motion_is_derived_alone(tmp_path: Path) -> None:
     found = solved(tmp_path, edited(PENDULUM, *PLANET, ("equations_of_motion", "motion_r")))
     assert "motion_phi" not in found
+
+
 def test_a_letter_of_a_page_names_one_of_several_answers(tmp_path: Path) -> None:
     """Taylor, section 5.6: of the amplitude and its lag the amplitude, whose name it is, is greatest."""
     driven = (

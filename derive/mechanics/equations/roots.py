@@ -364,11 +364,5 @@ def _names(unknown: Expr, count: int) -> list[str]:
     return [name] if count == 1 else [f"{name}_{i + 1}" for i in range(count)]
 
 
-def _numbered(name: str, number: int) -> str:
-    """theta_1, and of a rate phi_1_dot."""
-    mark = next((mark for mark in ("_ddot", "_dot") if name.endswith(mark)), "")
-    return f"{name.removesuffix(mark)}_{number}{mark}"
-
-
 def _assumed(unknown: Expr) -> dict[str, bool]:
     return {"positive": True} if unknown.is_positive else {}
