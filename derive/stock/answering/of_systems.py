@@ -163,9 +163,15 @@ class Answers:
     def hamiltonian(self) -> Quantity:
         return hamiltonian(self.lagrangian)
 
+    @cached_property
+    def independent(self) -> dict[str, Coordinate]:
+        """The coordinates that are left where rolling gives some by the others."""
+        moving = self.lagrangian.coordinates
+        return {name: q for name, q in self.coordinates.items() if q.symbol in moving}
+
     @property
     def motions(self) -> dict[str, Quantity]:
-        return {name: self.motion(name) for name in self.coordinates}
+        return {name: self.motion(name) for name in self.independent}
 
     def motion(self, name: str) -> Quantity:
         if name not in self._moving:
