@@ -11,9 +11,9 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of
+from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
-from derive.course.yaml_tree import Tree, Word
+from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean
 from derive.figures import sketch
 from derive.stock.answering.of_systems import Answers, constant
@@ -46,6 +46,7 @@ from derive.stock.keys.places import (
 )
 from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
+STATE = mapping_of(SCALAR)
 POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
 SYSTEM = "system"  # what the drawing of it is called
 
@@ -77,9 +78,10 @@ class SystemKeys(Record):
     conserved: Mapping[Word, Word] = key(
         "letters for the constant momenta of cyclic coordinates: `phi: l`, `phi: positive l`", mapping_of(TEXT)
     )
-    at: Mapping[Word, Tree] = key(
-        "the state about which equations are linearised and stability is judged; without it all states of rest",
-        mapping_of(SCALAR),
+    at: Tree | None = key(
+        "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
+        "rest by its name, `rest_3`; without it all of them",
+        as_written({"anyOf": [{"type": "string"}, STATE.schema]}),
     )
     results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
 
@@ -93,6 +95,7 @@ class DescribedSystem(Described):
     gravity: Expr | None = None
     conserved: tuple[tuple[str, Symbol], ...] = ()
     at: tuple[tuple[str, Expr], ...] = ()
+    at_rest: Word | None = None
     results: tuple[Result, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
@@ -124,6 +127,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:
         names = {str(name) for name in written.bodies}
         parts += each([partial(one.part, places, known, names) for one in written.rolling])
+    rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
     gravity = _value(written.gravity, "gravity", "acceleration", known, faults)
     energy = _value(written.potential, "potential", "energy", known, faults)
     if energy is not None:
@@ -141,7 +145,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         conserved=tuple(
             (str(q), own[name].symbol) for q, word in written.conserved.items() if (name := _letter(word)[0]) in own
         ),
-        at=_state(written.at, letters, known, faults),
+        at=_state(STATE.read(written.at, "at", faults) or {}, letters, known, faults) if written.at and not rest else (),
+        at_rest=rest,
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
         place=written.places[""],
     )

@@ -233,7 +233,7 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
 
     letters = (letters_of(value) | letters_of(found)) - {q, amplitude}
     point = next(islice(points(letters, seed_of(value)), 1))
-    with mp.workdps(FIGURES):
+    with mp.workdps(FIGURES + 5 * order):  # what is left is compared with that power of a small amplitude
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
             there = {**point, amplitude: small}
@@ -242,7 +242,7 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
             time = 2 * mp.quad(
                 lambda u, a=a, v=speed: mp.re(a * mp.cos(u) / v(a * mp.sin(u))), [-mp.pi / 2, 0, mp.pi / 2]
             )
-            told = mp.mpf(str(found.subs(there).evalf(FIGURES)))
+            told = mp.mpf(str(found.subs(there).evalf(mp.dps)))
             rests.append(abs(time - told) / abs(told) / a**order)
     if rests[1] > rests[0] * 0.6 and rests[1] > NOISE:
         return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")

@@ -29,6 +29,7 @@ from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
 __all__ = ["beats", "normal_modes", "period"]
 
 ZERO = Integer(0)
+LETTERS = ("omega", "Omega")  # of a frequency: the second where the first is given
 
 
 @dataclass(frozen=True)
@@ -59,8 +60,10 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     together = linear[0].needed(Linear)
     _check_whole(linear, together)
     pencil = Pencil(together.stiffness, together.mass, together.exists)
-    letter = scalar(symbol if symbol and len(linear) > 1 else "omega")
-    if letter.name in {s.name for s in together.stiffness.free_symbols | together.mass.free_symbols}:
+    given = {s.name for s in together.stiffness.free_symbols | together.mass.free_symbols}
+    free = next((name for name in LETTERS if name not in given), LETTERS[0])
+    letter = scalar(symbol if symbol and len(linear) > 1 else free)
+    if letter.name in given:
         message = f"`normal_modes` would call the frequency {letter}, but {letter} stands for something that is given"
         raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
     before = f"{key}_" if key else ""

@@ -14,6 +14,7 @@ from sympy import Expr, Rational, diff, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.ranges import range_of
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -26,7 +27,16 @@ def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
     """Numbers for the letters, one large where another is small, of all the orders that they may have."""
     ordered = sorted(letters, key=str)
     for shift in range(SHIFTS):
-        yield {s: Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i, s in enumerate(ordered)}
+        drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
+        yield {s: _in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}
+
+
+def _in_range(letter: Any, number: Expr) -> Expr:
+    """The same number, brought between the ends of a letter that has some."""
+    known = range_of(letter)
+    if known is None:
+        return number
+    return Rational(str((known.least + (known.greatest - known.least) * number / (1 + number)).evalf(20)))
 
 
 def _entries(value: Any) -> list[Expr]:

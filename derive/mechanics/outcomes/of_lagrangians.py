@@ -7,6 +7,7 @@ from sympy import Add, Dummy, Expr, Integer, Symbol, diff
 from derive.algebra.equality import equal
 from derive.algebra.expressions import bound, explicit, rate
 from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies
@@ -26,9 +27,14 @@ def _in_rates(facts: Judged) -> Expr:
 
 
 def _is_conserved(facts: Judged) -> bool:
-    """Its rate along the motion, the accelerations taken out by d'Alembert's principle, vanishes."""
-    matter = facts.quantities["lagrangian"].needed(Matter)
+    """Its rate along the motion, the accelerations taken out by d'Alembert's principle, vanishes.
+
+    What keeps a constraint does no work in the velocities that the constraint allows.
+    """
+    L = facts.quantities["lagrangian"]
+    matter, kept = L.needed(Matter), L.fact(Kept)
     along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
+    along += [c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())]
     return bool(equal(by_functions_of_time(_in_rates(facts), matter.coordinates), Add(*along)))
 
 

@@ -60,6 +60,8 @@ class OfSystem(Protocol):
     @property
     def at(self) -> tuple[tuple[str, Expr], ...]: ...
     @property
+    def at_rest(self) -> Word | None: ...
+    @property
     def results(self) -> tuple[Result, ...]: ...
     @property
     def place(self) -> Place | None: ...
@@ -198,8 +200,10 @@ class Answers:
         return tuple(stability(self.potential_at_rest, at) for at in self.equilibria)
 
     @property
-    def state(self) -> dict[Any, Expr] | None:
+    def state(self) -> dict[Any, Expr] | Quantity | None:
         """The state about which the motion is small, if one is given."""
+        if self.described.at_rest is not None:
+            return self._one_of("equilibria", self.described.at_rest)
         found = {self.coordinates[name]: value for name, value in self.described.at}
         return found or None
 
@@ -258,6 +262,9 @@ class Answers:
             found[f"motion_{name}"] = partial(self.motion, name)
             found[f"momentum_{name}"] = partial(self._one_momentum, q)
             found[f"conserved_{name}"] = partial(self._one_conserved, name)
+            found[f"acceleration_{name}"] = partial(self._one_of, "accelerations", f"acceleration_{name}")
+        for constraint in self.system.constraints:
+            found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
         for result in self.described.results:
             found[result.name] = partial(result.made, self.named, self.coordinates)
         return found
@@ -269,6 +276,12 @@ class Answers:
 
     def _one_momentum(self, q: Coordinate) -> Quantity:
         return conjugate_momentum(self.lagrangian, q)
+
+    def _one_of(self, several: str, key: str) -> Quantity:
+        found = {q.key: q for q in self.named(Word.at(several, self.described.place))}
+        if key not in found:
+            raise Rejected(Complaint("wrong-argument", f"`{several}` has no `{key}`", help=did_you_mean(key, found)))
+        return found[key]
 
     def _one_conserved(self, name: str) -> Quantity:
         if name not in self.cyclic:
