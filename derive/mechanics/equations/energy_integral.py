@@ -53,7 +53,7 @@ def speed_from_energy(
     q            the coordinate
     start        its value at the start
     start_rate   its rate at the start, 0 where it is released from rest
-    motion       the equation of motion, for an energy that has no mass points and forces behind it
+    motion       the equation of motion, or q_ddot as it gives that, for an energy that has no mass points and forces behind it
     That the energy keeps the value of the start is a step of its own.
     Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
     acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate is that of the start.
@@ -133,6 +133,8 @@ def _energy_kept(energy: Quantity, q: Coordinate, first: Expr, initial: Expr, ac
 def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> Expr:
     """What the equation of motion, or else d'Alembert's principle, makes of q_ddot."""
     matter = energy.fact(Matter)
+    if motion is not None and motion.symbol == q.acceleration:
+        return tidied(explicit(motion.value))
     if motion is not None:
         left = residual_of("speed_from_energy", motion)
     elif matter is not None and tuple(matter.coordinates) == (q.symbol,):
