@@ -53,6 +53,13 @@ def sign_within(expr: Expr) -> int | None:
     return None if None in signs else prod(sign for sign in signs if sign)
 
 
+def strict_sign_within(expr: Expr) -> int | None:
+    """The same where no letter may have an end of its range, at which the value may vanish."""
+    if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
+        return None
+    return sign_within(expr)
+
+
 def _sign_of_factor(factor: Expr) -> int | None:
     if factor.is_positive or factor.is_negative:
         return 1 if factor.is_positive else -1

@@ -145,7 +145,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         conserved=tuple(
             (str(q), own[name].symbol) for q, word in written.conserved.items() if (name := _letter(word)[0]) in own
         ),
-        at=_state(STATE.read(written.at, "at", faults) or {}, letters, known, faults) if written.at and not rest else (),
+        at=_state({} if rest else _values(written.at, faults), letters, known, faults),
         at_rest=rest,
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
         place=written.places[""],
@@ -183,6 +183,10 @@ def _letter(word: Word) -> tuple[str, bool]:
     """The letter of a constant, and whether it is counted so that it is positive."""
     name = word.removeprefix(f"{POSITIVE_CONSTANT} ").strip()
     return name, name != word
+
+
+def _values(written: Tree | None, faults: Faults) -> Mapping[Word, Tree]:
+    return STATE.read(written, "at", faults) or {} if written else {}
 
 
 def _state(
