@@ -236,7 +236,7 @@ def refused(case: str) -> Any:
         equations, *_ = double()
         return normal_modes(linearised(equations)[:1])
     if case == "taken":
-        return normal_modes(linearised(chain([w, w], [k, k, k])))
+        return normal_modes(linearised(chain([w, w], [k, k, k])), symbol="omega")
     if case == "cubic":
         return normal_modes(linearised(chain([m, m, m], [k, k, k, c])))
     if case == "rates":
@@ -269,6 +269,11 @@ def refused(case: str) -> Any:
 def test_wrong_questions_about_modes_are_refused(case: str, said: str) -> None:
     with pytest.raises(Rejected, match=said):
         refused(case)
+
+
+def test_where_omega_is_given_a_frequency_is_called_by_the_capital_letter() -> None:
+    (found, *_) = normal_modes(linearised(chain([w, w], [k, k, k])))
+    assert str(found.symbol) == "Omega_1"
 
 
 WRONG: dict[str, tuple[Any, str, Callable[..., Any]]] = {

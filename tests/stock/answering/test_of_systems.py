@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from sympy import symbols
 
+from derive.algebra.equality import equal
 from tests.stock.described import PENDULUM, edited, messages, solved
 
 PLANET = """\
@@ -44,6 +46,91 @@ def test_a_planet_has_a_circular_orbit(tmp_path: Path) -> None:
     """Goldstein, section 3.3: r = l^2/(m k)."""
     steps = solved(tmp_path, PLANET)
     assert str(steps["rest"].value) == "l**2/(k*m)"
+
+
+HOOP = """\
+title: A bead on a turning hoop
+solve: system
+symbols: {R: length, m: mass, g: acceleration, omega: angular speed}
+given:
+  coordinates: {theta: angle}
+  axes: {hoop: [{z: omega*t}]}
+  particles: {bead: {mass: m, at: {in: hoop, by: [R*sin(theta), 0, -R*cos(theta)]}}}
+  gravity: g
+  at: rest_3
+statement: A bead.
+parts:
+  - ask: Find it.
+    answer: [equilibria, normal_modes]
+"""
+SPHERE = """\
+title: A particle on a sphere
+solve: system
+symbols: {m: mass, R: length, g: acceleration}
+given:
+  coordinates: {r: positive length, theta: angle}
+  particles: {one: {mass: m, at: [r*sin(theta), r*cos(theta)]}}
+  gravity: g
+  constraints: {condition: r - R, force: N}
+statement: A particle.
+parts:
+  - ask: Find it.
+    answer: [acceleration_theta, N, energy_function]
+"""
+WIRE = """\
+title: A bead on a turning wire
+solve: system
+symbols: {m: mass, g: acceleration, omega: angular speed, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {r: positive length}
+  axes: {wire: [{z: omega*t}]}
+  particles: {bead: {mass: m, at: {in: wire, by: [r*sin(alpha), 0, r*cos(alpha)]}}}
+  gravity: g
+statement: A bead.
+parts:
+  - ask: Find it.
+    answer: [equilibria, stability]
+"""
+CYLINDER = """\
+title: A cylinder that rolls inside another
+solve: system
+symbols: {M: mass, b: length, a: length, g: acceleration}
+given:
+  coordinates: {phi: angle, psi: angle}
+  places: {C: [b*sin(phi), -b*cos(phi)], K: [(a + b)*sin(phi), -(a + b)*cos(phi)]}
+  bodies: {cylinder: {shape: disc, radius: a, mass: M, turned: psi, centre: C, across: z}}
+  rolling: {body: cylinder, at: K}
+  gravity: g
+statement: A cylinder.
+parts:
+  - ask: Find it.
+    answer: [equations_of_motion, normal_modes]
+"""
+
+
+def test_equations_are_linearised_about_a_state_of_rest_by_its_name(tmp_path: Path) -> None:
+    """Taylor, equation 7.80."""
+    found = solved(tmp_path, HOOP)["frequency"].value
+    R, g, omega = symbols("R g omega", positive=True)
+    assert equal(found**2, omega**2 - (g / (omega * R)) ** 2)
+
+
+def test_a_force_of_constraint_is_asked_for_by_its_letter_and_the_energy_is_conserved(tmp_path: Path) -> None:
+    steps = solved(tmp_path, SPHERE)
+    assert {"acceleration_theta", "N", "energy_function"} <= steps.keys()
+    assert steps["energy_function"].step.outcome == "energy"
+
+
+def test_a_letter_with_a_range_leaves_no_condition_of_rest(tmp_path: Path) -> None:
+    steps = solved(tmp_path, WIRE)
+    assert steps["rest"].step.outcome == "only"
+
+
+def test_a_coordinate_that_rolling_gives_has_no_equation_of_its_own(tmp_path: Path) -> None:
+    """Landau, Lifshitz, section 32, problem 6: omega^2 = 2 g/(3 (R - a))."""
+    steps = solved(tmp_path, CYLINDER)
+    assert str(steps["frequency"].value ** 2) == "2*g/(3*b)"
+    assert "motion_psi" not in steps
 
 
 @pytest.mark.parametrize(
