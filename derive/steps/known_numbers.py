@@ -13,7 +13,7 @@ from sympy import Expr, Mul, Pow
 
 from derive.algebra.expressions import bound, explicit
 from derive.algebra.normal_form import vanishes
-from derive.algebra.ranges import sign_within
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.steps.record import current_run
 
@@ -43,7 +43,7 @@ def _sign_of_factor(factor: Expr) -> int | None:
         return -1
     if isinstance(factor, Pow) and not factor.exp.is_Integer and factor.exp.is_real:
         return 1 if sign_known(factor.base) == 1 else None
-    ranged = sign_within(factor)
+    ranged = strict_sign_within(factor)
     if ranged is not None:
         return ranged
     value = with_numbers(factor)

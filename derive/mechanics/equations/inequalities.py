@@ -6,7 +6,7 @@ from sympy import Abs, Dummy, Expr, Integer, Mul, Symbol, nan, sqrt
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import sign_within
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.steps.establish import Lines, Telling, establish
@@ -164,7 +164,7 @@ def sign_by_factors(value: Expr) -> int | None:
         base, power = factor.as_base_exp()
         forms = (factor, factor.expand()) if not power.is_Integer else (base**power, base.expand() ** power)
         if not any(form.is_positive or form.is_negative for form in forms):
-            ranged = sign_within(factor)
+            ranged = strict_sign_within(factor)
             if ranged is not None:
                 found *= ranged
                 continue

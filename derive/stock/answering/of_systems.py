@@ -278,6 +278,7 @@ class Answers:
         return conjugate_momentum(self.lagrangian, q)
 
     def _one_of(self, several: str, key: str) -> Quantity:
+        assert self.described.place is not None
         found = {q.key: q for q in self.named(Word.at(several, self.described.place))}
         if key not in found:
             raise Rejected(Complaint("wrong-argument", f"`{several}` has no `{key}`", help=did_you_mean(key, found)))
