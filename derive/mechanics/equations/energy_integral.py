@@ -53,7 +53,7 @@ def speed_from_energy(
     q            the coordinate
     start        its value at the start
     start_rate   its rate at the start, 0 where it is released from rest
-    motion       the equation of motion, or q_ddot as it gives that, for an energy that has no mass points and forces behind it
+    motion       the equation of motion, or q_ddot as it gives that, for an energy without mass points and forces
     That the energy keeps the value of the start is a step of its own.
     Second route: along every motion of the mass points the energy does not change (d'Alembert's principle); the
     acceleration q_ddot is half the derivative of q_dot^2 by q, and at the start the rate is that of the start.
