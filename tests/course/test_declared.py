@@ -27,7 +27,7 @@ def test_a_letter_may_lie_in_a_range(tmp_path: Path) -> None:
 def test_a_root_of_a_square_has_the_sign_that_the_range_settles(tmp_path: Path) -> None:
     at = ("[l*sin(theta), -l*cos(theta)]", "[l*sqrt(sin(alpha)**2)*theta, 0]")
     problem = loaded(tmp_path, edited(PENDULUM, WITH_RANGE, at, ("equations_of_motion", "kinetic_energy")))
-    (energy,) = run_solve(problem).values()  # type: ignore[attr-defined]
+    ((energy,),) = run_solve(problem).values()  # type: ignore[attr-defined]
     assert "Abs" not in str(energy.value)
 
 

@@ -60,6 +60,14 @@ class PrintedFormula(Formula):
             run.at += 1
             return figure
         letter = self.read_letter(run)
+        if (
+            letter is not None
+            and letter.name == "e"
+            and run.written == "^"
+            and ("e", "", 0, "scalar") not in self.names
+        ):
+            self.euler = replace(self.euler, start=letter.start, end=letter.end)
+            return self.euler
         return None if letter is None else self.value_of(letter)
 
     def letter(self, run: Cursor) -> Term | None:

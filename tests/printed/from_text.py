@@ -18,6 +18,7 @@ from typing import Any
 
 from sympy import (
     Abs,
+    E,
     Expr,
     ImmutableDenseMatrix,
     Integer,
@@ -46,6 +47,7 @@ from derive.render.notation.text import TextBox
 from tests.printed.meaning import differentiated, in_unit, over_the_mass, taken_at
 from tests.printed.names import Misprint
 
+EULER = r"e(?=\^\(|[⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺])"  # with its power: a letter e would be in the names
 FUNCTIONS: Mapping[str, Any] = {
     "sin": sin, "cos": cos, "tan": tan, "arcsin": asin, "arccos": acos, "arctan": atan, "sinh": sinh, "cosh": cosh,
     "tanh": tanh, "exp": exp, "ln": log,
@@ -179,7 +181,7 @@ class TextReader:
     bars = 0
 
     def special_ahead(self) -> bool:
-        pattern = rf"(?:{'|'.join(FUNCTIONS)})[⁰¹²³⁴⁵⁶⁷⁸⁹⁻( ]|d[²³]?\S*/d|π"
+        pattern = rf"(?:{'|'.join(FUNCTIONS)})[⁰¹²³⁴⁵⁶⁷⁸⁹⁻( ]|d[²³]?\S*/d|π|{EULER}"
         return re.compile(pattern).match(self.text, self.at) is not None
 
     # -- integrals ---------------------------------------------------------------------------------------------
@@ -276,6 +278,8 @@ class TextReader:
             return rational(found[0])
         if self.take("π"):
             return pi
+        if self.matched(EULER):
+            return E
         if found := self.matched(r"(?=[d∂])"):
             return self.derivative()
         if self.take("√"):

@@ -135,7 +135,8 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
     """
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
-    if definite(function, limits) is not None or any(has_root(part) for part in [function, *ends]):
+    found = definite(function, limits)
+    if found is not None and found.is_finite is not False or any(has_root(part) for part in [function, *ends]):
         return True
     if any(end.free_symbols & variables for end in ends):
         return False

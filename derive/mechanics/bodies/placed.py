@@ -139,7 +139,18 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
         angle = explicit(Integer(0) + turned)
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "a body is turned as axes are, or by an angle")) from None
-    return PlacedBody(body, angle, point, at, _across(body, across))
+    number = _across(body, across)
+    _check_turns(body, number, angle)
+    return PlacedBody(body, angle, point, at, number)
+
+
+def _check_turns(body: Any, number: int, angle: Expr) -> None:
+    """A body without inertia about the axis across the plane, a rod seen along its line, does not turn in it."""
+    spread = central_second_moments(body)
+    j, k = (number + 1) % 3, (number + 2) % 3
+    if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:
+        message = f"{body.name} has no moment of inertia about its own {XYZ[number]}, so it does not turn about that"
+        raise Rejected(Complaint("wrong-axis", message, help="put another of its axes across the plane"))
 
 
 def _across(body: Any, named: str | None) -> int:

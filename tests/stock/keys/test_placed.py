@@ -73,6 +73,10 @@ def test_a_hoop_that_rolls_has_one_coordinate(tmp_path: Path) -> None:
             "`moments` must be a moment of inertia",
         ),
         ("{shape: rod, length: l, mass: m, held: end, turned: l, across: x}", "`turned` must be an angle"),
+        (
+            "{shape: rod, length: l, mass: m, held: end, turned: theta, across: z}",
+            "has no moment of inertia about",
+        ),
         ("{shape: rod, length: l, mass: m, held: end, turned: theta, across: w}", "`across` must be x, y or z"),
     ],
 )
