@@ -179,18 +179,34 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 
 
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
-    """What both sides are at points at which both are defined."""
+    """What both sides are at points at which both are defined.
+
+    Where neither is real, as sqrt(g/l - k/m) for a strong spring, what is compared has no meaning, and two ways to write
+    it may be on different branches: such points count only where there are no others.
+    """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
-    found = 0
+    found, beside = 0, []
     for point in islice(drawn, 2 * count if letters else 1):
         try:
-            yield compared_at(left, right, point, thoroughly)
+            sample = compared_at(left, right, point, thoroughly)
         except (Undefined, NoNumber):
             continue
+        if _is_imaginary(sample):
+            beside.append(sample)
+            continue
+        yield sample
         found += 1
         if found == count:
             return
+    if not found:
+        yield from beside[:count]
+
+
+def _is_imaginary(sample: Sample) -> bool:
+    """Whether both sides have imaginary parts though all letters are real."""
+    letters_real = all(value.is_real for value in sample.point.values())
+    return letters_real and all(abs(side.imag) > 1e-20 * abs(side) for side in (sample.left, sample.right))
 
 
 def _refutation(sample: Sample) -> Verdict:

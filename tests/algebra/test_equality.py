@@ -544,3 +544,15 @@ def test_no_pair_of_expressions_makes_it_fail(source: Any) -> None:
     left, right = grown(source.randint(1, 3)), grown(source.randint(1, 3))
     for one, other in ((left, right), (left, left + NOTHING), (relation(left, ">", x), relation(right, ">", x))):
         assert isinstance(equal(one, other), Verdict)
+
+
+def test_where_neither_side_is_real_is_no_counterexample() -> None:
+    g, k, l, m = symbols("g k l m", positive=True)
+    assert equal(sqrt(g / l - k / m), sqrt(g * m - k * l) / sqrt(l * m))
+    assert not equal(sqrt(g / l - k / m), sqrt(g * m + k * l) / sqrt(l * m))
+
+
+def test_what_is_imaginary_everywhere_is_compared_there() -> None:
+    g, l = symbols("g l", positive=True)
+    assert equal(sqrt(-g / l), I * sqrt(g) / sqrt(l))
+    assert not equal(sqrt(-g / l), -I * sqrt(g / l))

@@ -197,6 +197,25 @@ def test_where_no_root_is_positive_it_is_said() -> None:
     assert str(absent.value.mark) == "<"
 
 
+def test_the_cosine_of_a_conical_pendulum_is_that_of_an_angle_where_it_turns_fast_enough() -> None:
+    """Taylor, problem 7.38 and Morin, problem 6.1: cos(theta) = g/(l Omega^2), for l Omega^2 > g only."""
+    theta, l, rate = coordinate("theta"), *symbols("l Omega", positive=True)
+    angle = theta.symbol
+    (found,) = roots(equation((g - l * rate**2 * cos(angle)) * sin(angle)), cos(angle))
+    assert equal(found.value, g / (l * rate**2))
+    assert equal(dict(found.step.roles)["existing"], Relation(l * rate**2, ">", g))
+    (level,) = roots(equation(g - l * rate**2 * cos(angle), key="not_divided"), cos(angle), keys=["level"])
+    assert dict(level.step.roles)["existing"].mark == ">="
+
+
+@pytest.mark.parametrize(("bound", "mark"), [(2, ">"), (-2, "<")])
+def test_no_angle_has_a_cosine_beyond_one(bound: int, mark: str) -> None:
+    theta = coordinate("theta")
+    (absent,) = roots(equation(cos(theta.symbol) - bound), cos(theta.symbol))
+    assert absent.step.outcome == "none_reached"
+    assert absent.value.mark == mark
+
+
 # --- results put in ---
 
 

@@ -21,14 +21,16 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
+    cos,
     factor_list,
     gcd,
     resultant,
+    sin,
     sqrt,
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, scalar
+from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import (
@@ -39,8 +41,10 @@ from derive.mechanics.equations.unknowns import (
     may_vanish,
     meaning,
     polynomial_in,
+    residual_of,
     unknown_of,
 )
+from derive.mechanics.equations.zeros import within_one
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Fact, Level, Quantity, is_zero
@@ -97,7 +101,7 @@ def roots(
     Second route: put back into the equation; by Vieta the sum and the product of all roots are those that the
     coefficients give.
     Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),
-    none (no root is real), none_positive.
+    none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1).
     Errors: it is no polynomial in the letter, or has a factor of a degree above two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
@@ -112,6 +116,9 @@ def roots(
     kept = [root for root in real if _sign(root) not in ((-1, 0) if positive else ())]
     if not kept:
         return (_no_root(equation, unknown, real, True, keys),)
+    kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
+    if not kept:
+        return (_not_reached(equation, unknown, real, keys),)
     kept = _ascending(kept)
     names = list(keys or _names(unknown, len(kept)))
     if len(names) != len(kept):
@@ -150,9 +157,15 @@ def _step(
             [-rest[0] / leading, (-1) ** n * rest[-1] / leading]
         )
 
-    condition = _condition(root, unknown)
-    excluded = may_vanish(root.coefficients[0])
-    told = {"condition": condition, "excluded": excluded}
+    told = {
+        role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
+        for role, each in (
+            ("condition", _condition(root, unknown)),
+            ("excluded", may_vanish(root.coefficients[0])),
+            ("existing", _existing(root, unknown, equation)),
+        )
+        if each is not None
+    }
     return establish(
         "roots.roots",
         name,
@@ -172,7 +185,7 @@ def _step(
         key=key,
         kind=kind_of_unknown(unknown, coordinates_of(equation)),
         telling=Telling(
-            formulas={role: (each, Relation(tidied(each.left), each.mark, 0)) for role, each in told.items() if each},
+            formulas=told,
             judged_by={
                 "polynomial": polynomial.as_expr(),
                 "gen": polynomial.gen,
@@ -216,6 +229,37 @@ def _no_root(
         outcome="none_positive" if real else "none",
         key=(keys or [f"no_{letter_of(unknown).name}"])[0],
     )
+
+
+def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
+    """Whether no angle has it for its sine or cosine."""
+    return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
+
+
+def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], keys: Sequence[str] | None) -> Quantity:
+    nearest = min(every, key=lambda root: abs(number) if (number := with_numbers(root.value)).is_number else 1)
+    side = 1 if sign_known(nearest.value) == 1 else -1
+    return establish(
+        "roots.roots_absent",
+        None,
+        lambda *_: Relation(nearest.value, ">" if side > 0 else "<", Integer(side)),
+        {"equation": equation, "unknown": unknown},
+        lines=Lines(put_in=None),
+        routes={"otherwise": lambda found: (found.left, explicit(nearest.formula))},
+        outcome="none_reached",
+        key=(keys or [f"no_{letter_of(unknown).name}"])[0],
+    )
+
+
+def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
+    """For which values of the letters an angle has it for its sine or cosine; not at the border, where the other of the
+    two vanishes, if the equation was divided by that."""
+    if not isinstance(unknown, sin | cos) or root.value in (1, -1):
+        return None
+    exists, _ = within_one(root.value)
+    if exists is None or residual_of("roots", equation).has(cos if isinstance(unknown, sin) else sin):
+        return exists
+    return Relation(exists.left, f"{exists.mark}=", exists.right)
 
 
 def _by_resultant(root: RootOf) -> Expr:

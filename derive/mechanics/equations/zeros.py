@@ -162,21 +162,21 @@ def _of_angle(factor: Expr, u: Expr) -> list[Zero]:
 def _with_cosine(value: Expr) -> list[Zero]:
     if value in (1, -1):
         return [Zero(acos(value))]
-    exists, never = _within_one(value)
+    exists, never = within_one(value)
     return [] if never else [Zero(acos(value), exists), Zero(-acos(value), exists)]
 
 
 def _with_sine(value: Expr) -> list[Zero]:
     if value in (1, -1):
         return [Zero(asin(value))]
-    exists, never = _within_one(value)
+    exists, never = within_one(value)
     if never:
         return []
     other = pi - asin(value) if sign_by_factors(value) != -1 else -pi - asin(value)
     return [Zero(asin(value), exists), Zero(other, exists)]
 
 
-def _within_one(value: Expr) -> tuple[Relation | None, bool]:
+def within_one(value: Expr) -> tuple[Relation | None, bool]:
     """The condition for -1 < v < 1, if it needs one; and whether it can never be."""
     sign = sign_by_factors(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)

@@ -67,6 +67,14 @@ def _absent(facts: Judged) -> bool:
     return isinstance(facts.result, Relation) and sign_known(facts.result.left) in _CAN_BE[facts.result.mark]
 
 
+def _beyond_one(facts: Judged) -> bool:
+    """By numbers for the letters: the cosine is greater than 1, or less than -1."""
+    value = with_numbers(facts.result.left)
+    letters = {letter: Rational(7, 5) for letter in value.free_symbols}
+    there = value.xreplace(letters).evalf(20)
+    return bool(there > 1 if facts.result.mark == ">" else there < -1)
+
+
 def _put_in(only_values: bool) -> Predicate:
     def is_so(facts: Judged) -> bool:
         identity = isinstance(facts.result, Relation) and facts.result.mark == "=" and is_zero(facts.result.residual)
@@ -207,7 +215,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "several": _of_several(True),
         "following": _of_several(False),
     },
-    "roots.roots_absent": {"none": _absent, "none_positive": _absent},
+    "roots.roots_absent": {"none": _absent, "none_positive": _absent, "none_reached": _beyond_one},
     "substitution.put_in": {"results": _put_in(False), "values": _put_in(True), "identity": _identity},
     "conditions.where": {
         "solved": _compared(False),
