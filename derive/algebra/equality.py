@@ -181,8 +181,8 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
     """What both sides are at points at which both are defined.
 
-    Where neither is real, as sqrt(g/l - k/m) for a strong spring, what is compared has no meaning, and two ways to write
-    it may be on different branches: such points count only where there are no others.
+    Where neither is real, as sqrt(g/l - k/m) for a strong spring, what is compared has no meaning, and two ways to
+    write it may be on different branches: such points count only where there are no others.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))

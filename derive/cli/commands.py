@@ -9,7 +9,7 @@ import re
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -353,7 +353,7 @@ def _reported(report: Report) -> int:
     for bug in report.bugs:
         _internal(str(bug), bug.trace)
     pdfs = [shown_path(path) for path in report.changed if path.suffix == ".pdf"]
-    said = f"wrote {', '.join(pdfs)}" if pdfs else "no page changed" if report.derived else "up to date"
+    said = f"wrote {_listed(pdfs)}" if pdfs else "no page changed" if report.derived else "up to date"
     if report.failed:
         said = f"failed; {said if pdfs else 'earlier pages are as they were'}"
     print(
@@ -361,6 +361,14 @@ def _reported(report: Report) -> int:
         flush=True,
     )
     return 1 if report.failed else 0
+
+
+def _listed(paths: Sequence[str], most: int = 12) -> str:
+    """The last ones, which are those of the whole set, and how many others."""
+    if len(paths) <= most:
+        return ", ".join(paths)
+    last = paths[-2:]
+    return f"{', '.join(last)} and {len(paths) - len(last)} others beside {'them' if len(last) > 1 else 'it'}"
 
 
 def _doctor(arguments: argparse.Namespace) -> int:

@@ -72,6 +72,8 @@ class ResultKeys(Record):
     within: Tree | None = key("between which values it is sought, such as `[0, pi/2]`", as_written({"type": "array"}))
     case: Word | None = key("`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open", TEXT)
 
+    symbol: Tree | None = key("the letter of what is found, or one for each of several", NAMES)
+
     def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
         """What is to be done, in letters; nothing after a complaint."""
         with faults:
@@ -94,6 +96,7 @@ class ResultKeys(Record):
                 start_rate=_end(self.start_rate, letters) if self.start_rate else None,
                 within=tuple(_end(node, letters) for node in _nodes(self.within)),
                 case=str(self.case) if self.case else None,
+                symbols=_names(self.symbol),
                 place=name.place,
             )
         return None
@@ -120,12 +123,16 @@ class Result:
     start_rate: Expr | None = None
     within: tuple[Expr, ...] = ()
     case: str | None = None
+    symbols: tuple[Word, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
     def made(self, answers: Callable[[Word], tuple[Quantity, ...]], coordinates: Mapping[str, Coordinate]) -> Any:
         """By the verb, of the answers of those names."""
         of = [quantity for name in self.of for quantity in answers(name)]
         more = [quantity for name in self.results for quantity in answers(name)]
+        if self.symbols and self.verb not in LETTERED:
+            letter = self.symbols[0]
+            rejected("wrong-argument", f"what `{self.verb}` finds has no letter of its own", letter.place)
         with told_at(self.place):
             return _MAKERS[self.verb](self, of, more, coordinates)
 
@@ -149,6 +156,13 @@ class Result:
             rejected("wrong-argument", f"`{self.verb}` needs a coordinate as its `for`", self.place)
         return found
 
+    @property
+    def symbol(self) -> dict[str, Any]:
+        """The letter of what is found, if one is given."""
+        if len(self.symbols) > 1:
+            rejected("wrong-argument", f"`{self.verb}` finds one thing, with one letter", self.symbols[1].place)
+        return {"symbol": str(self.symbols[0])} if self.symbols else {}
+
     def named(self, extra: Mapping[str, Any]) -> dict[str, Any]:
         """What is given of the further arguments of a verb."""
         return {name: value for name, value in extra.items() if value is not None and value != ()}
@@ -165,16 +179,16 @@ def _solve(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 
 def _put_in(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    return put_in(result.only(of), *more, key=result.name, **dict(result.values))
+    return put_in(result.only(of), *more, key=result.name, **result.symbol, **dict(result.values))
 
 
 def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    return roots(result.only(of), result.letter)
+    return roots(result.only(of), result.letter, **result.named({"symbols": tuple(map(str, result.symbols))}))
 
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     given = result.named({"to": result.to, "order": result.order})
-    return limiting_case(result.only(of), result.letter, key=result.name, **given)
+    return limiting_case(result.only(of), result.letter, key=result.name, **given, **result.symbol)
 
 
 def _where(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
@@ -200,7 +214,7 @@ def _solution(result: Result, of: list[Quantity], more: list[Quantity], q: Mappi
 
 
 def _amplitude(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    return steady_amplitude(result.only(of), result.coordinate(q), key=result.name)
+    return steady_amplitude(result.only(of), result.coordinate(q), key=result.name, **result.symbol)
 
 
 def _speed(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
@@ -209,15 +223,18 @@ def _speed(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 
 def _period(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    return period_by_energy(result.only(of), key=result.name, **result.named({"order": result.order}))
+    extra = result.named({"order": result.order})
+    return period_by_energy(result.only(of), key=result.name, **result.symbol, **extra)
 
 
 def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     if len(of) != 2:
         rejected("wrong-argument", f"`beats` is about two frequencies, but these are {len(of)}", result.place)
     slow, fast = of
-    return beats(slow, fast, key=result.name)
+    return beats(slow, fast, key=result.name, **result.symbol)
 
+
+LETTERED = ("put_in", "roots", "limit", "amplitude", "period", "beats")
 
 _MAKERS: Mapping[str, Callable[..., Any]] = {
     "solve": _solve,

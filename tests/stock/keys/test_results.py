@@ -54,9 +54,16 @@ def test_equations_are_solved_for_what_is_wanted(tmp_path: Path) -> None:
     assert str(explicit(steps["made"].value)) == "m_1 > m_2"
 
 
+def test_a_letter_may_be_given_to_what_is_found(tmp_path: Path) -> None:
+    steps = solved(tmp_path, edited(ATWOOD, ("MADE", "{put_in: acceleration_x, values: {m_2: m_1/3}, symbol: a}")))
+    assert str(steps["made"].symbol) == "a"
+
+
 @pytest.mark.parametrize(
     ("made", "said"),
     [
+        ("{where: acceleration_x, is: '>', for: m_1, symbol: a}", "what `where` finds has no letter of its own"),
+        ("{put_in: acceleration_x, values: {m_2: m_1}, symbol: [a, b]}", "`put_in` finds one thing, with one letter"),
         ("{for: m_2}", "`made` needs one of `solve`, `put_in`"),
         ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `solve`"),
         ("{limit: acceleration_z, for: m_2, to: 0}", "there is no answer `acceleration_z`"),
