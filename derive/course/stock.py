@@ -98,6 +98,13 @@ class InLetters:
         known = self.numbers.letters.symbols
         return {name: known[name] for name in known if name not in self.letters}
 
+    def unused(self, name: Word, help_line: str) -> str:
+        """The name of a letter that the description brings in, which nothing else may have."""
+        if name in self.letters:
+            message = f"`{name}` stands for something else already"
+            rejected("letter-clash", message, name.place, help_line)
+        return str(name)
+
     def value(self, node: Tree, name: str, kind: str) -> Expr:
         """An expression of a kind; where letters of that kind are positive it cannot be known to be negative."""
         found = self.of_kind(node, name, kind)

@@ -132,7 +132,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     energy = _value(written.potential, "potential", "energy", known, faults)
     if energy is not None:
         parts.append(Part("potential", (energy,), place=written.values_at["potential"]))
-    own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, faults)}
+    own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, known, faults)}
     with_own = InLetters({**symbols, **own})
     with_own.numbers = known.numbers
     return DescribedSystem(
@@ -166,7 +166,9 @@ def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
     return {name: Declared(name, scalar(name), "force") for name in names}
 
 
-def _constants(written: Mapping[Word, Word], letters: Mapping[str, Declared], faults: Faults) -> dict[str, Declared]:
+def _constants(
+    written: Mapping[Word, Word], letters: Mapping[str, Declared], known: InLetters, faults: Faults
+) -> dict[str, Declared]:
     """The letters of constant momenta."""
     found = {}
     for q, word in written.items():
@@ -174,6 +176,8 @@ def _constants(written: Mapping[Word, Word], letters: Mapping[str, Declared], fa
         if q not in letters:
             faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
             continue
+        with faults:
+            known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another letter")
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
         found[name] = Declared(name, constant(name, positive=is_positive), kind)
     return found

@@ -72,6 +72,18 @@ def test_all_faults_are_told_at_once(tmp_path: Path) -> None:
     assert found[2].help == "write it with its unit, `9.8 m/s^2`"
 
 
+def test_a_letter_that_the_description_brings_in_is_not_declared(tmp_path: Path) -> None:
+    text = edited(
+        PENDULUM,
+        ("  gravity: g\n", "  gravity: g\n  conserved: {theta: l}\n  constraints: {condition: theta, force: m}\n"),
+    )
+    found = [c for c in complaints(tmp_path, text) if c.code == "letter-clash"]
+    assert [(c.message, c.place.line if c.place else 0) for c in found] == [
+        ("`l` stands for something else already", 9),
+        ("`m` stands for something else already", 10),
+    ]
+
+
 PLANET = (
     (
         "  coordinates: {theta: angle}",

@@ -89,14 +89,11 @@ class CentralKeys(Record):
     end: WrittenPlace | None = key("the other place", PLACE, called="to", required=True)
 
     def part(self, places: Places, letters: InLetters) -> Part:
-        name = _there(self.distance)
-        if name in letters.letters:
-            message = f"`{name}` stands for something else already"
-            rejected("letter-clash", message, name.place, "give the distance a letter of its own")
-        own = Dummy(str(name), positive=True)
-        with_distance = InLetters({**letters.letters, str(name): Declared(str(name), own, "length")})
+        name = letters.unused(_there(self.distance), "give the distance a letter of its own")
+        own = Dummy(name, positive=True)
+        with_distance = InLetters({**letters.letters, name: Declared(name, own, "length")})
         energy = with_distance.of_kind(_there(self.energy), "energy", "energy")
-        letter = scalar(str(name), positive=True)
+        letter = scalar(name, positive=True)
         return Part("central", (energy.xreplace({own: letter}), letter, *_ends(self, places)), place=self.places[""])
 
 
@@ -179,7 +176,12 @@ class ConstraintKeys(Record):
             if other != dimension and not equals.is_zero:
                 message = "`condition` and `equals` have different dimensions"
                 rejected("dimension", message, self.values_at["equals"])
-        return Part("constraint", (condition, equals), (("force", str(self.force or "lambda")),), self.places[""])
+        return Part("constraint", (condition, equals), (("force", force_letter(self.force, letters)),), self.places[""])
+
+
+def force_letter(name: Word | None, letters: InLetters) -> str:
+    """The letter of a force of constraint, which is found: it is not declared."""
+    return letters.unused(name, "leave it out of `symbols`, or give the force another letter") if name else "lambda"
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:

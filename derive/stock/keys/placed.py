@@ -16,7 +16,7 @@ from derive.errors import did_you_mean, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
 from derive.mechanics.systems.places import Axes
 from derive.stock.keys.bodies import Bodies, BodyKeys, DescribedBody
-from derive.stock.keys.parts import Part, list_of_parts
+from derive.stock.keys.parts import Part, force_letter, list_of_parts
 from derive.stock.keys.places import PLACE, Places, WrittenPlace
 
 POINT = as_written({"anyOf": [{"type": "string"}, {"type": "array", "items": SCALAR.schema, "minItems": 3}]})
@@ -100,7 +100,7 @@ class RollingKeys(Record):
         if self.body not in names:
             rejected("no-such-body", f"there is no body `{self.body}`", self.body.place, did_you_mean(self.body, names))
         ground = places.at(self.ground, "ground") if self.ground else None
-        force = (("force", str(self.force)),) if self.force else ()
+        force = (("force", force_letter(self.force, letters)),) if self.force else ()
         return Part("rolling", (str(self.body), places.at(self.at, "at"), ground), force, self.places[""])
 
 
