@@ -71,6 +71,15 @@ class Run:
         return Solved(derivation, values, self.problem, run.drawings)
 
 
+@dataclass(frozen=True)
+class LibraryRun(Run):
+    """A problem of the library, as it stands."""
+
+    @cached_property
+    def problem(self) -> Problem:
+        return load_problem(ROOT, f"library/{self.name}")
+
+
 def _of_transcripts() -> dict[str, Run]:
     """One run for each set of edits that some transcript has."""
     found: dict[tuple[str, tuple[tuple[str, str], ...]], Run] = {}
@@ -129,10 +138,18 @@ RATES = Run(  # the top without its last part, in a third of the time
     ),
     (("    upright = upright_rate(", "    return rates, condition, slow, fast\n    upright = upright_rate("),),
 )
+# one problem for each verb of systems: constraints, rolling, modes, canonical equations, central motion, turning axes
+LIBRARY = (
+    "hoop_oscillations", "turning_hoop", "atwood_disc", "coupled_pendulums", "double_pendulum", "damped_oscillator",
+    "driven_oscillator", "off_a_sphere", "cylinder_inside", "disc_incline", "kepler", "pendulum_canonical", "cyclotron",
+    "watt_governor", "steady_precession", "tennis_racket", "earth", "half_disc", "leaning_rod", "ball_with_hole",
+    "simple_pendulum", "table_edge", "rolling_cone",
+)  # fmt: skip
 CHEAP = ("block", "cone", "euler")  # these first: what they refuse need not be tried on others
 _found = _of_transcripts()
 RUNS: dict[str, Run] = {
     **{name: run for name, run in _found.items() if name.startswith(CHEAP)},
     **{run.name: run for run in (*BODIES, RATES)},
     **_found,
+    **{name: LibraryRun(name) for name in LIBRARY},
 }
