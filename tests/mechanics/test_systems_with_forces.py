@@ -292,7 +292,7 @@ def test_what_cannot_act_is_refused(wrong: Callable[[], Any], said: str) -> None
 
 
 def swapped(of: Any) -> Any:
-    return lambda self, moving: forces.Load(tuple(-f for f in of(self, moving).force), self.at)
+    return lambda self, moving: forces.Load(tuple(-f for f in of(self, moving).force), self.place)
 
 
 def test_a_wrong_force_of_a_magnetic_field_is_refused(monkeypatch: Any) -> None:

@@ -28,7 +28,6 @@ from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
 from derive.mechanics.systems.forced import ActedOn
-from derive.mechanics.systems.forces import MagneticForce
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import changes
 from derive.steps.step import Fact, Quantity, compared_with, is_zero, require_kind
@@ -88,7 +87,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         telling=Telling(judged_by={"moving": tuple(still)}),
         key=key,
         kind="energy",
-        facts=[Matter(matter.points, matter.loads, matter.coordinates, matter.others)],
+        facts=[Matter(matter.points, matter.loads, matter.coordinates, matter.others, matter.fields)],
     )
 
 
@@ -97,8 +96,6 @@ def _given_pushes(of: Quantity) -> list[Expr]:
     acted = of.fact(ActedOn)
     found = []
     for push in acted.forces if acted is not None else ():
-        if isinstance(push, MagneticForce):
-            continue  # it vanishes at rest
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
             message = f"a force is given that is not constant, {push.components[0]}: where it leaves rest is not told"

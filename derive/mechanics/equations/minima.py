@@ -289,7 +289,7 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
     moving = place.coordinates
     for p, q in ((p, q) for i, p in enumerate(moving) for q in moving[:i]):
         turned = diff(matter.momentum_along(p), q) - diff(matter.momentum_along(q), p)
-        turned += diff(matter.force_along(p), rate(q)) - diff(matter.force_along(q), rate(p))
+        turned += diff(matter.other_force_along(p), rate(q)) - diff(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).subs(dict(place.values), simultaneous=True)):
             message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
             message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"

@@ -165,7 +165,8 @@ def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
         for c in (explicit(x) for x in point.place):
             way = diff(c, q).subs(motion, simultaneous=True)
             left += point.mass * diff(c.subs(motion, simultaneous=True), TIME, 2) * way
-    works = (load.work_along(q) for load in (*matter.loads, *matter.others) if isinstance(load, Load))
+    fields = [field.load(matter.coordinates) for field in matter.fields]
+    works = (load.work_along(q) for load in (*matter.loads, *fields, *matter.others) if isinstance(load, Load))
     return left - explicit(Add(*works)).xreplace(rates).subs(motion, simultaneous=True)
 
 

@@ -112,6 +112,14 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "of_several": lambda facts: len(facts.subject.body.masses) > 1,
     },
     "systems.potential_energy": {"generic": lasts, "zero": vanishes},
+    "systems.magnetic_term": {
+        "alone": lambda facts: facts.inputs["fields"] == 1,
+        "several": lambda facts: facts.inputs["fields"] > 1,
+    },
+    "lagrangian.lagrangian": {
+        "generic": lambda facts: "magnetic" not in facts.inputs,
+        "in_field": lambda facts: "magnetic" in facts.inputs,
+    },
     "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},
     "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
     "oscillations.linearised": {

@@ -174,7 +174,9 @@ def _inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 
 def _difference(facts: Judged, outcome: str) -> bool:
-    return is_zero(explicit(facts.result) - explicit(facts.inputs["kinetic"]) + explicit(facts.inputs["potential"]))
+    roles = ("kinetic", "potential", "magnetic")
+    kinetic, potential, magnetic = (explicit(facts.inputs.get(role, Integer(0))) for role in roles)
+    return is_zero(explicit(facts.result) - kinetic + potential - magnetic)
 
 
 def _product_of(*roles: str) -> Told:

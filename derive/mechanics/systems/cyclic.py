@@ -38,7 +38,7 @@ def conserved_momentum(of: Quantity, q: Coordinate, key: str | None = None) -> Q
         message = f"`conserved_momentum`: `{of.key}` contains {q.symbol.name}, so its momentum is not constant"
         raise Rejected(Complaint("not-cyclic", message))
     matter = of.needed(Matter)
-    if not is_zero(matter.force_along(q.symbol) - matter.stored_force_along(q.symbol)):
+    if not is_zero(matter.other_force_along(q.symbol)):
         message = f"`conserved_momentum`: a force that is not in `{of.key}` acts along {q.symbol.name}"
         raise Rejected(Complaint("not-cyclic", message))
     momentum = generalized_momentum(of, q)

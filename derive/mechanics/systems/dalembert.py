@@ -45,6 +45,37 @@ class Load:
 
 
 @dataclass(frozen=True)
+class MagneticForce:
+    """The force q v x B, N, on a charge that moves through a uniform magnetic field; in a plane B points to the reader.
+
+    Its vector potential is A = (1/2) B x r, in T m.
+    """
+
+    charge: Expr
+    place: Vector
+    field: Vector
+
+    def load(self, moving: Sequence[Symbol]) -> Load:
+        turned = _across(_rates_of(self.place, tuple(moving), 1), self.field)
+        return Load(tuple(self.charge * c for c in turned), self.place)
+
+    @property
+    def vector_potential(self) -> Vector:
+        return tuple(-c / 2 for c in _across(self.place, self.field))
+
+    def momentum_along(self, q: Symbol) -> Expr:
+        """q A . dr/dq"""
+        return self.charge * _dot(self.vector_potential, _along(self.place, q))
+
+
+def _across(v: Vector, field: Vector) -> Vector:
+    """v x B"""
+    if len(v) == 2:
+        return v[1] * field[0], -v[0] * field[0]
+    return tuple(v[i - 2] * field[i - 1] - v[i - 1] * field[i - 2] for i in range(3))
+
+
+@dataclass(frozen=True)
 class Reaction:
     """The force that keeps a condition on the rates: the work lambda a_q dq of each displacement."""
 
@@ -60,6 +91,7 @@ class Matter(Fact):
     """Mass points and loads together, and the coordinates that their places depend on.
 
     loads    the forces that have a potential energy
+    fields   those of magnetic fields, which a Lagrangian has by their vector potentials
     others   those that have none: given ones, drag, and what keeps constraints
     """
 
@@ -69,11 +101,13 @@ class Matter(Fact):
     loads: tuple[Load, ...] = ()
     coordinates: tuple[Symbol, ...] = ()
     others: tuple[Load | Reaction, ...] = ()
+    fields: tuple[MagneticForce, ...] = ()
 
     def __add__(self, other: Matter) -> Matter:
         both = dict.fromkeys((*self.coordinates, *other.coordinates))
         others = (*self.others, *other.others)
-        return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both), others)
+        fields = (*self.fields, *other.fields)
+        return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both), others, fields)
 
     @property
     def is_driven(self) -> bool:
@@ -85,23 +119,43 @@ class Matter(Fact):
         return sum((_dot(v, v) * m / 2 for m, _, v in self._moving(1)), Integer(0))
 
     def momentum_along(self, q: Symbol) -> Expr:
-        """The sum of m v . dr/dq"""
-        return sum((m * _dot(v, _along(r, q)) for m, r, v in self._moving(1)), Integer(0))
+        """The sum of m v . dr/dq, and of q A . dr/dq of charges in magnetic fields"""
+        found = self.field_momentum_along(q)
+        return sum((m * _dot(v, _along(r, q)) for m, r, v in self._moving(1)), found)
+
+    def energy_in_fields(self) -> Expr:
+        """The sum of q v . A"""
+        found: Expr = Integer(0)
+        for field in self.fields:
+            found += field.charge * _dot(field.vector_potential, self._rates(field.place, 1))
+        return found
+
+    def field_momentum_along(self, q: Symbol) -> Expr:
+        """The sum of q A . dr/dq"""
+        return sum((field.momentum_along(q) for field in self.fields), Integer(0))
 
     def inertia_along(self, q: Symbol) -> Expr:
         """The sum of m a . dr/dq: less the virtual work of the forces of inertia"""
         return sum((m * _dot(a, _along(r, q)) for m, r, a in self._moving(2)), Integer(0))
 
     def turning_along(self, q: Symbol) -> Expr:
-        """The sum of m v . d(dr/dq)/dt: what the kinetic energy gains per unit of q"""
-        found: Expr = Integer(0)
+        """The sum of m v . d(dr/dq)/dt, what the kinetic energy gains per unit of q; and that of d(q A . dr/dq)/dt"""
+        found: Expr = self._rates((self.field_momentum_along(q),), 1)[0] if self.fields else Integer(0)
         for m, r, v in self._moving(1):
             found += m * _dot(v, self._rates(_along(r, q), 1))
         return found
 
     def force_along(self, q: Symbol) -> Expr:
         """The sum of F . dr/dq: the virtual work of all forces"""
-        return self.stored_force_along(q) + sum((load.work_along(q) for load in self.others), Integer(0))
+        return self.stored_force_along(q) + self.deflection_along(q) + self.other_force_along(q)
+
+    def other_force_along(self, q: Symbol) -> Expr:
+        """The virtual work of the forces that no term of a Lagrangian stands for"""
+        return sum((load.work_along(q) for load in self.others), Integer(0))
+
+    def deflection_along(self, q: Symbol) -> Expr:
+        """The virtual work of the forces q v x B"""
+        return sum((field.load(self.coordinates).work_along(q) for field in self.fields), Integer(0))
 
     def stored_force_along(self, q: Symbol) -> Expr:
         """The virtual work of the forces that have a potential energy"""

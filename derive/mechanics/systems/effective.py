@@ -78,6 +78,9 @@ class ReducedMatter(Matter):
     def force_along(self, q: Symbol) -> Expr:
         return self._put_in(self.whole.force_along(q))
 
+    def other_force_along(self, q: Symbol) -> Expr:
+        return self._put_in(self.whole.other_force_along(q))
+
     def stored_force_along(self, q: Symbol) -> Expr:
         return self._put_in(self.whole.stored_force_along(q))
 
@@ -145,7 +148,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
     """What acts along a coordinate and is not in the Lagrangian."""
-    return tidied(explicit(matter.force_along(q.symbol) - matter.stored_force_along(q.symbol)))
+    return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:

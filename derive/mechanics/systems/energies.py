@@ -5,12 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import TIME, Dot, Factors, Terms, TimeRate, applied, bound, explicit, scalar
+from derive.algebra.expressions import (
+    TIME,
+    Dot,
+    Factors,
+    Terms,
+    TimeRate,
+    applied,
+    bound,
+    column,
+    explicit,
+    rate,
+    scalar,
+)
+from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import MassPoint, Matter
 from derive.mechanics.systems.forced import acting_on, squares_of_rates
 from derive.mechanics.systems.places import Axes
@@ -21,12 +35,12 @@ from derive.mechanics.systems.rigid import (
     is_about_the_point,
     turning_rate_of,
 )
-from derive.mechanics.systems.system import HALF, Eliminated, System
-from derive.steps.establish import Lines, Scope, establish
+from derive.mechanics.systems.system import HALF, ZERO, Eliminated, System
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, value_behind
 from derive.steps.subject import EVERYTHING, Subject
 
-__all__ = ["kinetic_energy_of", "potential_energy_of"]
+__all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
 
 
 @dataclass(frozen=True)
@@ -192,7 +206,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         parents=system.conditions,
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
-        facts=[replace(system.matter, loads=(), others=()), *eliminated],
+        facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
 
@@ -237,6 +251,60 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         routes={"work": work},
         outcome=lambda value: "zero" if value == 0 else "generic",
         lines=Lines(put_in=None, arranged=_terms_together),
-        facts=[replace(matter, points=()), *acting_on(system)],
+        facts=[replace(matter, points=(), fields=()), *acting_on(system)],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_term") -> Quantity:
+    """What uniform magnetic fields add to a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
+
+    system   its charges, in C, in fields B, in T
+    Second route: (d/dq - d/dt d/dq_dot) of it is the virtual work of the forces q v x B along each coordinate.
+    Outcomes: alone, several (charges in fields).
+    Errors: no charge of the system is in a magnetic field.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5; the gauge is that of Landau, Lifshitz, *The
+    Classical Theory of Fields*, section 19.
+    """
+    moving, matter = list(system.coordinates), replace(system.matter, points=(), loads=(), others=())
+    if not matter.fields:
+        raise Rejected(Complaint("wrong-argument", "`magnetic_term_of` needs a charge in a magnetic field"))
+
+    def law() -> Expr:
+        terms = []
+        for field in matter.fields:
+            pairs = zip(field.vector_potential, field.place, strict=True)
+            rates = [Factors(a, TimeRate(c, *moving)) for a, c in pairs if a != 0 and c.has(TIME, *moving)]
+            terms.append(Factors(field.charge, Terms(*rates) if len(rates) > 1 else Add(*rates)))
+        return Terms(*terms) if len(terms) > 1 else terms[0]
+
+    def deflection(found: Expr) -> tuple[Expr, Expr]:
+        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        pairs = list(zip(moving, marks, strict=True))
+        slopes = (derivative(found, q) - by_functions_of_time(derivative(found, rate(q)), moving) for q in moving)
+        works = (matter.deflection_along(q) * mark for q, mark in pairs)
+        return Add(*(slope * mark for slope, mark in zip(slopes, marks, strict=True))), Add(*works)
+
+    first = matter.fields[0]
+    in_space = column(*(*first.vector_potential, ZERO)[:3])
+    told = {"potential": (in_space, _half_across(first.field, first.place))} if len(matter.fields) == 1 else {}
+    return establish(
+        "systems.magnetic_term",
+        scalar(symbol),
+        law,
+        {},
+        key=key,
+        kind="energy",
+        routes={"deflection": deflection},
+        outcome="several" if len(matter.fields) > 1 else "alone",
+        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
+        telling=Telling(formulas=told, judged_by={"fields": len(matter.fields)}),
+        facts=[matter],
+        scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
+    )
+
+
+def _half_across(field: tuple[Expr, ...], place: tuple[Expr, ...]) -> ImmutableDenseMatrix:
+    """(1/2) B x r, by the product of two matrices: in a plane B is that across it."""
+    b, r = Matrix([0, 0, *field] if len(place) == 2 else field), Matrix([*place, 0][:3])
+    return ImmutableDenseMatrix(b.cross(r) / 2)

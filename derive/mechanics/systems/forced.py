@@ -15,7 +15,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter
-from derive.mechanics.systems.forces import Damper, GivenForce, MagneticForce
+from derive.mechanics.systems.forces import Damper, GivenForce
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with
@@ -32,7 +32,7 @@ class ActedOn(Fact):
 
     missing = "has no forces besides those of its potential energy"
     system: Any
-    forces: tuple[GivenForce | MagneticForce, ...]
+    forces: tuple[GivenForce, ...]
     dampers: tuple[Damper, ...]
     dissipation: Quantity | None
 
@@ -108,10 +108,9 @@ def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
 def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Generalized force of what has no potential energy, Q = sum of F . dr/dq - dD/dq_dot.
 
-    of   the Lagrangian, J, of a system with given forces, couples, magnetic fields or damping
+    of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of its coordinates
-    Second route: the power of all these forces, sum of F . v, is linear in q_dot where F is held fast, and Q its slope;
-    that of a magnetic field by its vector potential.
+    Second route: the power of all these forces, sum of F . v, is linear in q_dot where F is held fast, and Q its slope.
     Outcomes: generic, zero.
     Errors: nothing acts on the system but what has a potential energy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
@@ -133,14 +132,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         return Terms(*terms) if len(terms) > 1 else terms[0] if terms else ZERO
 
     def by_power() -> Expr:
-        """What a magnetic field does goes by its vector potential: (d/dq - d/dt d/dq_dot) of q v . A."""
-        fields = [f for f in acted.forces if isinstance(f, MagneticForce)]
-        every = [f.load(moving) for f in (*acted.forces, *acted.dampers) if not isinstance(f, MagneticForce)]
-        total = Add(*(_slope(load, q, moving) for load in every))
-        for each in fields:
-            energy = each.energy_of_motion(moving)
-            total += diff(energy, q.symbol) - by_functions_of_time(diff(energy, q.rate), moving)
-        return total
+        every = [*(f.load(moving) for f in acted.forces), *(d.load(moving) for d in acted.dampers)]
+        return Add(*(_slope(load, q, moving) for load in every))
 
     name = f"Q_{q.symbol.name}"
     return establish(

@@ -14,8 +14,8 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
 from derive.algebra.expressions import TIME, TimeRate, explicit, rate
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
-from derive.mechanics.systems.dalembert import Load
+from derive.mechanics.systems.coordinates import Coordinate
+from derive.mechanics.systems.dalembert import Load, MagneticForce
 from derive.mechanics.systems.places import Location
 from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import is_zero
@@ -49,32 +49,6 @@ class Damper:
 
     def load(self, moving: Sequence[Symbol]) -> Load:
         return Load(tuple(-self.constant * v for v in self.velocity(moving)), self.at)
-
-
-@dataclass(frozen=True)
-class MagneticForce:
-    """The force q v x B on a charge that moves through a magnetic field, N."""
-
-    charge: Expr
-    at: Vector
-    field: Vector
-
-    def energy_of_motion(self, moving: Sequence[Symbol]) -> Expr:
-        """q v . A in the uniform field, with A = (1/2) B x r: what a Lagrangian would have of it, J."""
-        r, v = list(self.at), [by_functions_of_time(c, moving) for c in self.at]
-        if len(r) == 2:
-            return self.charge * self.field[0] * (r[0] * v[1] - r[1] * v[0]) / 2
-        turned = [r[i - 2] * v[i - 1] - r[i - 1] * v[i - 2] for i in range(3)]
-        return self.charge * Add(*(b * c for b, c in zip(self.field, turned, strict=True))) / 2
-
-    def load(self, moving: Sequence[Symbol]) -> Load:
-        v = [explicit(TimeRate(c, *moving)) for c in self.at]
-        if len(v) == 2:  # in a plane the field points to the reader
-            across = (v[1] * self.field[0], -v[0] * self.field[0])
-            return Load(tuple(self.charge * c for c in across), self.at)
-        b = self.field
-        turned = (v[1] * b[2] - v[2] * b[1], v[2] * b[0] - v[0] * b[2], v[0] * b[1] - v[1] * b[0])
-        return Load(tuple(self.charge * c for c in turned), self.at)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter, plane_body
-from derive.mechanics.systems.energies import kinetic_energy_of, potential_energy_of
+from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -57,6 +57,7 @@ class Energies(Fact):
     missing = "is not the Lagrangian that `lagrangian` yields"
     kinetic: Quantity
     potential: Quantity
+    magnetic: Quantity | None = None
 
     @property
     def whole(self) -> Expr:
@@ -202,15 +203,16 @@ def _about_weight(mass: Any, at: tuple[Any, ...]) -> Subject:
 def lagrangian(
     kinetic: Quantity | System, potential: Quantity | None = None, symbol: str = "L", key: str = "lagrangian"
 ) -> Quantity:
-    """Lagrangian, L = T - U.
+    """Lagrangian, L = T - U; of charges in magnetic fields L = T - U + sum of q v . A.
 
     kinetic, potential   energies in J of one body in one motion; or in place of both a system, whose energies they are;
                          with the symbol "L_2" these are T_2 and U_2
     Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
-    time itself occurs, L and U together are the kinetic energy of the mass points.
+    time itself occurs, or a magnetic field, L and U less q v . A are the kinetic energy of the mass points.
     Errors: T and U belong to different bodies, masses or motions.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
+    magnetic = None
     if isinstance(kinetic, System):
         system = kinetic
         index = symbol.partition("_")[2]
@@ -218,6 +220,9 @@ def lagrangian(
         keys = [f"{name}_{index}" if index else name for name in ("kinetic_energy", "potential_energy")]
         kinetic = kinetic_energy_of(system, letters[0], keys[0])
         potential = potential_energy_of(system, letters[1], keys[1])
+        if system.fields:
+            own = f"_{index}" if index else ""
+            magnetic = magnetic_term_of(system, f"L_B{own}", f"magnetic_term{own}")
     require_kind("lagrangian", "kinetic", kinetic, "energy")
     if potential is None:
         raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a potential energy, or a system alone"))
@@ -225,26 +230,30 @@ def lagrangian(
     moving = {**kinetic.coordinates, **potential.coordinates}
 
     matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
+    beside = {"magnetic": magnetic} if magnetic is not None else {}
+    if magnetic is not None:
+        matter += magnetic.needed(Matter)
 
     def energy(found: Expr) -> tuple[Expr, Expr]:
         carried = Add(*(rate(q) * slope(found, rate(q)) for q in moving))
         return carried - found, kinetic.value + potential.value
 
     def of_mass_points(found: Expr) -> tuple[Expr, Expr]:
-        return found + potential.value, matter.kinetic_energy()
+        return found + potential.value - matter.energy_in_fields(), matter.kinetic_energy()
 
-    driven = matter.is_driven or changes(potential.value) is not None
+    driven = matter.is_driven or bool(beside) or changes(potential.value) is not None
 
     return establish(
         "lagrangian.lagrangian",
         scalar(symbol),
-        lambda t, u: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u))),
-        {"kinetic": kinetic, "potential": potential},
+        lambda t, u, *b: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u)), *b),
+        {"kinetic": kinetic, "potential": potential, **beside},
         lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
         key=key,
         kind="energy",
-        facts=[matter, Energies(kinetic, potential), *acting(kinetic, potential)],
+        outcome="in_field" if beside else "generic",
+        facts=[matter, Energies(kinetic, potential, magnetic), *acting(kinetic, potential)],
     )
 
 
@@ -342,7 +351,11 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
         routes={
-            "virtual_work": compared_with(lambda: matter.stored_force_along(q.symbol) + matter.turning_along(q.symbol)),
+            "virtual_work": compared_with(
+                lambda: (
+                    matter.force_along(q.symbol) - matter.other_force_along(q.symbol) + matter.turning_along(q.symbol)
+                )
+            ),
         },
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or _key_of(of, f"force_{q.symbol.name}"),

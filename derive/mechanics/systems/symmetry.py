@@ -41,7 +41,7 @@ def noether(
     gained   F in coordinates and the time, where the shift adds epsilon dF/dt to L; nothing unless it is given
     That L stays, and the momenta, are steps of their own.
     Second route: its rate by functions of time is d'Alembert's sum along the shift, sum of xi (m a - F) . dr/dq, which
-    vanishes; and it is the sum of m v . dr, the mass points being carried along by the shift.
+    vanishes; and it is the sum of m v . dr and q A . dr, the mass points being carried along by the shift.
     Outcomes: symmetry, with_gain.
     Errors: L does not stay as it is: what is left is told; the shift holds a rate, or moves nothing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
@@ -62,7 +62,8 @@ def noether(
         return by_functions_of_time(found, moving), Add(*work)
 
     def carried(found: Expr) -> tuple[Expr, Expr]:
-        return found, Add(*(m * way * v for m, way, v in _ways(matter, xi))) - gain
+        in_fields = (x * matter.field_momentum_along(q) for q, x in xi.items())
+        return found, Add(*(m * way * v for m, way, v in _ways(matter, xi)), *in_fields) - gain
 
     return establish(
         "symmetry.noether",
@@ -128,6 +129,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         """What the points gain of (1/2) m v.v on their way, and the work of the loads on it."""
         done = [m * by_functions_of_time(way, moving) * v for m, way, v in _ways(matter, xi)]
         done += [matter.force_along(q) * x for q, x in xi.items()]
+        done += [by_functions_of_time(matter.field_momentum_along(q) * x, moving) for q, x in xi.items()]
         both = [found.left, found.right]
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), by_functions_of_time(gain, moving)])
 

@@ -20,7 +20,7 @@ from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
-from derive.mechanics.systems.forces import Charge, Damper, GivenForce, MagneticForce, StoredEnergy, is_nothing
+from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Fact, Quantity
@@ -163,9 +163,8 @@ class System:
         self.charges = tuple(part for part in parts if isinstance(part, Charge))
         charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
         self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
-        deflected = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
-        given = tuple(part for part in parts if isinstance(part, GivenForce))
-        self.given_forces: tuple[GivenForce | MagneticForce, ...] = (*given, *deflected)
+        self.fields = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
+        self.given_forces: tuple[GivenForce, ...] = tuple(part for part in parts if isinstance(part, GivenForce))
         self.dampers = tuple(part for part in parts if isinstance(part, Damper))
         self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
         self._check()
@@ -193,7 +192,7 @@ class System:
     def _check_what_acts(self) -> None:
         """Forces and constraints are those of what moves here, and of nothing else."""
         acting = [ImmutableDenseMatrix([e.energy]) for e in self.stored]
-        acting += [ImmutableDenseMatrix(each.at) for each in (*self.given_forces, *self.dampers)]
+        acting += [ImmutableDenseMatrix(each.at) for each in self._others]
         acting += [ImmutableDenseMatrix([each.residual]) for each in self.constraints]
         for values in acting:
             for q in coordinates_in(values):
@@ -215,6 +214,10 @@ class System:
         return own + [(placed.body.mass, placed.centre) for placed in self.bodies]
 
     @property
+    def _others(self) -> tuple[GivenForce | Damper, ...]:
+        return *self.given_forces, *self.dampers
+
+    @property
     def gravity(self) -> Expr:
         return self.weights[0].gravity if self.weights else Integer(0)
 
@@ -233,9 +236,9 @@ class System:
         loads = [self._weight_of(mass, at) for mass, at in self.masses] if self.weights else []
         loads += [load for each in self.between for load in each.pulls()]
         loads += [load for each in self.stored for load in each.loads(moving)]
-        others: list[Load | Reaction] = [each.load(moving) for each in (*self.given_forces, *self.dampers)]
+        others: list[Load | Reaction] = [each.load(moving) for each in self._others]
         others += [Reaction(c.force, tuple((q, c.along(q)) for q in moving)) for c in self.constraints]
-        return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others))
+        return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others), self.fields)
 
     def _weight_of(self, mass: Expr, at: Location) -> Load:
         *across, _ = at.components
