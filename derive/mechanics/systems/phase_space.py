@@ -233,7 +233,10 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     quadratic = _written([(m, spread(c)) for m, c in parts.get(2, [])])
     linear = _shortest([_added((m, spread(c)) for m, c in parts.get(1, [])), tidied(_added(parts.get(1, [])))])
     rest = tidied(Add(*(c for _, c in parts.get(0, []))))
-    return Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
+    apart = Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
+    if not parts.get(1) or len(present) > LARGEST:
+        return apart
+    return _shortest([apart, _squares(value, present)])  # (p - q A)^2, with what is linear in p
 
 
 def by_one_square(value: Expr) -> Expr:
