@@ -11,7 +11,8 @@ from derive.errors import Complaint, Rejected
 from derive.figures.annotations import Axis, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
 from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
-from derive.mechanics.bodies.body import Body, EdgedBody, RoundBody
+from derive.mechanics.bodies.body import Body, RoundBody
+from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.regions import Point
 from derive.steps.step import is_zero
 

@@ -21,7 +21,8 @@ from derive.figures.space import Vector, hull
 from derive.figures.surfaces import Polyhedron
 from derive.figures.surroundings import AngleBetween, FixedEnd, GroundMark
 from derive.figures.turning import angle_marks, downwards
-from derive.mechanics.bodies.body import EdgedBody, RoundBody
+from derive.mechanics.bodies.body import RoundBody
+from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import System
 

@@ -11,10 +11,8 @@ from derive.algebra.direction import Direction as Direction
 from derive.mechanics.arguments import checked
 from derive.mechanics.bodies.body import *
 from derive.mechanics.bodies.components import *
-from derive.mechanics.bodies.flat_shapes import *
+from derive.mechanics.bodies.edged_bodies import *
 from derive.mechanics.bodies.general import *
-from derive.mechanics.bodies.hollow_shapes import *
-from derive.mechanics.bodies.solid_shapes import *
 from derive.mechanics.bodies.solids import *
 from derive.mechanics.bodies.thin_bodies import *
 from derive.mechanics.equations.conditions import *

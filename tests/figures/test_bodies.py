@@ -20,7 +20,8 @@ from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
 from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
 from derive.mechanics import Ball, Composed, Cone, Cuboid, Cylinder, Disc, Hoop, Part, Plate, Rod, inertia_tensor
-from derive.mechanics.bodies.body import EdgedBody, Particles
+from derive.mechanics.bodies.edged_bodies import EdgedBody
+from derive.mechanics.bodies.equimomental import Particles
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.bodies.solids import RoundSolid
 from derive.page.depiction import alternative

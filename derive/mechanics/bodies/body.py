@@ -1,38 +1,39 @@
 """Bodies: a region filled with mass, its density, its centre of mass, its named points and directions.
 
-Every body has axes of its own; lengths in the unit of its sizes. A cuboid has its axes along the edges and the origin
-at the corner from which they start; a body that is round has its axis of symmetry along z.
+Every body has axes of its own; lengths in the unit of its sizes. What has edges has its axes along them, where they are
+at right angles, and the origin at a corner; a body that is round has its axis of symmetry along z.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, reduce
-from itertools import product
-from operator import mul
+from functools import cached_property
 from typing import Any, ClassVar, Self
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Rational, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Symbol
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import Factors, Ratio, column, component_names, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.components import centre_component, is_its_own_image
+from derive.mechanics.bodies.equimomental import Particles
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
+from derive.mechanics.bodies.mapping import Map, cell, cylindrical, from_point
 from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
-from derive.mechanics.bodies.regions import Point, Region, box, no_such_coordinates
+from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
 
-__all__ = ["Cuboid", "centre_of_mass", "density"]
+__all__ = ["centre_of_mass", "density"]
 
-Particles = list[tuple[Expr, ImmutableMatrix]]
+ZERO = Integer(0)
+ORIGIN = column(0, 0, 0)
 
 # what is filled with mass -> letter and kind of the density
 _DENSITIES = {
@@ -54,7 +55,6 @@ class Body(Placeable):
     seen_as: ClassVar[str] = ""  # what the words for a drawing call it, where that is not its name
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the point where its own axes begin
-    flat_across: ClassVar[str | None] = None  # the axis across which it is flat, if it is
     called: str = ""  # what the page calls it where there are others, "upper rod"
     is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
     is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
@@ -77,13 +77,29 @@ class Body(Placeable):
         """It as a part of another body, turned right-handed by an angle about "x", "y" or "z", through its centre."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
-    def points(self) -> Mapping[str, Point]:
-        """The points that it has by name, apart from its centre of mass."""
-        raise AttributeError(f"{type(self).__name__} must say which points it has")
+    def map(self) -> Map:
+        """The position in its own axes, and the limits of its variables, outermost first."""
+        raise AttributeError(f"{type(self).__name__} must say where its points are")
+
+    @property
+    def profile(self) -> Expr:
+        """Its density but for a constant, as a function of the variables."""
+        return Integer(1)
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         """What it fills, seen from a point; coordinates are its first system unless they are named."""
-        raise AttributeError(f"{type(self).__name__} must say what it fills")
+        position, limits = self.map()
+        sizes = (each if isinstance(each, tuple) else (each,) for each in self.measures.values())
+        return from_point(point, position, limits, cell(position, limits, tuple(size for own in sizes for size in own)))
+
+    def points(self) -> Mapping[str, Point]:
+        """The points that it has by name, apart from its centre of mass."""
+        return {self.reference: Point(self.reference, ORIGIN)}
+
+    @property
+    def flat_across(self) -> str | None:
+        """The axis along which it does not reach, if there is one; "x" of what is all on one of the others."""
+        return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
 
     def particles(self) -> Particles:
         """Particles with the mass, centre of mass and second moments of the body. No integral is used, so what is
@@ -100,6 +116,12 @@ class Body(Placeable):
         """The lengths that say how large it is, by what one calls them; several of one sort as a tuple."""
         own: Any = self
         return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
+
+    @property
+    def letters(self) -> set[Symbol]:
+        """Those of its sizes, so that no variable looks like them."""
+        own: Any = self
+        return _letters_of([getattr(own, each.name) for each in fields(own) if each.name != "mass"])
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
         """The step that says what a radius in the limits of a region stands for, where there is one."""
@@ -201,6 +223,14 @@ class RoundBody(Body):
         """How far from the axis it reaches at its own z."""
         raise AttributeError(f"{type(self).__name__} must say how far it reaches")
 
+    def map(self) -> Map:
+        """Over its height, round, and out to its radius; of a thin one at the radius, or on the axis."""
+        low, high = self.ends
+        z = low if low == high else (low, high)
+        if self.filling == ("area" if z != low else "length"):
+            return cylindrical(self.letters, z, self.radius_at)
+        return cylindrical(self.letters, z, 0 if self.filling == "length" else (0, self.radius_at))
+
     @property
     def is_straight(self) -> bool:
         """Whether its side has no curve along the axis."""
@@ -208,99 +238,52 @@ class RoundBody(Body):
         return bool(self.radius_at(z).diff(z, 2) == 0)
 
 
-class EdgedBody(Body):
-    """A body with flat faces, or of one face alone."""
+@dataclass(frozen=True)
+class OfRadius(Body):
+    """A body told by one radius."""
 
-    @property
-    def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """In its own axes."""
-        raise AttributeError(f"{type(self).__name__} must say where its corners are")
-
-    @property
-    def faces(self) -> tuple[tuple[int, ...], ...]:
-        """Each face by its corners in order, from either side; none if they are those of one face alone."""
-        return ()
-
-    @property
-    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The lengths that a drawing tells, each with the edges that have it."""
-        return ()
+    radius: Expr
+    mass: Expr
 
 
 @dataclass(frozen=True)
-class Cuboid(EdgedBody):
-    """A uniform block. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+class OfHeight(Body):
+    """A body about the z axis told by a radius and a height, from z = 0."""
 
-    sides   three lengths, along x, y and z
-    mass    mass
+    radius: Expr
+    height: Expr
+    mass: Expr
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return ZERO, self.height
+
+
+@dataclass(frozen=True)
+class Hollow(Body):
+    """A body told by the radii of what it fills and of what is left out.
+
+    Errors: a hole is smaller than what it is in, as far as the sizes show.
     """
 
-    sides: tuple[Expr, Expr, Expr]
+    inner: Expr
+    outer: Expr
     mass: Expr
-    name: ClassVar[str] = "a cuboid"
-    seen_as: ClassVar[str] = "a block"
-    reference: ClassVar[str] = "corner"
 
-    @property
-    def extent(self) -> Expr:
-        """A cube's volume is written a^3, a block's a * 2a * 3a."""
-        if len(set(self.sides)) == 1:
-            return Pow(self.sides[0], len(self.sides))
-        return Factors(*self.sides)
+    def __post_init__(self) -> None:
+        require_order(self.name, self.inner, self.outer)
 
-    @property
-    def size(self) -> Expr:
-        return reduce(mul, self.sides, Integer(1))
 
-    @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"edges": self.sides}
+def require_order(body: str, inner: Expr, outer: Expr) -> None:
+    if (outer - inner).is_nonpositive:
+        message = f"{body} of the inner radius {inner} and the outer radius {outer} has nothing between them"
+        raise Rejected(Complaint("sizes", message, help="the inner radius stands first"))
 
-    @property
-    def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """Their numbers in binary say which of x, y and z are not zero."""
-        at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
-        return tuple(column(*(end * side for end, side in corner)) for corner in at)
 
-    @property
-    def faces(self) -> tuple[tuple[int, ...], ...]:
-        across = ((4, 2, 1), (2, 1, 4), (1, 4, 2))
-        return tuple((at, at | a, at | a | b, at | b) for bit, a, b in across for at in (0, bit))
-
-    @property
-    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        return tuple(
-            (side, tuple((i, i | bit) for i in range(8) if not i & bit))
-            for side, bit in zip(self.sides, (4, 2, 1), strict=True)
-        )
-
-    @property
-    def corner(self) -> Point:
-        return Point("corner", column(0, 0, 0))
-
-    def points(self) -> Mapping[str, Point]:
-        return {"corner": self.corner}
-
-    @property
-    def middle(self) -> Point:
-        return Point("centre", column(*(side / 2 for side in self.sides)))
-
-    def region(self, point: Point, coordinates: str | None = None) -> Region:
-        return box(self.sides, point)
-
-    def particles(self) -> Particles:
-        """Six equal particles, at the centres of the faces.
-
-        Two of them, at +-side/2, give 2 (M/6)(side/2)^2 = M side^2/12.
-        """
-        found = []
-        for axis, end in product(range(3), (0, 1)):
-            place = [side * (Rational(1, 2) if k != axis else end) for k, side in enumerate(self.sides)]
-            found.append((self.mass / 6, column(*place)))
-        return found
-
-    def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
-        return {"diagonal": column(*self.sides), **super().axes_by_name()}
+def _letters_of(size: Any) -> set[Symbol]:
+    if isinstance(size, tuple | list):
+        return {letter for each in size for letter in _letters_of(each)}
+    return size.letters if isinstance(size, Body) else set(getattr(size, "free_symbols", ()))
 
 
 def axis_vector(
@@ -353,7 +336,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
 
 def _density_outcome(body: Body, extent: Expr | Quantity) -> str:
     """A block's density is the first that is said of it, so that its axes are described there."""
-    if isinstance(body, Cuboid):
+    if body.reference == "corner" and body.filling == "volume":
         return "along_edges"
     if isinstance(extent, Quantity):
         return "derived"

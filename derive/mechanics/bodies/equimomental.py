@@ -16,6 +16,8 @@ from derive.steps.step import is_zero
 
 Particles = list[tuple[Expr, ImmutableMatrix]]
 
+HALF = Rational(1, 2)
+
 # Places along a unit length with their weights: Simpson's rule is exact up to cubes, Boole's up to fifth powers.
 SIMPSON = ((Integer(0), Rational(1, 6)), (Rational(1, 2), Rational(2, 3)), (Integer(1), Rational(1, 6)))
 BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12, 32, 7)))
@@ -30,6 +32,12 @@ def ring_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
     """A ring across the z axis: a quarter of its mass at each end of two diameters."""
     rim = ((radius, 0), (-radius, 0), (0, radius), (0, -radius))
     return [(mass / 4, column(x, y, height)) for x, y in rim]
+
+
+def on_diameters(mass: Expr, radius: Expr) -> Particles:
+    """Six equal particles, at the ends of three diameters of a sphere about the origin."""
+    along = ([radius * int(k == axis) for k in range(3)] for axis in range(3))
+    return [(mass / 6, ImmutableDenseMatrix(sign * column(*end))) for end in along for sign in (1, -1)]
 
 
 def sliced(
@@ -75,14 +83,21 @@ def without(whole: Particles, removed: Particles) -> Particles:
     return [*whole, *((-mass, place) for mass, place in removed)]
 
 
-def from_moments(mass: Expr, centre: ImmutableMatrix, second: ImmutableMatrix) -> Particles:
+def from_moments(
+    mass: Expr,
+    centre: ImmutableMatrix,
+    second: ImmutableMatrix | None = None,
+    about_origin: tuple[Expr, Expr, Expr] = (Integer(0),) * 3,
+) -> Particles:
     """Pairs of particles about the centre of mass with given second moments, S_ij = sum of m x_i x_j about the centre.
+
+    about_origin   or the sums of m x^2, m y^2 and m z^2 about the origin, where those of products vanish
 
     With S = sum of D_k l_k l_k^T, each l_k from a Cholesky decomposition, a pair of mass D_k/L^2 is at +-L l_k, where
     L^2 is the trace of S over the mass; what mass is left is at the centre, and is never negative.
     Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
     """
-    left = Matrix(second)
+    left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T
     trace = tidied(left.trace())
     if is_zero(trace):
         return [(mass, ImmutableDenseMatrix(centre))]

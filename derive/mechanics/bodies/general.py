@@ -28,12 +28,13 @@ from derive.algebra.expressions import (
 from derive.algebra.integrals import definite
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.body import Particles, density
-from derive.mechanics.bodies.equimomental import from_moments
+from derive.mechanics.bodies.body import ORIGIN as ZERO
+from derive.mechanics.bodies.body import Body, density
+from derive.mechanics.bodies.equimomental import Particles, from_moments
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.general_tensor import Integrated
 from derive.mechanics.bodies.integration import worked_integral
-from derive.mechanics.bodies.mapping import Mapped, cell, checked_limits, inside, tangents_of
+from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
 from derive.mechanics.bodies.parts import name_of_body
 from derive.mechanics.bodies.quadrature import agrees
 from derive.mechanics.bodies.regions import Bounds, Point, Region
@@ -52,7 +53,7 @@ __all__ = [
     "variables",
 ]
 
-ORIGIN = Point("origin", column(0, 0, 0))
+ORIGIN = Point("origin", ZERO)
 SIZES = {1: ("length", "l"), 2: ("area", "A"), 3: ("volume", "V")}
 FILLED = {1: "line density", 2: "surface density", 3: "density"}
 
@@ -62,7 +63,7 @@ def variables(*names: str) -> tuple[Symbol, ...]:
     return tuple(scalar(name) for name in names)
 
 
-class GeneralBody(Integrated, Mapped):
+class GeneralBody(Integrated, Body):
     """What any body has that is told by its position map."""
 
     reference: ClassVar[str] = "origin"
@@ -116,7 +117,7 @@ class GeneralBody(Integrated, Mapped):
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         """Its cells, each weighed by its share of the density."""
-        return Region(self._limits, point.seen(self._position), tidied(self._mapped * self._profile))
+        return from_point(point, self._position, self._limits, tidied(self._mapped * self._profile))
 
     @property
     def size(self) -> Expr:
@@ -137,14 +138,6 @@ class GeneralBody(Integrated, Mapped):
         if self.given_mass is None:
             return mass_by_integration(self)
         return density(self) if self.is_uniform else normalised_density(self)
-
-    def points(self) -> Mapping[str, Point]:
-        return {"origin": ORIGIN}
-
-    @property
-    def flat_across(self) -> str | None:  # type: ignore[override]
-        """The axis along which it does not reach, if there is one; "x" of what is all on one of the others."""
-        return next((axis for axis, x in zip("xyz", self._position, strict=True) if x == 0), None)
 
     @cached_property
     def middle(self) -> Point:

@@ -5,47 +5,109 @@ The cell of a curve is |r_u| du, that of a surface |r_u x r_v| du dv, that of a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 from random import Random
-from typing import Any, ClassVar
+from typing import Any, TypeAlias
 
-from sympy import Abs, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, factor, sqrt
+from sympy import Abs, Dummy, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, factor, pi, sin, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import Cross, Dot, explicit, scalar
+from derive.algebra.expressions import Cross, Dot, column, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.body import Body
-from derive.mechanics.bodies.regions import Bounds, Point, Region
+from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
 
 TRIES = 40  # draws of letters until limits are in order
 LOOKS = 6  # points at which the sign of a cell is looked at
 
 
-class Mapped(Body):
-    """A body that says where its points are, by variables between limits."""
+Map = tuple[ImmutableMatrix, Bounds]
+Extent: TypeAlias = Any  # what a coordinate is throughout, or as a pair the limits between which it varies
+ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
-    flat_across: ClassVar[str | None] = None
 
-    def map(self) -> tuple[ImmutableMatrix, Bounds]:
-        """The position in its own axes, and the limits of its variables, outermost first."""
-        raise AttributeError(f"{type(self).__name__} must say where its points are")
+def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
+    """By height, angle about the z axis and distance from it; a limit of r may be a function of z.
 
-    def region(self, point: Point, coordinates: str | None = None) -> Region:
-        position, limits = self.map()
-        return Region(limits, point.seen(position), cell(position, limits))
+    taken   letters that the variables cannot have
+    """
+    variables = coordinates(("z", "theta", "r"), taken)
+    if r == 0:
+        theta = Integer(0)
+    (height, angle, across), limits = _varied(variables, (z, theta, r))
+    return column(across * cos(angle), across * sin(angle), height), limits
+
+
+def spherical(
+    taken: Collection[Symbol], r: Extent, theta: Extent = HALF_ROUND, phi: Extent = ALL_ROUND, by: Any = (1, 1, 1)
+) -> Map:
+    """By the distance from the origin, the angle from the z axis and that about it, and stretched along each axis.
+
+    taken   letters that the variables cannot have
+    """
+    (out, down, about), limits = _varied(coordinates(("r", "theta", "phi"), taken), (r, theta, phi))
+    place = (sin(down) * cos(about), sin(down) * sin(about), cos(down))
+    return column(*(size * out * x for size, x in zip(by, place, strict=True))), limits
+
+
+def cartesian(taken: Collection[Symbol], *ends: Extent) -> Map:
+    """By x, y and z, each between limits of its own.
+
+    taken   letters that the variables cannot have
+    """
+    place, limits = _varied(coordinates("xyz", taken), ends)
+    return column(*place), limits
+
+
+def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[Expr], Bounds]:
+    """Each coordinate as its variable, or as what it is throughout; the limits of those that vary."""
+    first = variables[0]
+    place, limits = [], []
+    for x, extent in zip(variables, extents, strict=True):
+        if isinstance(extent, tuple):
+            limits.append((x, *(Integer(0) + (end(first) if callable(end) else end) for end in extent)))
+        place.append(x if isinstance(extent, tuple) else Integer(0) + (extent(first) if callable(extent) else extent))
+    return place, tuple(limits)
+
+
+def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
+    """What a map covers, seen from a point; a length along an axis that nothing else depends on is counted from there.
+
+    weight   of a cell: its size, with the density but for a constant
+    """
+    seen = point.seen(position)
+    names = {x for x, _, _ in limits}
+    lengths = [x for x in position if x in names]
+    for k, x in enumerate(position):
+        rate = seen[k].diff(x) if x in lengths else 0
+        others = [position[i] for i in range(3) if i != k] + [
+            end for y, *ends in limits if y in lengths for end in ends
+        ]
+        own = next((ends for y, *ends in limits if y == x), [])
+        if rate not in (1, -1) or any(e.has(x) for e in (*others, weight)) or any(e.has(*names) for e in own):
+            continue
+        start = seen[k] - rate * x
+        there = {x: rate * (x - start)}
+        ends = [(start + rate * end).expand() for end in own][::rate]
+        limits = tuple((y, *(ends if y == x else [e.subs(there) for e in (low, up)])) for y, low, up in limits)
+        seen = ImmutableDenseMatrix([x if i == k else seen[i] for i in range(3)])
+    return Region(limits, seen, weight)
 
 
 @lru_cache(maxsize=256)
-def cell(position: ImmutableMatrix, limits: Bounds) -> Expr:
-    """The factor that makes the product of the variables' differentials a length, an area or a volume."""
+def cell(position: ImmutableMatrix, limits: Bounds, positive: tuple[Expr, ...] = ()) -> Expr:
+    """The factor that makes the product of the variables' differentials a length, an area or a volume.
+
+    positive   sizes that are so, whatever letters they are made of
+    """
     tangents = tangents_of(position, [x for x, _, _ in limits])
+    known = (*limits, *((Dummy("size"), Integer(0), size) for size in positive))
     if len(limits) == 3:
         size = tidied(Dot(tangents[0], Cross(tangents[1], tangents[2])))
-        return _counted_positive(size, limits)
+        return _counted_positive(size, known)
     across = tangents[0] if len(limits) == 1 else explicit(Cross(tangents[0], tangents[1]))
-    return _root_of(tidied(Dot(across, across)), limits)
+    return _root_of(tidied(Dot(across, across)), known)
 
 
 def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[ImmutableMatrix]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Symbol, Tuple, cos, eye, pi, sin, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Symbol, Tuple, eye, sqrt
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import MassIntegral, bound, column, scalar, vector
@@ -90,36 +90,17 @@ def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]
     return [scalar(name) for name in found]
 
 
-def box(sides: Iterable[Expr], point: Point) -> Region:
-    """Every coordinate between its own two limits; a side of None is a coordinate that is zero throughout."""
-    taken = {letter for side in sides if side is not None for letter in side.free_symbols}
-    limits, position = [], []
-    for name, side, start in zip(coordinates("xyz", taken), sides, point.position, strict=True):
-        position.append(name if side is not None else -start)
-        if side is not None:
-            limits.append((name, -start, side - start))
-    return Region(tuple(limits), column(*position))
-
-
-def solid_of_revolution(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point, kind: str) -> Region:
-    """All points within radius_at(z) of the body's z axis, z between two ends; seen from a point."""
-    taken = set(ends[0].free_symbols | ends[1].free_symbols | radius_at(ends[0]).free_symbols)
-    taken |= radius_at(ends[1]).free_symbols
-    z = coordinates("z", taken)[0]
-    lower, upper = point.interval(*ends)
-    if kind == "cylindrical":
-        r, theta = coordinates(("r", "theta"), taken)
-        edge = radius_at(point.along_body(z))
-        limits: Bounds = ((z, lower, upper), (theta, Integer(0), 2 * pi), (r, Integer(0), edge))
-        return Region(limits, column(*_from_axis(r * cos(theta), r * sin(theta), point), z), r)
-    x, y = coordinates("xy", taken)
+def round_by_chords(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point) -> Region:
+    """All points within radius_at(z) of the body's z axis, z between two ends, by x, y and z from a point."""
+    taken = {letter for end in ends for letter in end.free_symbols | radius_at(end).free_symbols}
+    z, x, y = coordinates("zxy", taken)
     _check_sign(radius_at, ends)
     edge = radius_at(point.along_body(z))
     varies = edge.has(z)
     r = Symbol(coordinates("r", taken)[0].name, nonnegative=True) if varies else edge
-    a, b = (component - place for component, place in zip((x, y), _from_axis(x, y, point), strict=True))
+    a, b = (point.axes.T * point.position)[:2]
     chord = sqrt(r**2 - (y + b) ** 2)
-    limits = ((z, lower, upper), (y, -r - b, r - b), (x, -chord - a, chord - a))
+    limits = ((z, *point.interval(*ends)), (y, -r - b, r - b), (x, -chord - a, chord - a))
     return Region(limits, column(x, y, z), section=(r, edge) if varies else None)
 
 
@@ -130,34 +111,6 @@ def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> N
         message = f"the radius `{unsure}` is not known to be positive, as Cartesian limits need"
         help_line = "give it a letter of its own, or use cylindrical coordinates"
         raise Rejected(Complaint("unknown-sign", message, help=help_line))
-
-
-def disc(radius: Expr, point: Point, height: Expr) -> Region:
-    """A flat disc about the z axis, at a height of the body's z."""
-    r, theta = coordinates(("r", "theta"), radius.free_symbols)
-    place = _from_axis(r * cos(theta), r * sin(theta), point)
-    limits: Bounds = ((theta, Integer(0), 2 * pi), (r, Integer(0), radius))
-    return Region(limits, column(*place, height - point.position[2]), r)
-
-
-def circle(radius: Expr, point: Point) -> Region:
-    """A circle about the z axis."""
-    (theta,) = coordinates(("theta",), radius.free_symbols)
-    place = _from_axis(radius * cos(theta), radius * sin(theta), point)
-    return Region(((theta, Integer(0), 2 * pi),), column(*place, -point.position[2]), radius)
-
-
-def segment(ends: tuple[Expr, Expr], point: Point) -> Region:
-    """A piece of the z axis."""
-    (z,) = coordinates("z", ends[0].free_symbols | ends[1].free_symbols)
-    lower, upper = point.interval(*ends)
-    return Region(((z, lower, upper),), column(*_from_axis(Integer(0), Integer(0), point), z))
-
-
-def _from_axis(x: Expr, y: Expr, point: Point) -> tuple[Expr, Expr]:
-    """x and y counted from a point instead of from the axis; what is round about the axis may be turned about x."""
-    start = point.axes.T * point.position
-    return x - start[0], y - start[1]
 
 
 def no_such_coordinates(body: str, wanted: str, known: Iterable[str]) -> Rejected:

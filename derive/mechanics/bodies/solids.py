@@ -1,34 +1,63 @@
-"""Solids of revolution: cone, cylinder and ball, with the axis of symmetry along z."""
+"""Solids: with mass in a volume. Those that are round have their axis along z."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, solve, sqrt
 
-from derive.algebra.expressions import Factors, column, explicit
-from derive.mechanics.bodies.body import Particles, RoundBody
+from derive.algebra.expressions import Factors, Terms, column, explicit
+from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
+from derive.mechanics.bodies.equimomental import (
+    HALF,
+    Particles,
+    disc_of_particles,
+    drawn_out,
+    on_diameters,
+    ring_of_particles,
+    sliced,
+    stretched,
+    without,
+)
 from derive.mechanics.bodies.integration import worked_integral
-from derive.mechanics.bodies.regions import COORDINATES, Point, Region, solid_of_revolution
+from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
+from derive.mechanics.bodies.regions import Point, Region, coordinates, round_by_chords
+from derive.mechanics.bodies.thin_bodies import HalfDisc
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject
 
-__all__ = ["Ball", "Cone", "Cylinder", "volume"]
+__all__ = [
+    "Ball",
+    "Cone",
+    "Cylinder",
+    "Ellipsoid",
+    "HalfCylinder",
+    "Hemisphere",
+    "ThickShell",
+    "Torus",
+    "Tube",
+    "volume",
+]
 
 UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x: z is counted the other way
+
+
+# --- round, by the radius at each height -----------------------------------------------------------------------------
 
 
 class RoundSolid(RoundBody):
     """A body that is all points within a certain distance of a piece of the z axis."""
 
-    systems: ClassVar[tuple[str, ...]] = ("cylindrical", "cartesian")
+    systems = ("cylindrical", "cartesian")
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        return solid_of_revolution(self.radius_at, self.ends, point, coordinates or COORDINATES[1])
+        if coordinates == "cartesian":
+            return round_by_chords(self.radius_at, self.ends, point)
+        return super().region(point)
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
         """Two expressions that are equal where (r, z), in its own axes, is on its edge."""
@@ -46,8 +75,7 @@ class RoundSolid(RoundBody):
         return {}
 
 
-@dataclass(frozen=True)
-class Cone(RoundSolid):
+class Cone(OfHeight, RoundSolid):
     """A uniform circular cone, from its apex at the origin to its base at z = height.
 
     radius   of the base, length
@@ -57,27 +85,17 @@ class Cone(RoundSolid):
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
-    radius: Expr
-    height: Expr
-    mass: Expr
-    name: ClassVar[str] = "a cone"
-    seen_as: ClassVar[str] = "a circular cone"
-    reference: ClassVar[str] = "apex"
+    name, seen_as, reference = "a cone", "a circular cone", "apex"
 
     @property
     def measures(self) -> Mapping[str, Any]:
         return {"base radius": self.radius, "height": self.height}
 
-    @property
-    def ends(self) -> tuple[Expr, Expr]:
-        return Integer(0), self.height
-
     def radius_at(self, z: Expr) -> Expr:
         return self.radius * z / self.height
 
     def points(self) -> Mapping[str, Point]:
-        base = Point("base", column(0, 0, self.height), UPWARDS)
-        return {"apex": Point("apex", column(0, 0, 0)), "base": base}
+        return {**super().points(), "base": Point("base", column(0, 0, self.height), UPWARDS)}
 
     @cached_property
     def extent(self) -> Quantity:
@@ -90,9 +108,9 @@ class Cone(RoundSolid):
         With weights 1, 16 and 3 of 20 the heights 0, 3/4 and 1 have the moments 1, 3/4 and 3/5 that the slices of a
         cone have, since their masses grow as the square of the height.
         """
-        found = [(self.mass / 20, column(0, 0, 0))]
+        found = [(self.mass / 20, ORIGIN)]
         for share, height in ((Rational(4, 5), Rational(3, 4)), (Rational(3, 20), Integer(1))):
-            found += disc_particles(share * self.mass, height * self.radius, height * self.height)
+            found += disc_of_particles(share * self.mass, height * self.radius, height * self.height)
         return found
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
@@ -100,8 +118,7 @@ class Cone(RoundSolid):
         return r * self.height, self.radius * z
 
 
-@dataclass(frozen=True)
-class Cylinder(RoundSolid):
+class Cylinder(OfHeight, RoundSolid):
     """A uniform circular cylinder, from its base at the origin to z = height.
 
     radius   length
@@ -110,16 +127,7 @@ class Cylinder(RoundSolid):
     Points: base (the centre of the one at the origin), centre.
     """
 
-    radius: Expr
-    height: Expr
-    mass: Expr
-    name: ClassVar[str] = "a cylinder"
-    seen_as: ClassVar[str] = "a circular cylinder"
-    reference: ClassVar[str] = "base"
-
-    @property
-    def ends(self) -> tuple[Expr, Expr]:
-        return Integer(0), self.height
+    name, seen_as, reference = "a cylinder", "a circular cylinder", "base"
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius
@@ -128,31 +136,20 @@ class Cylinder(RoundSolid):
     def extent(self) -> Expr:
         return Factors(pi, self.radius**2, self.height)
 
-    def points(self) -> Mapping[str, Point]:
-        return {"base": Point("base", column(0, 0, 0))}
-
     def particles(self) -> Particles:
-        """Discs of a sixth, two thirds and a sixth of the mass at the base, the middle and the top (the weights of
-        Simpson's rule, which is exact for squares), each as five particles."""
-        parts = ((Rational(1, 6), Integer(0)), (Rational(2, 3), Rational(1, 2)), (Rational(1, 6), Integer(1)))
-        return [
-            particle
-            for share, height in parts
-            for particle in disc_particles(share * self.mass, self.radius, height * self.height)
-        ]
+        """Discs of equal mass at equal heights."""
+        return drawn_out(disc_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
-@dataclass(frozen=True)
-class Ball(RoundSolid):
+class Ball(OfRadius, RoundSolid):
     """A uniform ball about the origin.
 
     radius   length
     mass     mass
     """
 
-    radius: Expr
-    mass: Expr
-    name: ClassVar[str] = "a ball"
+    name = "a ball"
+    part = Rational(4, 3)  # of the cube of the radius, times pi
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -163,29 +160,180 @@ class Ball(RoundSolid):
 
     @property
     def extent(self) -> Expr:
-        return Factors(Rational(4, 3), pi, self.radius**3)
+        return Factors(self.part, pi, self.radius**3)
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
         """Pythagoras: the edge is at the distance R from the centre."""
         return r**2 + z**2, self.radius**2
 
-    def points(self) -> Mapping[str, Point]:
-        return {"centre": Point("centre", column(0, 0, 0))}
-
     def particles(self) -> Particles:
         """A tenth of the mass at each end of three diameters, the rest at the centre: 2 (M/10) R^2 = M R^2/5."""
-        found = [(Rational(2, 5) * self.mass, column(0, 0, 0))]
-        for axis in range(3):
-            for sign in (1, -1):
-                place = [sign * self.radius if k == axis else Integer(0) for k in range(3)]
-                found.append((self.mass / 10, column(*place)))
+        return [(Rational(2, 5) * self.mass, ORIGIN), *on_diameters(Rational(3, 5) * self.mass, self.radius)]
+
+
+class Hemisphere(Ball):
+    """Half of a uniform ball, where z is positive; the centre of its base is at the origin.
+
+    radius   length
+    mass     mass
+    Points: base (its centre), centre.
+    """
+
+    name, seen_as, reference = "a hemisphere", "half of a ball", "base"
+    part = Rational(2, 3)
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return ZERO, self.radius
+
+    def particles(self) -> Particles:
+        """Discs whose masses are as the squares of their radii."""
+        return sliced(self.mass, self.ends, self.radius_at, lambda z: self.radius**2 - z**2)
+
+
+# --- others ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Tube(Body):
+    """A uniform hollow cylinder about the z axis, from its base at the origin to z = height.
+
+    inner, outer   radii, lengths
+    height         length
+    mass           mass
+    Points: base (the centre of the one at the origin), centre.
+    """
+
+    inner: Expr
+    outer: Expr
+    height: Expr
+    mass: Expr
+    name, seen_as, reference, is_round = "a tube", "a hollow cylinder", "base", True
+
+    def __post_init__(self) -> None:
+        require_order(self.name, self.inner, self.outer)
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(pi, Terms(self.outer**2, -(self.inner**2)), self.height)
+
+    def map(self) -> Map:
+        return cylindrical(self.letters, (0, self.height), (self.inner, self.outer))
+
+    def particles(self) -> Particles:
+        """A cylinder less the cylinder that was taken out, their masses as the squares of their radii."""
+        across = self.outer**2 - self.inner**2
+        whole, removed = (Cylinder(r, self.height, self.mass * r**2 / across) for r in (self.outer, self.inner))
+        return without(whole.particles(), removed.particles())
+
+
+class ThickShell(Hollow):
+    """A uniform ball about the origin with a hollow ball in its middle.
+
+    inner, outer   radii, lengths
+    mass           mass
+    """
+
+    name, seen_as, is_round = "a thick shell", "a hollow ball", True
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(Rational(4, 3), pi, Terms(self.outer**3, -(self.inner**3)))
+
+    def map(self) -> Map:
+        return spherical(self.letters, (self.inner, self.outer))
+
+    def particles(self) -> Particles:
+        """A ball less the ball that was taken out, their masses as the cubes of their radii."""
+        between = self.outer**3 - self.inner**3
+        whole, removed = (Ball(r, self.mass * r**3 / between) for r in (self.outer, self.inner))
+        return without(whole.particles(), removed.particles())
+
+
+class HalfCylinder(OfHeight):
+    """Half of a uniform cylinder about the z axis, where y is positive, from z = 0 to z = height.
+
+    radius   length
+    height   length
+    mass     mass
+    Points: circle_centre (of the half-disc at the origin), centre.
+    """
+
+    name, reference, is_lopsided = "a half-cylinder", "circle_centre", True
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(HALF, pi, self.radius**2, self.height)
+
+    def map(self) -> Map:
+        return cylindrical(self.letters, (0, self.height), (0, self.radius), (0, pi))
+
+    def particles(self) -> Particles:
+        """Half-discs of equal mass at equal heights."""
+        return drawn_out(HalfDisc(self.radius, self.mass).particles(), (ZERO, self.height))
+
+
+@dataclass(frozen=True)
+class Ellipsoid(Body):
+    """A uniform ellipsoid about the origin, its axes along x, y and z.
+
+    semi_axes   three lengths
+    mass        mass
+    """
+
+    semi_axes: tuple[Expr, Expr, Expr]
+    mass: Expr
+    name = "an ellipsoid"
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(Rational(4, 3), pi, *self.semi_axes)
+
+    def map(self) -> Map:
+        """A ball of radius 1, stretched along each axis."""
+        return spherical(self.letters, (0, 1), by=self.semi_axes)
+
+    def particles(self) -> Particles:
+        """Those of a ball of radius 1, stretched as the ball is."""
+        return stretched(Ball(Integer(1), self.mass).particles(), self.semi_axes)
+
+
+@dataclass(frozen=True)
+class Torus(Body):
+    """A uniform ring of round cross-section about the z axis, its centre at the origin.
+
+    radius    from the axis to the middle of the cross-section, length
+    section   radius of the cross-section, length
+    mass      mass
+    """
+
+    radius: Expr
+    section: Expr
+    mass: Expr
+    name, is_round = "a torus", True
+
+    def __post_init__(self) -> None:
+        require_order(self.name, self.section, self.radius)
+
+    @property
+    def extent(self) -> Expr:
+        """By Pappus, the area of the cross-section times the way of its middle."""
+        return Factors(2, pi**2, self.radius, self.section**2)
+
+    def map(self) -> Map:
+        """By the distance s from the middle of the cross-section, the angle round it, and the angle about the axis."""
+        s, u, phi = coordinates(("s", "u", "phi"), self.letters)
+        across = self.radius + s * cos(u)
+        limits = ((s, ZERO, self.section), (u, ZERO, 2 * pi), (phi, ZERO, 2 * pi))
+        return column(across * cos(phi), across * sin(phi), s * sin(u)), limits
+
+    def particles(self) -> Particles:
+        """Rings through the five particles of the cross-section, each with a mass that grows as its radius."""
+        found: Particles = []
+        for share, place in disc_of_particles(self.mass, self.section, ZERO):
+            radius = self.radius + place[0]
+            found += ring_of_particles(share * radius / self.radius, radius, place[1])
         return found
-
-
-def disc_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A disc across the z axis: half of its mass at its centre and an eighth at each end of two diameters."""
-    rim = ((radius, 0), (-radius, 0), (0, radius), (0, -radius))
-    return [(mass / 2, column(0, 0, height)), *((mass / 8, column(x, y, height)) for x, y in rim)]
 
 
 def volume(body: Cone) -> Quantity:

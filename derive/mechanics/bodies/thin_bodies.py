@@ -1,22 +1,43 @@
-"""Thin bodies: rod and hoop with mass on a line, disc and plate with mass on an area."""
+"""Thin bodies: with mass on a line, on a piece of a plane, or on a curved surface."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
-from sympy import Expr, Integer, Rational, pi
-from sympy.matrices import ImmutableMatrix
+from sympy import Expr, Integer, Rational, cos, pi, sin, sqrt
 
-from derive.algebra.expressions import Factors, column
-from derive.mechanics.bodies.body import EdgedBody, Particles, RoundBody
-from derive.mechanics.bodies.regions import Point, Region, box, circle, disc, segment
-from derive.mechanics.bodies.solids import disc_particles
+from derive.algebra.expressions import Factors, Terms, column, explicit
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody
+from derive.mechanics.bodies.equimomental import (
+    HALF,
+    Particles,
+    disc_of_particles,
+    drawn_out,
+    from_moments,
+    on_diameters,
+    ring_of_particles,
+    sliced,
+    without,
+)
+from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
+from derive.mechanics.bodies.regions import Point
 
-__all__ = ["Disc", "Hoop", "Plate", "Rod"]
+__all__ = [
+    "Annulus",
+    "Arc",
+    "ConicalShell",
+    "CylindricalShell",
+    "Disc",
+    "HalfDisc",
+    "HemisphericalShell",
+    "Hoop",
+    "Rod",
+    "SphericalShell",
+]
 
-HALF = Rational(1, 2)
+# --- lines and circles -----------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -30,78 +51,39 @@ class Rod(RoundBody):
 
     length: Expr
     mass: Expr
-    name: ClassVar[str] = "a rod"
-    seen_as: ClassVar[str] = "a thin rod"
-    filling: ClassVar[str] = "length"
-    reference: ClassVar[str] = "end"
+    name, seen_as, filling, reference = "a rod", "a thin rod", "length", "end"
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
-        return Integer(0), self.length
+        return ZERO, self.length
 
     def radius_at(self, z: Expr) -> Expr:
-        return Integer(0)
+        return ZERO
 
     @property
     def extent(self) -> Expr:
         return self.length
 
-    def points(self) -> Mapping[str, Point]:
-        return {"end": Point("end", column(0, 0, 0))}
-
-    def region(self, point: Point, coordinates: str | None = None) -> Region:
-        return segment((Integer(0), self.length), point)
-
     def particles(self) -> Particles:
-        """A sixth of the mass at each end and two thirds in the middle, the weights of Simpson's rule."""
-        shares = ((Rational(1, 6), Integer(0)), (Rational(2, 3), HALF), (Rational(1, 6), Integer(1)))
-        return [(share * self.mass, column(0, 0, place * self.length)) for share, place in shares]
+        return drawn_out([(self.mass, ORIGIN)], self.ends)
 
 
-class _Flat(RoundBody):
+class _Flat(OfRadius, RoundBody):
     """Across the z axis, as far as its radius."""
 
-    radius: Expr
-    flat_across: ClassVar[str | None] = "z"
-    systems: ClassVar[tuple[str, ...]] = ("cylindrical",)
+    systems = ("cylindrical",)
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
-        return Integer(0), Integer(0)
+        return ZERO, ZERO
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius
 
     def points(self) -> Mapping[str, Point]:
-        return {"centre": Point("centre", column(0, 0, 0)), "rim": Point("rim", column(self.radius, 0, 0))}
+        return {**super().points(), "rim": Point("rim", column(self.radius, 0, 0))}
 
 
-@dataclass(frozen=True)
-class Disc(_Flat):
-    """A thin uniform circular disc across the z axis, its centre at the origin.
-
-    radius   length
-    mass     mass
-    """
-
-    radius: Expr
-    mass: Expr
-    name: ClassVar[str] = "a disc"
-    seen_as: ClassVar[str] = "a thin disc"
-    filling: ClassVar[str] = "area"
-
-    @property
-    def extent(self) -> Expr:
-        return Factors(pi, self.radius**2)
-
-    def region(self, point: Point, coordinates: str | None = None) -> Region:
-        return disc(self.radius, point, Integer(0))
-
-    def particles(self) -> Particles:
-        return disc_particles(self.mass, self.radius, Integer(0))
-
-
-@dataclass(frozen=True)
 class Hoop(_Flat):
     """A thin uniform ring across the z axis, its centre at the origin.
 
@@ -109,64 +91,225 @@ class Hoop(_Flat):
     mass     mass
     """
 
-    radius: Expr
-    mass: Expr
-    name: ClassVar[str] = "a hoop"
-    filling: ClassVar[str] = "length"
+    name, filling = "a hoop", "length"
 
     @property
     def extent(self) -> Expr:
         return Factors(2, pi, self.radius)
 
-    def region(self, point: Point, coordinates: str | None = None) -> Region:
-        return circle(self.radius, point)
-
     def particles(self) -> Particles:
-        """A quarter of the mass at each end of two diameters."""
-        R = self.radius
-        return [(self.mass / 4, column(x, y, 0)) for x, y in ((R, 0), (-R, 0), (0, R), (0, -R))]
+        return ring_of_particles(self.mass, self.radius, ZERO)
 
 
 @dataclass(frozen=True)
-class Plate(EdgedBody):
-    """A thin uniform rectangular plate in the plane of x and y, edges along the axes from the corner at the origin.
+class Arc(Body):
+    """A thin uniform wire bent to a piece of a circle in the plane of x and y, which the x axis halves.
 
-    sides    two lengths
-    mass     mass
+    radius       length
+    half_angle   from the x axis to either end, an angle up to pi: pi/2 for half a circle
+    mass         mass
+    Points: circle_centre (the origin), centre.
     """
 
-    sides: tuple[Expr, Expr]
+    radius: Expr
+    half_angle: Expr
     mass: Expr
-    name: ClassVar[str] = "a plate"
-    filling: ClassVar[str] = "area"
-    flat_across: ClassVar[str | None] = "z"
-    reference: ClassVar[str] = "corner"
+    name, seen_as, filling, reference = "an arc", "a bent wire", "length", "circle_centre"
+    is_lopsided = True
 
-    @property
-    def measures(self) -> Mapping[str, Any]:
-        return {"edges": self.sides}
-
-    @property
-    def corners(self) -> tuple[ImmutableMatrix, ...]:
-        a, b = self.sides
-        return column(0, 0, 0), column(a, 0, 0), column(a, b, 0), column(0, b, 0)
-
-    @property
-    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        return (self.sides[0], ((0, 1), (2, 3))), (self.sides[1], ((0, 3), (1, 2)))
+    def __post_init__(self) -> None:
+        if (self.half_angle - pi).is_nonnegative or self.half_angle.is_nonpositive:
+            message = f"an arc of the half angle {self.half_angle} is not a piece of a circle"
+            raise Rejected(Complaint("sizes", message, help="a whole circle is a `Hoop`"))
 
     @property
     def extent(self) -> Expr:
-        return self.sides[0] ** 2 if self.sides[0] == self.sides[1] else Factors(*self.sides)
+        length = Factors(2, self.half_angle, self.radius)
+        return length if self.half_angle.free_symbols else explicit(length)
 
-    def points(self) -> Mapping[str, Point]:
-        return {"corner": Point("corner", column(0, 0, 0))}
-
-    def region(self, point: Point, coordinates: str | None = None) -> Region:
-        return box((*self.sides, None), point)
+    def map(self) -> Map:
+        return cylindrical(self.letters, ZERO, self.radius, (-self.half_angle, self.half_angle))
 
     def particles(self) -> Particles:
-        """A sixth of the mass in the middle of each edge and a third at the centre."""
-        a, b = self.sides
-        middles = ((a / 2, 0), (a / 2, b), (0, b / 2), (a, b / 2))
-        return [(self.mass / 3, column(a / 2, b / 2, 0)), *((self.mass / 6, column(x, y, 0)) for x, y in middles)]
+        """With x ds = R dy, the first moment is R times the chord, and the second R times the area between arc and y
+        axis, that of a sector and of a triangle."""
+        R, alpha = self.radius, self.half_angle
+        sector, triangle = alpha * R**2, R**2 * sin(alpha) * cos(alpha)
+        along = self.mass * (sector + triangle) / (2 * alpha)
+        centre = column(R * sin(alpha) / alpha, 0, 0)
+        return from_moments(self.mass, centre, about_origin=(along, self.mass * R**2 - along, ZERO))
+
+
+# --- pieces of a plane -----------------------------------------------------------------------------------------------
+
+
+class Disc(_Flat):
+    """A thin uniform circular disc across the z axis, its centre at the origin.
+
+    radius   length
+    mass     mass
+    """
+
+    name, seen_as, filling = "a disc", "a thin disc", "area"
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(pi, self.radius**2)
+
+    def particles(self) -> Particles:
+        return disc_of_particles(self.mass, self.radius, ZERO)
+
+
+class Annulus(Hollow):
+    """A thin uniform disc with a round hole, across the z axis, its centre at the origin.
+
+    inner, outer   radii, lengths
+    mass           mass
+    Points: centre, rim (of the outer circle).
+    """
+
+    name, filling, is_round = "an annulus", "area", True
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(pi, Terms(self.outer**2, -(self.inner**2)))
+
+    def points(self) -> Mapping[str, Point]:
+        return {**super().points(), "rim": Point("rim", column(self.outer, 0, 0))}
+
+    def map(self) -> Map:
+        return cylindrical(self.letters, ZERO, (self.inner, self.outer))
+
+    def particles(self) -> Particles:
+        """A disc less the disc that was cut out, their masses as the squares of their radii."""
+        whole, removed = (self.mass * r**2 / (self.outer**2 - self.inner**2) for r in (self.outer, self.inner))
+        return without(disc_of_particles(whole, self.outer, ZERO), disc_of_particles(removed, self.inner, ZERO))
+
+
+class HalfDisc(OfRadius):
+    """Half of a thin uniform disc, in the plane of x and y where y is positive; its diameter is along x.
+
+    radius   length
+    mass     mass
+    Points: circle_centre (the middle of the diameter, the origin), centre.
+    """
+
+    name, filling, reference, is_lopsided = "a half-disc", "area", "circle_centre", True
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(HALF, pi, self.radius**2)
+
+    def map(self) -> Map:
+        return cylindrical(self.letters, ZERO, (0, self.radius), (0, pi))
+
+    def particles(self) -> Particles:
+        """By Pappus: turned about its diameter it is a ball, 4/3 pi R^3 = 2 pi y_C (pi R^2/2). Its second moments about
+        the diameter and across it are those of a whole disc of its mass."""
+        square = self.mass * self.radius**2 / 4
+        centre = column(0, Rational(4, 3) * self.radius / pi, 0)
+        return from_moments(self.mass, centre, about_origin=(square, square, ZERO))
+
+
+# --- curved surfaces -------------------------------------------------------------------------------------------------
+
+
+class SphericalShell(OfRadius, RoundBody):
+    """A thin uniform shell of a sphere about the origin.
+
+    radius   length
+    mass     mass
+    """
+
+    name, seen_as, filling = "a spherical shell", "a thin spherical shell", "area"
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return -self.radius, self.radius
+
+    def radius_at(self, z: Expr) -> Expr:
+        return sqrt(self.radius**2 - z**2)
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(4, pi, self.radius**2)
+
+    def map(self) -> Map:
+        return spherical(self.letters, self.radius)
+
+    def particles(self) -> Particles:
+        """Its moments about three diameters are equal and add up to twice M R^2."""
+        return on_diameters(self.mass, self.radius)
+
+
+class HemisphericalShell(SphericalShell):
+    """Half of a thin uniform spherical shell, where z is positive; the centre of its rim is at the origin.
+
+    radius   length
+    mass     mass
+    Points: circle_centre (of its rim), centre.
+    """
+
+    name, seen_as, reference = "a hemispherical shell", "", "circle_centre"
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        return ZERO, self.radius
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(2, pi, self.radius**2)
+
+    def map(self) -> Map:
+        return spherical(self.letters, self.radius, (0, pi / 2))
+
+    def particles(self) -> Particles:
+        """By Archimedes, slices of equal height have equal masses."""
+        return sliced(self.mass, self.ends, self.radius_at, lambda z: Integer(1), ring_of_particles)
+
+
+class CylindricalShell(OfHeight, RoundBody):
+    """A thin uniform shell of a cylinder without ends, about the z axis, from the origin to z = height.
+
+    radius   length
+    height   length
+    mass     mass
+    Points: circle_centre (of its lower rim), centre.
+    """
+
+    name, seen_as, filling = "a cylindrical shell", "a thin cylindrical shell", "area"
+    reference = "circle_centre"
+
+    def radius_at(self, z: Expr) -> Expr:
+        return self.radius
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(2, pi, self.radius, self.height)
+
+    def particles(self) -> Particles:
+        """Rings of equal mass at equal heights."""
+        return drawn_out(ring_of_particles(self.mass, self.radius, ZERO), self.ends)
+
+
+class ConicalShell(OfHeight, RoundBody):
+    """The thin uniform side of a circular cone without its base, from its apex at the origin to z = height.
+
+    radius   of its rim, length
+    height   length
+    mass     mass
+    Points: tip (the apex), centre.
+    """
+
+    name, seen_as, filling, reference = "a conical shell", "the side of a cone", "area", "tip"
+
+    def radius_at(self, z: Expr) -> Expr:
+        return self.radius * z / self.height
+
+    @property
+    def extent(self) -> Expr:
+        return Factors(pi, self.radius, sqrt(self.radius**2 + self.height**2))
+
+    def particles(self) -> Particles:
+        """Rings whose masses grow as their radii."""
+        return sliced(self.mass, self.ends, self.radius_at, lambda z: z, ring_of_particles)

@@ -32,9 +32,11 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.body import Body, Particles
+from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.equimomental import Particles
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.general_tensor import shape_of
+from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, name_of_body, place_of
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.inertia import inertia_tensor
@@ -59,13 +61,8 @@ class PointMass(Body):
     mass: Expr
     name: ClassVar[str] = "a particle"
 
-    def points(self) -> Mapping[str, Point]:
-        return {}
-
-    def point(self, name: str) -> Point:
-        if name != "centre":
-            raise Rejected(Complaint("no-such-point", f'a particle has no point "{name}"'))
-        return Point("centre", ORIGIN.position)
+    def map(self) -> Map:
+        return ORIGIN.position, ()
 
     def particles(self) -> Particles:
         return [(self.mass, ORIGIN.position)]
@@ -154,7 +151,7 @@ class Composite(Body):
         return total
 
     @property
-    def flat_across(self) -> str | None:  # type: ignore[override]
+    def flat_across(self) -> str | None:
         """The axis along which no part of it reaches, if there is one; "x" of what is all on one of the others."""
         return next((axis for k, axis in enumerate("xyz") if all(is_zero(r[k]) for _, r in self.particles())), None)
 

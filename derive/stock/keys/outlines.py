@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from derive.figures import axis_of_rotation, drawing, outline, vectors_in
-from derive.mechanics.bodies.body import Body, EdgedBody, RoundBody
+from derive.mechanics.bodies.body import Body, RoundBody
+from derive.mechanics.bodies.edged_bodies import EdgedBody
 
 
 def drawn(body: Body) -> None:

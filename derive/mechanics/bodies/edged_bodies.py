@@ -1,0 +1,326 @@
+"""Bodies with edges: plates and solids with flat faces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import reduce
+from itertools import product
+from operator import mul
+from typing import Any, ClassVar, Self
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Rational, sqrt
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import Factors, column
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.body import ORIGIN, ZERO, Body
+from derive.mechanics.bodies.equimomental import HALF, Particles, drawn_out
+from derive.mechanics.bodies.mapping import Map, cartesian
+from derive.mechanics.bodies.regions import Point, coordinates
+
+__all__ = ["Cuboid", "Plate", "Tetrahedron", "Triangle", "Wedge"]
+
+
+class EdgedBody(Body):
+    """A body with flat faces, or of one face alone."""
+
+    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # the first ones
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        """In its own axes."""
+        raise AttributeError(f"{type(self).__name__} must say where its corners are")
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        """Each face by its corners in order, from either side; none if they are those of one face alone."""
+        return ()
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        """The lengths that a drawing tells, each with the edges that have it."""
+        return ()
+
+    def points(self) -> Mapping[str, Point]:
+        return {name: Point(name, place) for name, place in zip(self.corners_called, self.corners, strict=False)}
+
+
+@dataclass(frozen=True)
+class Plate(EdgedBody):
+    """A thin uniform rectangular plate in the plane of x and y, edges along the axes from the corner at the origin.
+
+    sides    two lengths
+    mass     mass
+    """
+
+    sides: tuple[Expr, Expr]
+    mass: Expr
+    name, filling, reference = "a plate", "area", "corner"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"edges": self.sides}
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        a, b = self.sides
+        return ORIGIN, column(a, 0, 0), column(a, b, 0), column(0, b, 0)
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        return (self.sides[0], ((0, 1), (2, 3))), (self.sides[1], ((0, 3), (1, 2)))
+
+    @property
+    def extent(self) -> Expr:
+        return self.sides[0] ** 2 if self.sides[0] == self.sides[1] else Factors(*self.sides)
+
+    def map(self) -> Map:
+        return cartesian(self.letters, *((0, side) for side in self.sides), ZERO)
+
+    def particles(self) -> Particles:
+        """A sixth of the mass in the middle of each edge and a third at the centre."""
+        a, b = self.sides
+        middles = ((a / 2, 0), (a / 2, b), (0, b / 2), (a, b / 2))
+        return [(self.mass / 3, column(a / 2, b / 2, 0)), *((self.mass / 6, column(x, y, 0)) for x, y in middles)]
+
+
+@dataclass(frozen=True)
+class Cuboid(EdgedBody):
+    """A uniform block. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+
+    sides   three lengths, along x, y and z
+    mass    mass
+    """
+
+    sides: tuple[Expr, Expr, Expr]
+    mass: Expr
+    name, seen_as, reference = "a cuboid", "a block", "corner"
+
+    @property
+    def extent(self) -> Expr:
+        """A cube's volume is written a^3, a block's a * 2a * 3a."""
+        if len(set(self.sides)) == 1:
+            return Pow(self.sides[0], len(self.sides))
+        return Factors(*self.sides)
+
+    @property
+    def size(self) -> Expr:
+        return reduce(mul, self.sides, Integer(1))
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"edges": self.sides}
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        """Their numbers in binary say which of x, y and z are not zero."""
+        at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
+        return tuple(column(*(end * side for end, side in corner)) for corner in at)
+
+    @property
+    def faces(self) -> tuple[tuple[int, ...], ...]:
+        across = ((4, 2, 1), (2, 1, 4), (1, 4, 2))
+        return tuple((at, at | a, at | a | b, at | b) for bit, a, b in across for at in (0, bit))
+
+    @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        return tuple(
+            (side, tuple((i, i | bit) for i in range(8) if not i & bit))
+            for side, bit in zip(self.sides, (4, 2, 1), strict=True)
+        )
+
+    @property
+    def middle(self) -> Point:
+        return Point("centre", column(*(side / 2 for side in self.sides)))
+
+    def map(self) -> Map:
+        return cartesian(self.letters, *((0, side) for side in self.sides))
+
+    def particles(self) -> Particles:
+        """Six equal particles, at the centres of the faces.
+
+        Two of them, at +-side/2, give 2 (M/6)(side/2)^2 = M side^2/12.
+        """
+        found = []
+        for axis, end in product(range(3), (0, 1)):
+            place = [side * (HALF if k != axis else end) for k, side in enumerate(self.sides)]
+            found.append((self.mass / 6, column(*place)))
+        return found
+
+    def axes_by_name(self) -> Mapping[str, ImmutableMatrix]:
+        return {"diagonal": column(*self.sides), **super().axes_by_name()}
+
+
+class Cornered(EdgedBody):
+    """A body told by where its corners are."""
+
+    corners_called: ClassVar[tuple[str, ...]] = ("first corner", "second corner", "third corner", "fourth corner")
+    reference = "first corner"
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {}
+
+
+@dataclass(frozen=True)
+class Triangle(Cornered):
+    """A thin uniform triangular plate in the plane of x and y.
+
+    corners   three places (x, y), lengths
+    mass      mass
+    `Triangle.on_base(b, h, mass)` has its base from the origin along x, its top at the height h over the middle of the
+    base, or at x = foot; `Triangle.equilateral(a, mass)` has three sides a.
+    Points: first corner, second corner, third corner; centre.
+    """
+
+    corners_at: tuple[tuple[Expr, Expr], tuple[Expr, Expr], tuple[Expr, Expr]]
+    mass: Expr
+    name, seen_as, filling = "a triangle", "a triangular plate", "area"
+
+    def __post_init__(self) -> None:
+        if tidied(self._signed_area) == 0:
+            raise Rejected(Complaint("sizes", "the three corners of this triangle are on one line"))
+
+    @classmethod
+    def on_base(cls, base: Expr, height: Expr, mass: Expr, foot: Expr | None = None) -> Self:
+        """Its top is over the middle of its base, or over x = foot."""
+        return cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
+
+    @classmethod
+    def equilateral(cls, side: Expr, mass: Expr) -> Self:
+        return cls.on_base(side, side * sqrt(3) / 2, mass)
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        return tuple(column(x, y, 0) for x, y in self.corners_at)
+
+    @property
+    def _signed_area(self) -> Expr:
+        """Half the products of neighbouring places, round the edge."""
+        (x1, y1), (x2, y2), (x3, y3) = self.corners_at
+        return (x1 * (y2 - y3) + x2 * (y3 - y1) + x3 * (y1 - y2)) / 2
+
+    @property
+    def _stands_on_x(self) -> bool:
+        (x1, y1), (x2, y2), (_, y3) = self.corners_at
+        return bool(x1 == y1 == y2 == 0 and x2.is_positive and y3.is_positive)
+
+    @property
+    def extent(self) -> Expr:
+        if self._stands_on_x:
+            return Factors(HALF, self.corners_at[1][0], self.corners_at[2][1])
+        area = tidied(self._signed_area)
+        return -area if area.could_extract_minus_sign() or area.is_negative else area
+
+    def map(self) -> Map:
+        """With the base on the x axis by x and y; any other by parts u and v of two of its sides."""
+        if self._stands_on_x:
+            (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
+            return column(x, y, 0), ((y, ZERO, y3), (x, x3 * y / y3, x2 + (x3 - x2) * y / y3))
+        u, v = coordinates("uv", self.letters)
+        a, b, c = self.corners
+        return ImmutableDenseMatrix(a + u * (b - a) + v * (c - a)), ((u, ZERO, Integer(1)), (v, ZERO, 1 - u))
+
+    def particles(self) -> Particles:
+        """A third of the mass in the middle of each side."""
+        a, b, c = self.corners
+        return [(self.mass / 3, ImmutableDenseMatrix((p + q) / 2)) for p, q in ((a, b), (b, c), (c, a))]
+
+
+@dataclass(frozen=True)
+class Tetrahedron(Cornered):
+    """A uniform solid with four corners.
+
+    corners_at   four places (x, y, z), lengths
+    mass         mass
+    Points: first corner, ..., fourth corner; centre.
+    """
+
+    corners_at: tuple[tuple[Any, Any, Any], ...]
+    mass: Expr
+    name = "a tetrahedron"
+    faces = (0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)
+
+    def __post_init__(self) -> None:
+        if len(self.corners_at) != 4 or self._sixfold == 0:
+            message = "a tetrahedron needs four corners that are not in one plane"
+            raise Rejected(Complaint("sizes", message))
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        return tuple(column(*corner) for corner in self.corners_at)
+
+    @property
+    def _edges_from_first(self) -> list[ImmutableMatrix]:
+        first, *others = self.corners
+        return [ImmutableDenseMatrix(c - first) for c in others]
+
+    @property
+    def _sixfold(self) -> Expr:
+        """Six times its volume, with a sign: the determinant of three edges."""
+        return tidied(ImmutableDenseMatrix.hstack(*self._edges_from_first).det())
+
+    @property
+    def extent(self) -> Expr:
+        sixfold = self._sixfold
+        return (-sixfold if sixfold.could_extract_minus_sign() or sixfold.is_negative else sixfold) / 6
+
+    def map(self) -> Map:
+        """By parts u, v and s of the three edges from its first corner; along the axes by x, y and z."""
+        first, edges = self.corners[0], self._edges_from_first
+        if first == ORIGIN and all(e == column(*(e[i] * int(i == k) for i in range(3))) for k, e in enumerate(edges)):
+            (a, b, c), (x, y, z) = (e[k] for k, e in enumerate(edges)), coordinates("xyz", self.letters)
+            limits = ((x, ZERO, a), (y, ZERO, b * (1 - x / a)), (z, ZERO, c * (1 - x / a - y / b)))
+            return column(x, y, z), limits
+        u, v, s = coordinates("uvs", self.letters)
+        place = first + u * edges[0] + v * edges[1] + s * edges[2]
+        limits = ((u, ZERO, Integer(1)), (v, ZERO, 1 - u), (s, ZERO, 1 - u - v))
+        return ImmutableDenseMatrix(place), limits
+
+    def particles(self) -> Particles:
+        """A twentieth of the mass at each corner, four fifths at the mean of the corners."""
+        mean = ImmutableDenseMatrix(sum(self.corners, ORIGIN) / 4)
+        return [(Rational(4, 5) * self.mass, mean), *((self.mass / 20, corner) for corner in self.corners)]
+
+
+@dataclass(frozen=True)
+class Wedge(Cornered):
+    """A uniform right prism on a triangle: the triangle in the plane of x and y, drawn out along z.
+
+    face     the triangle, as `Triangle` has it
+    length   along z, from the origin
+    mass     mass
+    Points: first corner, second corner, third corner (of the face at z = 0); centre.
+    """
+
+    face: Triangle
+    length: Expr
+    mass: Expr
+    name = "a wedge"
+    corners_called = Triangle.corners_called[:3]
+    faces = (0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)
+
+    @property
+    def corners(self) -> tuple[ImmutableMatrix, ...]:
+        ends = (ZERO, self.length)
+        return tuple(ImmutableDenseMatrix(corner + column(0, 0, z)) for z in ends for corner in self.face.corners)
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"length": self.length}
+
+    @property
+    def extent(self) -> Expr:
+        area = self.face.extent
+        return Factors(*(area.args if isinstance(area, Factors) else (area,)), self.length)
+
+    def map(self) -> Map:
+        place, limits = self.face.map()
+        (z,) = coordinates(("z",), self.letters)
+        return ImmutableDenseMatrix(place + column(0, 0, z)), ((z, ZERO, self.length), *limits)
+
+    def particles(self) -> Particles:
+        """Triangles of equal mass at equal heights."""
+        return drawn_out(Triangle(self.face.corners_at, self.mass).particles(), (ZERO, self.length))
