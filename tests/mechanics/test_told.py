@@ -139,9 +139,8 @@ def test_of_the_parts_of_an_energy_one_moves_and_one_is_constant() -> None:
             Judged(R, {"equation": KEPT, "unknown": rate(q)}),
             Judged(R, {"equation": KEPT, "unknown": x}),
         ),
-        ("bodies.centre_on_axis", Judged(R, **FROM_CENTRE), Judged(R, **(FROM_CENTRE | {"symbol": scalar("r_y")}))),
         (
-            "bodies.centre_on_axis",
+            "bodies.centre_component",
             Judged(R, **FROM_CENTRE),
             Judged(R, **(FROM_CENTRE | {"words": {"start": "corner"}})),
         ),
@@ -187,3 +186,10 @@ def test_a_long_diagonal_is_called_so() -> None:
 def test_nothing_is_less_than_itself(mark: str) -> None:
     with pytest.raises(Unverified, match="can never hold"):
         establish("equations.let", None, lambda: Relation(a, mark, a), {}, key="bound", definition=True)
+
+
+def test_the_component_along_the_axis_is_that_along_z() -> None:
+    wrong = Judged(R, **(FROM_CENTRE | {"symbol": scalar("r_y")}))
+    assert told_rightly("bodies.centre_component", "on_axis", Judged(R, **FROM_CENTRE))
+    assert told_rightly("bodies.centre_component", "generic", wrong)
+    assert not told_rightly("bodies.centre_component", "on_axis", wrong)

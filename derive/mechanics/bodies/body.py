@@ -15,19 +15,18 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Symbol
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.direction import Direction
-from derive.algebra.expressions import Factors, Ratio, column, component_names, explicit, vector
+from derive.algebra.expressions import AXES, Ratio, column, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
-from derive.mechanics.bodies.components import centre_component, is_its_own_image
-from derive.mechanics.bodies.equimomental import Particles
+from derive.mechanics.bodies.components import centre_component, is_its_own_image, is_round_solid
+from derive.mechanics.bodies.equimomental import Particles, summed
 from derive.mechanics.bodies.facts import CountedFrom
-from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.mapping import Map, cell, cylindrical, from_point
 from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
+from derive.steps.step import Form, Level, Quantity, Route, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["centre_of_mass", "density"]
@@ -57,6 +56,7 @@ class Body(Placeable):
     reference: ClassVar[str] = "centre"  # the point where its own axes begin
     called: str = ""  # what the page calls it where there are others, "upper rod"
     is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
+    is_of_particles: ClassVar[bool] = True  # which are found without an integral
     is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
 
@@ -106,6 +106,19 @@ class Body(Placeable):
         computed from them checks what is computed by integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
         raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
 
+    def another_way(
+        self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
+    ) -> dict[str, Route]:
+        """A second route to the integral of what is at most quadratic in the position from a point, times dm.
+
+        of   what of a result is that integral
+        """
+
+        def by_particles(found: Any) -> tuple[Any, Any]:
+            return of(found), summed(self.particles(), lambda r: explicit(integrand(point.seen(r))))
+
+        return {"particles": by_particles}
+
     @property
     def extent(self) -> Expr | Quantity:
         """Its volume (area, length) as it is known; a body for which it must be derived gives the step."""
@@ -130,9 +143,7 @@ class Body(Placeable):
     @property
     def middle(self) -> Point:
         """Its centre of mass, as its particles have it."""
-        total = column(0, 0, 0)
-        for mass, place in self.particles():
-            total = total + mass * place
+        total = summed(self.particles(), lambda r: r)
         return Point("centre", ImmutableDenseMatrix((total / self.mass).applyfunc(lambda x: x.cancel())))
 
     def point(self, name: str) -> Point:
@@ -164,6 +175,12 @@ class Body(Placeable):
     @cached_property
     def centre(self) -> Quantity:
         return centre_of_mass(self)
+
+    @property
+    def front(self) -> Expr:
+        """What stands before the integral of what varies, so that the whole is the density: its letter, once found."""
+        letter: Expr = self.density.symbol
+        return letter
 
     @property
     def density_letter(self) -> str:
@@ -357,8 +374,9 @@ def centre_of_mass(
     coordinates  "cartesian" or "cylindrical", where the body has both
     Of a round body the one component that is not zero by symmetry is worked out as a step of its own; of a body that is
     not its own image about its centre, each that does not vanish.
-    Second route: the mean position of the body's equimomental particles.
-    Outcomes: round; generic (the middle of a body that is its own image there); asymmetric.
+    Second route: the mean position of the body's equimomental particles; of a body told by a map, the sum over cells in
+    numbers.
+    Outcomes: round; generic (the middle of a body that is its own image there); by_components; there (at the point).
     Errors: no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
@@ -367,61 +385,28 @@ def centre_of_mass(
     if in_its_way is not None:
         return in_its_way
     region = body.within(start, coordinates)
-    rho = body.density
-    whole = region.with_section_put_in().mass_integral(vector("r"), rho.symbol)
-    on_axis = [_centre_on_axis(body, start, region, symbol, key)] if body.is_round and body.filling == "volume" else []
-    is_even = is_its_own_image(body)
+    whole = region.with_section_put_in().mass_integral(vector("r"), body.front)
+    on_axis, is_even = is_round_solid(body), is_its_own_image(body)
     there = start.seen(body.middle.position)
-    apart = {
-        k: centre_component(body, axis, start.name, coordinates, symbol, f"{key}_{axis}")
-        for k, axis in enumerate("xyz")
-        if not (on_axis or is_even or is_zero(there[k]))
-    }
-    left = column(*(apart[k].symbol if k in apart else Integer(0) for k in range(3)))
-
-    def mean_of_particles() -> Any:
-        total = column(0, 0, 0)
-        for mass, place in body.particles():
-            total = total + mass * start.seen(place)
-        return total / body.mass
-
+    apart = [2] if on_axis else [k for k in range(3) if not (is_even or is_zero(there[k]))]
+    names = {k: f"{key}_{'on_axis' if on_axis else AXES[k]}" for k in apart}
+    found = {k: centre_component(body, AXES[k], start.name, coordinates, symbol, name) for k, name in names.items()}
+    left = column(*(found[k].symbol if k in found else Integer(0) for k in range(3)))
     return establish(
         "bodies.centre_of_mass",
         vector(symbol),
         lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
         {"mass": body.mass},
-        routes={"particles": compared_with(mean_of_particles)},
-        outcome="round" if on_axis else "generic" if is_even else "asymmetric",
-        parents=[rho, *on_axis, *apart.values()],
+        routes=body.another_way(lambda r: r / body.mass, start),
+        outcome="round" if on_axis else "generic" if is_even else "by_components" if found else "there",
+        parents=[body.density, *found.values()],
         lines=Lines(
-            between=[Form(column(0, 0, height.symbol), "on_axis", Level.STANDARD) for height in on_axis]
-            + ([Form(left, "components", Level.STANDARD)] if apart else []),
+            between=[Form(left, "on_axis" if on_axis else "components", Level.STANDARD)] if found else [],
             put_in=Level.FULL,
         ),
         kind="length",
         facts=[CountedFrom(start)],
         telling=Telling(words={"start": start.name}),
         key=key,
-        scope=Scope(about=Subject(body=body, point=start)),
-    )
-
-
-def _centre_on_axis(body: Body, start: Point, region: Region, letter: str, key: str) -> Quantity:
-    """z_C = (rho/M) integral of z dV, the one component that symmetry leaves."""
-    rho = body.density
-    integral = region.integral(region.position[2])
-    return establish(
-        "bodies.centre_on_axis",
-        component_names(letter)[2],
-        lambda density, mass: Factors(Ratio(density, mass), integral),
-        {"density": rho, "mass": body.mass},
-        lines=Lines(
-            between=worked_integral(region, region.position[2], rho.symbol / body.mass, body.size), put_in=None
-        ),
-        routes={"particles": lambda z: (z, sum(m * start.seen(r)[2] for m, r in body.particles()) / body.mass)},
-        kind="length",
-        parents=body.radii(start, region),
-        telling=Telling(words={"start": start.name}),
-        key=f"{key}_on_axis",
         scope=Scope(about=Subject(body=body, point=start)),
     )

@@ -1,19 +1,62 @@
-"""One component of a centre of mass, as an integral."""
+"""Integrals over the mass of a body, step by step; with them a component of its centre of mass."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
-from sympy import ImmutableDenseMatrix
+from sympy import Expr, ImmutableDenseMatrix, Integer
 
 from derive.algebra.expressions import AXES, Factors, Ratio, component_names
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.integration import worked_integral
+from derive.mechanics.bodies.regions import Region
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Quantity
+from derive.steps.step import Form, Level, Quantity
 from derive.steps.subject import Subject
 
 __all__ = ["centre_component"]
+
+
+@dataclass(frozen=True)
+class OverMass:
+    """How an integral over the mass of a body is written, and how it is worked."""
+
+    law: Callable[..., Any]
+    inputs: dict[str, Any]
+    lines: Lines
+
+
+def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
+    """The integral of a function of the place times dm; with the step of a uniform density in it, or any other.
+
+    weight   what is integrated
+    mean     whether it is divided by the mass
+    """
+    rho = body.density
+    if weight == 0:
+        return OverMass(lambda: Integer(0), {}, Lines(put_in=None))
+    sign = -1 if weight.could_extract_minus_sign() else 1
+    whole = region.integral(sign * weight)
+    if body.front == rho.symbol:
+        front = rho.symbol / body.mass if mean else rho.symbol
+        lines = Lines(between=worked_integral(region, weight, front, body.size), put_in=None)
+        if mean:
+            both = {"density": rho, "mass": body.mass}
+            return OverMass(lambda density, mass: Factors(sign * Ratio(density, mass), whole), both, lines)
+        return OverMass(lambda density: Factors(sign * density, whole), {"density": rho}, lines)
+    front = tidied(body.front / body.mass) if mean else body.front
+    between = [
+        form
+        for form in worked_integral(region, weight, front, body.size)
+        if form.because != "mass_collected" or not (mean or rho.step.kind == "mass")
+    ]
+    value = tidied(rho.symbol * tidied(region.integral(weight) / body.size))
+    is_by_mass = rho.step.kind == "mass" and not mean and value != 0
+    after = [Form(value, "by_mass", Level.BRIEF)] if is_by_mass else []
+    return OverMass(lambda: Factors(sign * front, whole), {}, Lines(between=between, put_in=None, after=after))
 
 
 def centre_component(
@@ -26,36 +69,40 @@ def centre_component(
 ) -> Quantity:
     """A component of the centre of mass, x_C = (rho/M) integral of x dV; sigma and dA, lambda and dl of a thin body.
 
-    body         uniform, of mass M
+    body         of mass M
     axis         "x", "y" or "z": along which of the body's axes
     origin       the point from which it is counted, by default where the body's own axes begin
     coordinates  "cartesian" or "cylindrical", where the body has both
-    Second route: the mean position of the body's equimomental particles.
+    Second route: the mean position of the body's equimomental particles; of a body told by a map, the sum over cells in
+    numbers.
+    Outcomes: on_axis (of a solid that is round about that axis), generic.
     Errors: no such axis, no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
     if axis not in AXES:
         raise Rejected(Complaint("no-such-axis", f'a component is along "x", "y" or "z", not along "{axis}"'))
     start, k = body.point(origin or body.reference), AXES.index(axis)
-    region, rho = body.within(start, coordinates), body.density
-    at = region.position[k]
-
-    def mean_of_particles(found: Any) -> tuple[Any, Any]:
-        return found, sum(m * start.seen(r)[k] for m, r in body.particles()) / body.mass
-
+    region = body.within(start, coordinates)
+    integral = over_mass(body, region, region.position[k], mean=True)
     return establish(
         "bodies.centre_component",
         component_names(symbol)[k],
-        lambda density, mass: Factors(Ratio(density, mass), region.integral(at)),
-        {"density": rho, "mass": body.mass},
-        lines=Lines(between=worked_integral(region, at, rho.symbol / body.mass, body.size), put_in=None),
-        routes={"particles": mean_of_particles},
+        integral.law,
+        integral.inputs,
+        lines=integral.lines,
+        routes=body.another_way(lambda r: r[k] / body.mass, start),
+        outcome="on_axis" if axis == "z" and is_round_solid(body) else "generic",
         kind="length",
-        parents=body.radii(start, region),
+        parents=[body.density, *body.radii(start, region)],
         telling=Telling(words={"start": start.name}),
         key=key or f"centre_of_mass_{axis}",
         scope=Scope(about=Subject(body=body, point=start)),
     )
+
+
+def is_round_solid(body: Any) -> bool:
+    """Round about the z axis: of its centre of mass one component is left."""
+    return bool(body.is_round and body.filling == "volume")
 
 
 def is_its_own_image(body: Any) -> bool:

@@ -6,6 +6,9 @@ Slices weighed by a rule that is exact for their powers; or particles made from 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import reduce
+from operator import add
+from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Rational, cancel, sqrt
 from sympy.matrices import ImmutableMatrix
@@ -21,6 +24,11 @@ HALF = Rational(1, 2)
 # Places along a unit length with their weights: Simpson's rule is exact up to cubes, Boole's up to fifth powers.
 SIMPSON = ((Integer(0), Rational(1, 6)), (Rational(1, 2), Rational(2, 3)), (Integer(1), Rational(1, 6)))
 BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12, 32, 7)))
+
+
+def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[ImmutableMatrix], Any]) -> Any:
+    """The sum of mass times a function of the place, a number, a vector or a tensor."""
+    return reduce(add, (mass * of(place) for mass, place in particles))
 
 
 def disc_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:

@@ -6,22 +6,22 @@ formula in the same variables.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatMul, Pow, Symbol, cos, diff, nan, oo, sin, zoo
+from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, cos, diff, nan, oo, sin, zoo
 from sympy.matrices import ImmutableMatrix
 
+from derive.algebra.equality import Verdict
 from derive.algebra.expressions import (
     Cross,
     Dot,
     Factors,
     Norm,
     Ratio,
-    column,
-    component_names,
+    explicit,
     scalar,
     vector,
 )
@@ -31,15 +31,13 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import ORIGIN as ZERO
 from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.equimomental import Particles, from_moments
-from derive.mechanics.bodies.facts import CountedFrom
-from derive.mechanics.bodies.general_tensor import Integrated
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
 from derive.mechanics.bodies.parts import name_of_body
 from derive.mechanics.bodies.quadrature import agrees
 from derive.mechanics.bodies.regions import Bounds, Point, Region
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Form, Level, Quantity, is_zero
+from derive.steps.step import Form, Quantity, Route
 from derive.steps.subject import Subject
 
 __all__ = [
@@ -63,10 +61,12 @@ def variables(*names: str) -> tuple[Symbol, ...]:
     return tuple(scalar(name) for name in names)
 
 
-class GeneralBody(Integrated, Body):
+class GeneralBody(Body):
     """What any body has that is told by its position map."""
 
     reference: ClassVar[str] = "origin"
+    is_lopsided: ClassVar[bool] = True  # as far as is known
+    is_of_particles: ClassVar[bool] = False
     count: ClassVar[int] = 3
 
     def __init__(
@@ -102,14 +102,12 @@ class GeneralBody(Integrated, Body):
 
     @property
     def front(self) -> Expr:
-        """What stands before the integral of what varies, so that the whole is the density."""
-        return (
-            self.given_density if self.given_mass is None and self.given_density is not None else self.mass / self.size
-        )
+        if self.given_mass is None and self.given_density is not None:
+            return self.given_density
+        return super().front if self.is_uniform else self.mass / self.size
 
     @property
     def profile(self) -> Expr:
-        """The density but for a constant, as a function of the variables."""
         return self._profile
 
     def map(self) -> tuple[ImmutableMatrix, Bounds]:
@@ -130,7 +128,7 @@ class GeneralBody(Integrated, Body):
 
     @cached_property
     def mass(self) -> Expr:
-        return self.given_mass if self.given_mass is not None else tidied(self.front * self.size)
+        return self.given_mass if self.given_mass is not None else tidied(self.given_density * self.size)
 
     @cached_property
     def density(self) -> Quantity:
@@ -156,8 +154,17 @@ class GeneralBody(Integrated, Body):
         second = ImmutableDenseMatrix(3, 3, lambda i, j: tidied(exact(self, weight * r[i] * r[j], "moments")))
         return from_moments(self.mass, centre.position, second)
 
-    def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
-        return _centre_by_integration(self, start, symbol, key)
+    def another_way(
+        self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
+    ) -> dict[str, Route]:
+        """The sum over cells in numbers: its particles are made of integrals."""
+        position, limits = self.map()
+
+        def by_cells(found: Any) -> Verdict:
+            there = self.mass / self.size * self._profile * explicit(integrand(point.seen(position)))
+            return agrees(of(found), there, position, limits)
+
+        return {"quadrature": by_cells}
 
 
 class Wire(GeneralBody):
@@ -376,58 +383,3 @@ def _free(body: GeneralBody, *letters: str) -> str:
     }
     taken |= {s.name for limit in limits for end in limit for s in end.free_symbols}
     return next((letter for letter in letters if letter not in taken), letters[-1])
-
-
-def _centre_by_integration(body: GeneralBody, start: Point, symbol: str, key: str) -> Quantity:
-    """r_C = (1/M) integral of r dm, from a point; each component that does not vanish is a step."""
-    region = body.region(start)
-    names = component_names(symbol)
-    there = start.seen(body.middle.position)
-    found = {k: _component(body, start, region, k, names[k], key) for k in range(3) if not is_zero(there[k])}
-    left = [found[k].symbol if k in found else Integer(0) for k in range(3)]
-    whole = region.mass_integral(vector("r"), body.mass / body.size)
-    return establish(
-        "general.centre_of_mass",
-        vector(symbol),
-        lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
-        {"mass": body.mass},
-        key=key,
-        kind="length",
-        parents=[body.density, *found.values()],
-        routes={"quadrature": lambda r: _first_moments(body, start, r)},
-        lines=Lines(between=[Form(column(*left), "components", Level.STANDARD)], put_in=None),
-        facts=[CountedFrom(start)],
-        telling=Telling(words={"start": start.name}),
-        scope=Scope(about=Subject(body=body, point=start)),
-    )
-
-
-def _first_moments(body: GeneralBody, start: Point, found: Any) -> Any:
-    position, limits = body.map()
-    share = body.profile / body.size
-    return agrees(found, [share * x for x in start.seen(position)], position, limits)
-
-
-def _component(body: GeneralBody, start: Point, region: Region, k: int, name: Symbol, key: str) -> Quantity:
-    """x_C = (1/M) integral of x dm."""
-    x = region.position[k]
-    front, mass = body.front, body.mass
-    outside = tidied(front / mass)
-    position, limits = body.map()
-    return establish(
-        "general.centre_component",
-        name,
-        lambda: Factors(outside, region.integral(x)),
-        {},
-        key=f"{key}_{'xyz'[k]}",
-        kind="length",
-        parents=[body.density],
-        routes={
-            "quadrature": lambda found: agrees(
-                found, [body.profile / body.size * start.seen(position)[k]], position, limits
-            )
-        },
-        lines=Lines(between=_without_last(worked_integral(region, x, outside, body.size)), put_in=None),
-        telling=Telling(words={"start": start.name}),
-        scope=Scope(about=Subject(body=body, point=start)),
-    )

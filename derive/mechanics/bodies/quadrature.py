@@ -13,7 +13,7 @@ from math import cos, isfinite, pi, sin, sqrt
 from random import Random
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff, lambdify
+from sympy import Expr, ImmutableDenseMatrix, Symbol, diff, lambdify
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.equality import Grade, Verdict
@@ -78,14 +78,16 @@ def over_cells(
     return totals
 
 
+def _entries(of: Any) -> list[Any]:
+    return list(of) if hasattr(of, "shape") or isinstance(of, list) else [of]
+
+
 def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bounds) -> Verdict:
     """Whether an exact value, or each entry of a matrix, is what the sums over cells give.
 
     integrands   one for each entry, functions of the variables and the letters
     """
-    entries = list(value) if hasattr(value, "shape") else [value]
-    wanted = list(integrands) if hasattr(integrands, "__iter__") else [integrands]
-    entries, wanted = [explicit(e) for e in entries], [explicit(f) for f in wanted]
+    entries, wanted = ([explicit(e) for e in _entries(those)] for those in (value, integrands))
     names = {x for x, _, _ in limits}
     letters = {s for e in (*entries, *wanted, *position) for s in e.free_symbols} - names
     letters |= {s for _, *ends in limits for end in ends for s in end.free_symbols} - names
@@ -100,9 +102,3 @@ def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bound
                 where = tuple((str(name), str(number)) for name, number in at.items())
                 return Verdict(Grade.REFUTED, f"{found.real:.6g} against {total:.6g}", where)
     return Verdict(Grade.SAMPLED, f"{LETTERS if letters else 1} points to {FIGURES} figures")
-
-
-def squared_distance(place: ImmutableMatrix, i: int, j: int) -> Expr:
-    """r.r delta_ij - x_i x_j."""
-    whole = sum((x**2 for x in place), Integer(0)) if i == j else Integer(0)
-    return whole - place[i] * place[j]

@@ -8,7 +8,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, diff
 from sympy import diag as diagonal
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import AXES, explicit
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -36,6 +36,20 @@ def _is_symmetric_about_its_centre(facts: Judged) -> bool:
     """No third moment about the centre of mass is left along a direction of no symmetry, by integration."""
     body = facts.subject.body
     return is_zero(body.over_mass(lambda r: (71 * r[0] + 113 * r[1] + 29 * r[2]) ** 3, body.middle))
+
+
+def _is_away_from_the_centre(facts: Judged) -> bool:
+    return not is_zero(facts.subject.body.over_mass(lambda r: r, facts.subject.point))
+
+
+def _is_by_integration(facts: Judged) -> bool:
+    """Seen from there, the mass has no first moment."""
+    subject = facts.subject
+    return is_zero(subject.body.over_mass(lambda r: r - facts.result, subject.point))
+
+
+def _counted_along_one_axis(facts: Judged) -> bool:
+    return facts.symbol.name[-1] in AXES
 
 
 def _on_the_axis(facts: Judged) -> bool:
@@ -178,9 +192,11 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "bodies.centre_of_mass": {
         "generic": _is_symmetric_about_its_centre,
-        "asymmetric": lambda facts: not _is_symmetric_about_its_centre(facts),
+        "by_components": lambda facts: _is_by_integration(facts) and not is_zero(facts.result),
+        "there": lambda facts: _is_by_integration(facts) and is_zero(facts.result),
         "round": _on_the_axis,
     },
+    "bodies.centre_component": {"on_axis": _is_round, "generic": _counted_along_one_axis},
     "bodies.axis_vector": {"diagonal": _joins_corners, "edge": _along_the_edge, "components": lasts},
     "inertia.entry": {
         "moment": _entry("xx", "yy", "zz"),
@@ -196,8 +212,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "outward": _entry("xx", "yy", "zz", "xy", "xz", "yz"),
     },
     "inertia.inertia_tensor": {**TENSORS, **_ROUND_TENSORS},
-    "inertia.moved_to": {**TENSORS, **_ROUND_TENSORS},
-    "inertia.moved_from_centre": {**TENSORS, **_ROUND_TENSORS},
+    "inertia.moved_to": {**TENSORS, **_ROUND_TENSORS, "outward": _is_away_from_the_centre},
     "inertia.agreement": {
         "generic": lambda facts: bool(facts.inputs["turn"].is_Identity),
         "turned": lambda facts: facts.inputs["turn"] == _HALF_TURN_ABOUT_X,

@@ -30,10 +30,6 @@ def _of_filling(filling: str) -> Predicate:
     return lambda facts: facts.subject.body.filling == filling
 
 
-def _entry(*pairs: str) -> Predicate:
-    return lambda facts: facts.symbol.name[-2:] in pairs
-
-
 def _all_is_added(facts: Judged) -> bool:
     return all(part.sign > 0 for part in facts.subject.body.parts)
 
@@ -51,8 +47,6 @@ def _moved(moved: bool, turned: bool) -> Predicate:
 _TABLE: dict[str, dict[str, Predicate]] = {
     "general.cell_of": {"curve": _with_variables(1), "surface": _with_variables(2), "solid": _with_variables(3)},
     "general.size_by_integration": {word: _of_filling(word) for word in ("length", "area", "volume")},
-    "general.entry": {"moment": _entry("xx", "yy", "zz"), "product": _entry("xy", "xz", "yz")},
-    "general.inertia_tensor": TENSORS,
     "tensors.turned_tensor": TENSORS,
     "assembly.inertia_tensor": TENSORS,
     "assembly.share_of_mass": {
@@ -90,11 +84,17 @@ def _turned_as_told(facts: Judged, outcome: str) -> bool:
     return turns_right_handed(facts.inputs["turn"], facts.words["along"], facts.inputs["angle"])
 
 
+def _inward(facts: Judged, outcome: str) -> bool:
+    """Only of a tensor that is not about the centre of mass it is not said that it is."""
+    about_centre = facts.words.get("about") in {"centre", "centre_of_mass"}
+    return about_centre != (outcome == "outward") and _edges_along_the_axes(facts, outcome)
+
+
 _TOLD: dict[str, Any] = {
     "general.cell_of": _cell_is_positive,
     "tensors.turned_tensor": _turned_as_told,
     "inertia.inertia_tensor": _edges_along_the_axes,
-    "inertia.moved_to": _edges_along_the_axes,
+    "inertia.moved_to": _inward,
 }
 
 for _rule, _told in _TOLD.items():

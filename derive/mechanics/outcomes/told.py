@@ -136,7 +136,8 @@ def _counted_from_its_point(facts: Judged, outcome: str) -> bool:
 
 
 def _from_its_point_along_the_axis(facts: Judged, outcome: str) -> bool:
-    return _counted_from_its_point(facts, outcome) and str(facts.symbol.name).endswith("z")
+    along = outcome != "on_axis" or str(facts.symbol.name).endswith("z")
+    return _counted_from_its_point(facts, outcome) and along
 
 
 def _found_once_more(facts: Judged, outcome: str) -> bool:
@@ -208,7 +209,7 @@ _TABLE: dict[str, Told] = {
     "quadratics.roots_of": _equation_in_its_unknown,
     "constraints.contact_forces": _pushed_across,
     "bodies.axis_vector": _axis_as_named,
-    "bodies.centre_on_axis": _from_its_point_along_the_axis,
+    "bodies.centre_component": _from_its_point_along_the_axis,
     "bodies.centre_of_mass": _counted_from_its_point,
     "bodies.section_radius": _counted_from_its_point,
     "constraints.multipliers_eliminated": _found_once_more,

@@ -35,12 +35,11 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.equimomental import Particles
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
-from derive.mechanics.bodies.general_tensor import shape_of
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, name_of_body, place_of
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.inertia import inertia_tensor
-from derive.mechanics.rotation.tensors import seen_particles, tensor_entry
+from derive.mechanics.rotation.tensors import seen_particles, shape_of, tensor_entry
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, is_zero
 from derive.steps.subject import NOTHING, Subject

@@ -5,7 +5,7 @@ I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) te
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -28,9 +28,10 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
+from derive.mechanics.bodies.components import over_mass
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
-from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Point, Region
+from derive.mechanics.rotation.tensors import shape_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, entry_name
 from derive.steps.subject import Subject
@@ -52,12 +53,12 @@ def inertia_tensor(
 ) -> Quantity:
     """Inertia tensor about a point, J = integral of (r.r 1 - r r) dm.
 
-    body         mass M, uniform density
+    body         mass M
     about        a point that the body has: "centre", "corner", "apex", ...; axes those of the body
     coordinates  "cartesian" or "cylindrical", where the body has both
     Each of the six entries is a step of its own; of a body that is round about z, the two that symmetry leaves.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
-    centre of mass is the body's.
+    centre of mass is the body's; of a body told by a map, over its cells in numbers.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; of a
     body that is round about z, round or round_isotropic.
     Errors: no such point, no such coordinates.
@@ -73,17 +74,19 @@ def inertia_tensor(
     by_definition = _definition(body, point, region, name, key)
     pairs = pairs_left_by_symmetry(body, point)
     entries = {pair: _entry_by_integration(body, point, region, name, key, pair, by_definition) for pair in pairs}
+    n, place = column(*component_names("n")), point.seen(body.middle.position)
+    (balanced,) = body.another_way(lambda r: r, point, of=lambda _: body.mass * place).values()
     return establish(
         "inertia.inertia_tensor",
         tensor(name),
         lambda *found: _assembled(pairs, found),
         _by_pair(entries),
         routes={
-            "definition": compared_with(lambda: by_definition.value),
-            "particles": lambda tensor: _moment_about_any_axis(tensor, body, point),
-            "balanced": lambda _: (_first_moment(body, point), body.mass * point.seen(body.middle.position)),
+            **({"definition": compared_with(lambda: by_definition.value)} if body.is_of_particles else {}),
+            "balanced": balanced,
+            **body.another_way(lambda r: squared_distance(r, n), point, of=lambda found: explicit(Dot(n, found * n))),
         },
-        outcome=_round_shape if pairs == ROUND else _shape,
+        outcome=_round_shape if pairs == ROUND else shape_of,
         kind="moment of inertia",
         lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(point)],
@@ -103,10 +106,11 @@ def moment_of_inertia(
 ) -> Quantity:
     """Moment of inertia about one axis through a point, I = integral of the squared distance from it dm.
 
-    body    mass M, uniform density
+    body    mass M
     axis    "x", "y" or "z": parallel to which of the body's axes
     about   a point that the body has, through which the axis goes
-    Second route: the sum of m times the squared distance over the body's equimomental particles.
+    Second route: the sum of m times the squared distance over the body's equimomental particles; of a body told by a
+    map, over its cells in numbers.
     Errors: no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
@@ -114,19 +118,20 @@ def moment_of_inertia(
     in_its_way = body.derived_moment(axis, point, symbol, key)
     if in_its_way is not None:
         return in_its_way
-    region, rho = body.within(point, None), body.density
+    region = body.within(point, None)
     weight = entry_weight(region, (i, i))
+    integral = over_mass(body, region, weight)
     return establish(
         "inertia.moment_of_inertia",
         scalar(symbol),
-        _with_sign_in_front(region, weight),
-        {"density": rho},
-        telling=Telling(formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis}),
-        lines=Lines(between=worked_integral(region, weight, rho.symbol, body.size), put_in=None),
-        routes={"particles": compared_with(lambda: _entry_from_particles(body, point, (i, i)))},
+        integral.law,
+        integral.inputs,
+        lines=integral.lines,
+        routes=body.another_way(lambda r: _entry_by_moments(r, (i, i)), point),
         kind="moment of inertia",
+        parents=[body.density, *body.radii(point, region)],
         key=key,
-        parents=body.radii(point, region),
+        telling=Telling(formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis}),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis)),
     )
 
@@ -141,7 +146,7 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
     return establish(
         "inertia.definition",
         tensor(name),
-        lambda _: _law(region, body.density.symbol),
+        lambda _: _law(region, body.front),
         {"r": vector("r")},
         definition=True,
         kind="moment of inertia",
@@ -161,7 +166,7 @@ def _law(region: Region, density: Expr) -> Any:
 
 
 def _as_defined(body: Body, point: Point) -> Any:
-    return explicit(_law(body.region(point), body.density.value))
+    return explicit(_law(body.region(point), body.mass / body.size))
 
 
 def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
@@ -174,13 +179,6 @@ def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
     if pairs == ROUND:
         at |= {(1, 1): at[(0, 0)], (0, 1): Integer(0), (0, 2): Integer(0), (1, 2): Integer(0)}
     return ImmutableDenseMatrix(3, 3, lambda i, j: at[(min(i, j), max(i, j))])
-
-
-def _shape(tensor: Any) -> str:
-    if not tensor.is_diagonal():
-        return "generic"
-    different = len({tensor[i, i] for i in range(3)})
-    return {1: "isotropic", 2: "two_equal"}.get(different, "diagonal")
 
 
 def _round_shape(tensor: Any) -> str:
@@ -199,23 +197,22 @@ def _entry_by_integration(
     body: Body, point: Point, region: Region, name: str, key: str, pair: Pair, definition: Quantity
 ) -> Quantity:
     """One entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
-    i, j = pair
-    weight = entry_weight(region, pair)
-    rho = body.density
-    is_round = pairs_left_by_symmetry(body, point) == ROUND
+    named = f"{'xyz'[pair[0]]}{'xyz'[pair[1]]}"
+    weight, is_round = entry_weight(region, pair), pairs_left_by_symmetry(body, point) == ROUND
+    integral = over_mass(body, region, weight)
     return establish(
         "inertia.entry",
-        entry_name(name, i, j),
-        _with_sign_in_front(region, weight),
-        {"density": rho},
-        telling=Telling(formulas=_told_square(region, pair, weight), words={"about": point.name}),
-        lines=Lines(between=worked_integral(region, weight, rho.symbol, body.size), put_in=None),
-        routes={"particles": compared_with(lambda: _entry_from_particles(body, point, pair))},
+        entry_name(name, *pair),
+        integral.law,
+        integral.inputs,
+        lines=integral.lines,
+        routes=body.another_way(lambda r: _entry_by_moments(r, pair), point),
         outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
         kind="moment of inertia",
-        key=f"{key}_{'xyz'[i]}{'xyz'[j]}",
-        parents=[definition, *body.radii(point, region)],
-        scope=Scope(about=Subject(body=body, point=point, axis=f"{'xyz'[i]}{'xyz'[j]}")),
+        parents=[definition, body.density, *body.radii(point, region)],
+        key=f"{key}_{named}",
+        telling=Telling(formulas=_told_square(region, pair, weight), words={"about": point.name}),
+        scope=Scope(about=Subject(body=body, point=point, axis=named)),
     )
 
 
@@ -240,12 +237,6 @@ def _without_angles(weight: Expr) -> Expr:
     return weight if plain.atoms(sin, cos) else plain
 
 
-def _with_sign_in_front(region: Region, weight: Expr) -> Callable[[Expr], Expr]:
-    if weight.could_extract_minus_sign():
-        return lambda rho: Factors(-rho, region.integral(-weight))
-    return lambda rho: Factors(rho, region.integral(weight))
-
-
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
     """The squared distance from the axis of a moment, and the same as |e x r|^2."""
     if pair[0] != pair[1]:
@@ -254,35 +245,19 @@ def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[An
     return {"square": (weight, explicit(Dot(across, across)))}
 
 
-def _moment_from_particles(body: Body, point: Point, n: Any) -> Expr:
-    """The moment of inertia about the axis through the point along n: mass times distance squared, summed."""
-    total: Expr = Integer(0)
-    for mass, place in body.particles():
-        arm = explicit(Cross(n, point.seen(place)))
-        total += mass * explicit(Dot(arm, arm))
-    return total
+def squared_distance(r: Any, n: Any) -> Any:
+    """|n x r|^2, of a place from the axis through the point along n."""
+    arm = Cross(n, r)
+    return Dot(arm, arm)
 
 
-def _first_moment(body: Body, point: Point) -> Any:
-    """The sum of m r over the particles, r from the point: M times where the centre of mass is seen from there."""
-    total = column(0, 0, 0)
-    for mass, place in body.particles():
-        total = total + mass * point.seen(place)
-    return total
-
-
-def _entry_from_particles(body: Body, point: Point, pair: Pair) -> Expr:
-    """n.I n at n = e_i + e_j less the two moments is twice the entry I_ij."""
+def _entry_by_moments(r: Any, pair: Pair) -> Any:
+    """Of a mass at r: n.I n at n = e_i + e_j less the two moments is twice the entry I_ij."""
     axes = [column(*(int(k == axis) for k in range(3))) for axis in pair]
     if pair[0] == pair[1]:
-        return _moment_from_particles(body, point, axes[0])
-    both, *alone = (_moment_from_particles(body, point, n) for n in (axes[0] + axes[1], *axes))
+        return squared_distance(r, axes[0])
+    both, *alone = (explicit(squared_distance(r, n)) for n in (axes[0] + axes[1], *axes))
     return (both - sum(alone)) / 2
-
-
-def _moment_about_any_axis(tensor: Any, body: Body, point: Point) -> tuple[Expr, Expr]:
-    n = column(*component_names("n"))
-    return explicit(Dot(n, tensor * n)), _moment_from_particles(body, point, n)
 
 
 def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: str = "inertia_tensor") -> Quantity:
@@ -292,7 +267,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     centre          vector (3), m: the body's centre of mass, from that point and in the same axes
     Second route: each entry, and the tensor as a whole, by direct integration about the centre; the trace as twice the
     integral of r.r dm.
-    Outcomes: as `inertia_tensor`.
+    Outcomes: as of `inertia_tensor`.
     Errors: the tensor is already about the centre of mass; the centre is counted from another point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
@@ -302,27 +277,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
         message = f"`{tensor_there.key}` is already about the centre of mass"
         raise Rejected(Complaint("already-there", message, help="start from another point, or use the tensor as it is"))
     _check_start(tensor_there, centre, start)
-    there = replace(body.middle, axes=start.axes)
-    pairs = pairs_left_by_symmetry(body, start)
-    entries = {pair: _entry_moved(tensor_there, centre, there, symbol, key, pair) for pair in pairs}
-    return establish(
-        "inertia.moved_to",
-        tensor(symbol),
-        lambda *found: _assembled(pairs, found),
-        _by_pair(entries),
-        routes={
-            "integration": compared_with(lambda: _as_defined(body, there)),
-            "trace": lambda result: (result.trace(), 2 * body.over_mass(lambda r: Dot(r, r), there)),
-        },
-        outcome=_round_shape if pairs == ROUND else _shape,
-        kind="moment of inertia",
-        parents=[body.density],
-        lines=Lines(put_in=None),
-        facts=[OfBody(body), AboutPoint(there)],
-        telling=Telling(words={"about": "centre", "start": start.name, **_edged(body)}),
-        key=key,
-        scope=Scope(about=Subject(body=body, point=there)),
-    )
+    return _moved(tensor_there, centre, replace(body.middle, axes=start.axes), symbol, key)
 
 
 def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", key: str = "moved_tensor") -> Quantity:
@@ -330,8 +285,8 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
 
     inertia   tensor (3, 3), kg m^2, about the centre of mass
     centre    vector (3), m: the centre of mass as seen from the other point, in the same axes
-    Second route: each entry, and the tensor as a whole, by direct integration about the other point.
-    Outcomes: as `inertia_tensor`.
+    Second route: each entry, and the tensor as a whole, by direct integration about the other point; the trace.
+    Outcomes: outward.
     Errors: the tensor is not about the centre of mass; the axes are others.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
@@ -340,20 +295,35 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     if inertia.needed(AboutPoint).point != replace(body.middle, axes=target.axes):
         message = f"`{inertia.key}` is not about the centre of mass along the axes of `{centre.key}`"
         raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre"))
-    pairs = pairs_left_by_symmetry(body, target)
-    entries = {pair: _entry_moved(inertia, centre, target, symbol, key, pair) for pair in pairs}
+    return _moved(inertia, centre, target, symbol, key)
+
+
+def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: str) -> Quantity:
+    """The tensor about another point by parallel axes, of two points of which one is the centre of mass.
+
+    Outcomes: isotropic, two_equal, diagonal, generic; round, round_isotropic; outward (from the centre of mass).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
+    """
+    body: Body = there.needed(OfBody).body
+    other = centre.needed(CountedFrom).start
+    pairs = pairs_left_by_symmetry(body, other)
+    entries = {pair: _entry_moved(there, centre, target, symbol, key, pair) for pair in pairs}
+    inward = _round_shape if pairs == ROUND else shape_of
     return establish(
-        "inertia.moved_from_centre",
+        "inertia.moved_to",
         tensor(symbol),
         lambda *found: _assembled(pairs, found),
         _by_pair(entries),
-        routes={"integration": compared_with(lambda: _as_defined(body, target))},
-        outcome=_round_shape if pairs == ROUND else _shape,
+        routes={
+            "integration": compared_with(lambda: _as_defined(body, target)),
+            "trace": lambda result: (result.trace(), 2 * body.over_mass(lambda r: Dot(r, r), target)),
+        },
+        outcome="outward" if target == other else inward,
         kind="moment of inertia",
         parents=[body.density],
         lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(target)],
-        telling=Telling(words={"about": target.name}),
+        telling=Telling(words={"about": target.name, "start": other.name, **_edged(body)}),
         key=key,
         scope=Scope(about=Subject(body=body, point=target)),
     )

@@ -31,7 +31,6 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
-from derive.mechanics.bodies.general_tensor import shape_of
 from derive.mechanics.bodies.parts import turn_about
 from derive.mechanics.bodies.regions import Point
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -70,6 +69,13 @@ def tensor_of_particles(particles: Sequence[tuple[Expr, Any]]) -> ImmutableMatri
 def central_tensor(body: Any) -> ImmutableMatrix:
     """The tensor about the centre of mass along the body's own axes, as its particles have it; no step, but a value."""
     return ImmutableDenseMatrix(tensor_of_particles(seen_particles(body, body.middle)).applyfunc(tidied))
+
+
+def shape_of(found: Any) -> str:
+    """What one sees of a tensor: whether it is diagonal, and how many moments are equal."""
+    if not found.is_diagonal():
+        return "generic"
+    return {1: "isotropic", 2: "two_equal"}.get(len({found[i, i] for i in range(3)}), "diagonal")
 
 
 def turned_tensor(
