@@ -7,7 +7,8 @@ at right angles, and the origin at a corner; a body that is round has its axis o
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
+from copy import copy
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
@@ -65,7 +66,9 @@ class Body(Placeable):
 
         called   "upper rod": keys begin with `upper_rod_`, letters have the index `upper`
         """
-        twin = replace(self)  # type: ignore[type-var]
+        twin = copy(self)
+        for known in [name for name in vars(twin) if isinstance(getattr(type(self), name, None), cached_property)]:
+            del vars(twin)[known]
         object.__setattr__(twin, "called", name_of_body(called))
         return twin
 

@@ -7,9 +7,8 @@ formula in the same variables.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from copy import copy
 from functools import cached_property
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, cos, diff, nan, oo, sin, zoo
 from sympy.matrices import ImmutableMatrix
@@ -33,7 +32,6 @@ from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.equimomental import Particles, from_moments
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
-from derive.mechanics.bodies.parts import name_of_body
 from derive.mechanics.bodies.quadrature import agrees
 from derive.mechanics.bodies.regions import Bounds, Point, Region
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -88,13 +86,6 @@ class GeneralBody(Body):
             message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
             help_line = "a curve has one variable, a surface two, a solid three"
             raise Rejected(Complaint("no-size", message, help=help_line))
-
-    def named(self, called: str) -> Self:
-        twin = copy(self)
-        for known in ("density", "centre", "extent", "mass", "_points_seen"):
-            twin.__dict__.pop(known, None)
-        twin.called = name_of_body(called)
-        return twin
 
     @property
     def is_uniform(self) -> bool:

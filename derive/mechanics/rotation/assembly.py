@@ -8,16 +8,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 from sympy import Add, Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatMul, Pow, Symbol, eye
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import (
-    Cross,
     Dot,
     Factors,
     Outer,
@@ -33,12 +31,12 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
-from derive.mechanics.bodies.equimomental import Particles
+from derive.mechanics.bodies.equimomental import Particles, summed
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.mapping import Map
-from derive.mechanics.bodies.parts import PlacedPart, name_of_body, place_of
+from derive.mechanics.bodies.parts import PlacedPart, place_of
 from derive.mechanics.bodies.regions import Point, Region
-from derive.mechanics.rotation.inertia import inertia_tensor
+from derive.mechanics.rotation.inertia import inertia_tensor, squared_distance
 from derive.mechanics.rotation.tensors import seen_particles, shape_of, tensor_entry
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, is_zero
@@ -116,19 +114,8 @@ class Composite(Body):
         if is_zero(self.mass):
             raise Rejected(Complaint("no-mass", "what is cut out of this body has all of its mass"))
 
-    def named(self, called: str) -> Self:
-        twin = copy(self)
-        for known in ("whole_mass", "centre", "_points_seen"):
-            twin.__dict__.pop(known, None)
-        twin.called = name_of_body(called)
-        return twin
-
     @cached_property
     def mass(self) -> Expr:
-        return self.given_mass_or_sum
-
-    @property
-    def given_mass_or_sum(self) -> Expr:
         given = getattr(self, "given_mass", None)
         return given if given is not None else tidied(sum((part.mass for part in self.parts), Integer(0)))
 
@@ -328,7 +315,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
         key=key,
         kind="moment of inertia",
         parents=centre,
-        routes={"particles": lambda found: _moments_about_any_axis(found, body, point)},
+        routes={"particles": lambda found: _about_any_axis(found, seen_particles(body, point))},
         outcome=shape_of,
         lines=Lines(put_in=Level.STANDARD if not extended else Level.FULL),
         facts=[OfBody(body), AboutPoint(point)],
@@ -411,10 +398,7 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
     """
 
     def mean() -> Any:
-        total = column(0, 0, 0)
-        for mass, place in replace(part, sign=1).particles:
-            total = total + mass * point.seen(place)
-        return total / part.body.mass
+        return summed(replace(part, sign=1).particles, point.seen) / part.body.mass
 
     return establish(
         "assembly.way_to_part",
@@ -429,11 +413,6 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
     )
 
 
-def _moments_about_any_axis(found: Any, body: Composite, point: Point) -> tuple[Expr, Expr]:
-    return _about_any_axis(found, seen_particles(body, point))
-
-
 def _about_any_axis(found: Any, particles: Sequence[tuple[Expr, Any]]) -> tuple[Expr, Expr]:
     n = column(*component_names("n"))
-    arms = [(mass, explicit(Cross(n, r))) for mass, r in particles]
-    return explicit(Dot(n, found * n)), sum((mass * explicit(Dot(arm, arm)) for mass, arm in arms), Integer(0))
+    return explicit(Dot(n, found * n)), summed(particles, lambda r: explicit(squared_distance(r, n)))
