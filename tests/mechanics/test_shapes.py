@@ -36,8 +36,7 @@ from derive.mechanics import (
     moved_to,
 )
 from derive.mechanics.bodies.body import Body
-from derive.mechanics.bodies.equimomental import Particles, from_moments
-from derive.mechanics.rotation.tensors import tensor_of_particles
+from derive.mechanics.bodies.equimomental import Particles, from_moments, summed, tensor_at
 
 R, h, M, a, b, c, alpha = symbols("R h M a b c alpha", positive=True)
 ZERO = Integer(0)
@@ -130,9 +129,7 @@ def test_particles_can_be_made_of_any_second_moments() -> None:
     assert sum((m for m, _ in found), ZERO).simplify() == M
     shifted = [(m, r - Matrix([a, 0, 0])) for m, r in found]
     trace = second.trace()
-    assert (tensor_of_particles(shifted) - (trace * Matrix.eye(3) - second)).applyfunc(lambda x: x.simplify()) == zeros(
-        3
-    )
+    assert (summed(shifted, tensor_at) - (trace * Matrix.eye(3) - second)).applyfunc(lambda x: x.simplify()) == zeros(3)
 
 
 # --- refusals ---

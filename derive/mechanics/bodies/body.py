@@ -19,7 +19,7 @@ from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, Ratio, column, explicit, vector
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.components import centre_component, is_its_own_image, is_round_solid
-from derive.mechanics.bodies.equimomental import Particles, summed
+from derive.mechanics.bodies.equimomental import OfParticles, summed
 from derive.mechanics.bodies.facts import CountedFrom
 from derive.mechanics.bodies.landmarks import is_where_named
 from derive.mechanics.bodies.mapping import Map, cell, cylindrical, from_point
@@ -27,7 +27,7 @@ from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Form, Level, Quantity, Route, is_zero
+from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["centre_of_mass", "density"]
@@ -43,7 +43,7 @@ _DENSITIES = {
 }
 
 
-class Body(Placeable):
+class Body(Placeable, OfParticles):
     """What all uniform bodies share.
 
     A kind of body says which points it has, over which region one integrates, how large it is, and which few
@@ -57,7 +57,6 @@ class Body(Placeable):
     reference: ClassVar[str] = "centre"  # the point where its own axes begin
     called: str = ""  # what the page calls it where there are others, "upper rod"
     is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
-    is_of_particles: ClassVar[bool] = True  # which are found without an integral
     is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
 
@@ -103,24 +102,6 @@ class Body(Placeable):
     def flat_across(self) -> str | None:
         """The axis along which it does not reach, if there is one; "x" of what is all on one of the others."""
         return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
-
-    def particles(self) -> Particles:
-        """Particles with the mass, centre of mass and second moments of the body. No integral is used, so what is
-        computed from them checks what is computed by integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
-        raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
-
-    def another_way(
-        self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
-    ) -> dict[str, Route]:
-        """A second route to the integral of what is at most quadratic in the position from a point, times dm.
-
-        of   what of a result is that integral
-        """
-
-        def by_particles(found: Any) -> tuple[Any, Any]:
-            return of(found), summed(self.particles(), lambda r: explicit(integrand(point.seen(r))))
-
-        return {"particles": by_particles}
 
     @property
     def extent(self) -> Expr | Quantity:

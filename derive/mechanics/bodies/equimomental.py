@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from functools import reduce
 from operator import add
-from typing import Any
+from typing import Any, ClassVar
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Rational, cancel, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import column
+from derive.algebra.expressions import Cross, Dot, column, explicit
 from derive.algebra.tidy import tidied
-from derive.steps.step import is_zero
+from derive.mechanics.bodies.regions import Point
+from derive.steps.step import Route, is_zero
 
 Particles = list[tuple[Expr, ImmutableMatrix]]
 
@@ -29,6 +30,42 @@ BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12
 def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[ImmutableMatrix], Any]) -> Any:
     """The sum of mass times a function of the place, a number, a vector or a tensor."""
     return reduce(add, (mass * of(place) for mass, place in particles))
+
+
+class OfParticles:
+    """What has particles that stand for it."""
+
+    is_of_particles: ClassVar[bool] = True  # which are found without an integral
+
+    def particles(self) -> Particles:
+        """Particles with the mass, centre of mass and second moments of the body. No integral is used, so what is
+        computed from them checks what is computed by integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
+        raise AttributeError(f"{type(self).__name__} must say which particles stand for it")
+
+    def another_way(
+        self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
+    ) -> dict[str, Route]:
+        """A second route to the integral of what is at most quadratic in the position from a point, times dm.
+
+        of   what of a result is that integral
+        """
+
+        def by_particles(found: Any) -> tuple[Any, Any]:
+            return of(found), summed(self.particles(), lambda r: explicit(integrand(point.seen(r))))
+
+        return {"particles": by_particles}
+
+
+def squared_distance(r: Any, n: Any) -> Any:
+    """|n x r|^2, of a place from the axis through the point along n."""
+    arm = Cross(n, r)
+    return Dot(arm, arm)
+
+
+def tensor_at(r: Any) -> ImmutableMatrix:
+    """r.r 1 - r r, of a unit mass at r."""
+    square = sum((x**2 for x in r), Integer(0))
+    return ImmutableDenseMatrix(3, 3, lambda i, j: square * int(i == j) - r[i] * r[j])
 
 
 def disc_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:

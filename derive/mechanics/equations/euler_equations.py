@@ -35,6 +35,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.equimomental import OfParticles
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point
@@ -59,7 +60,7 @@ NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 
 
 @dataclass(frozen=True)
-class RigidBody(Placeable):
+class RigidBody(Placeable, OfParticles):
     """A rigid body of any shape. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
     mass      kg, where more is asked than its free rotation

@@ -31,12 +31,12 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
-from derive.mechanics.bodies.equimomental import Particles, summed
+from derive.mechanics.bodies.equimomental import Particles, squared_distance, summed, tensor_at
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
 from derive.mechanics.bodies.regions import Point, Region
-from derive.mechanics.rotation.inertia import inertia_tensor, squared_distance
+from derive.mechanics.rotation.inertia import inertia_tensor
 from derive.mechanics.rotation.tensors import seen_particles, shape_of, tensor_entry
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, is_zero
@@ -304,7 +304,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
 
     def law(*found: Any) -> Any:
         terms = [one if part.sign > 0 else scaled(Integer(-1), one) for part, one in zip(extended, found, strict=True)]
-        terms += [scaled(part.mass, _of_unit_mass(point.seen(part.centre))) for part in at_points]
+        terms += [scaled(part.mass, tensor_at(point.seen(part.centre))) for part in at_points]
         return terms[0] if len(terms) == 1 else MatAdd(*terms)
 
     return establish(
@@ -327,12 +327,6 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
 def _for_the_whole(part: Quantity) -> Quantity:
     """What is known of a part, as something about the whole: the sum has the names of the whole."""
     return replace(part, subject=NOTHING)
-
-
-def _of_unit_mass(d: Any) -> Any:
-    """d.d 1 - d d, of a way that is known."""
-    square = sum((x**2 for x in d), Integer(0))
-    return ImmutableDenseMatrix(3, 3, lambda i, j: square * int(i == j) - d[i] * d[j])
 
 
 def _steiner(mass: Expr, d: Any) -> Any:

@@ -29,6 +29,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.components import over_mass
+from derive.mechanics.bodies.equimomental import squared_distance
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.tensors import shape_of
@@ -243,12 +244,6 @@ def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[An
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
     return {"square": (weight, explicit(Dot(across, across)))}
-
-
-def squared_distance(r: Any, n: Any) -> Any:
-    """|n x r|^2, of a place from the axis through the point along n."""
-    arm = Cross(n, r)
-    return Dot(arm, arm)
 
 
 def _entry_by_moments(r: Any, pair: Pair) -> Any:

@@ -14,7 +14,6 @@ from sympy.matrices import ImmutableMatrix
 from sympy.simplify.fu import TR8
 
 from derive.algebra.expressions import (
-    Cross,
     Dot,
     Factors,
     Norm,
@@ -30,11 +29,12 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.equimomental import squared_distance, summed, tensor_at
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.parts import turn_about
 from derive.mechanics.bodies.regions import Point
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Level, Quantity, compared_with, entry_name, is_zero, require_kind, value_behind
+from derive.steps.step import Level, Quantity, entry_name, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
 
 __all__ = [
@@ -54,21 +54,9 @@ def seen_particles(body: Any, point: Point) -> list[tuple[Expr, ImmutableMatrix]
     return [(mass, ImmutableDenseMatrix(point.axes.T * (place - point.position))) for mass, place in body.particles()]
 
 
-def tensor_of_particles(particles: Sequence[tuple[Expr, Any]]) -> ImmutableMatrix:
-    """The sum of m (r.r 1 - r r)."""
-
-    def entry(i: int, j: int) -> Expr:
-        whole: Expr = Integer(0)
-        for mass, r in particles:
-            whole += mass * ((sum((x**2 for x in r), Integer(0)) if i == j else Integer(0)) - r[i] * r[j])
-        return whole
-
-    return ImmutableDenseMatrix(3, 3, entry)
-
-
 def central_tensor(body: Any) -> ImmutableMatrix:
     """The tensor about the centre of mass along the body's own axes, as its particles have it; no step, but a value."""
-    return ImmutableDenseMatrix(tensor_of_particles(seen_particles(body, body.middle)).applyfunc(tidied))
+    return ImmutableDenseMatrix(summed(seen_particles(body, body.middle), tensor_at).applyfunc(tidied))
 
 
 def shape_of(found: Any) -> str:
@@ -105,7 +93,7 @@ def turned_tensor(
         key=key,
         kind=MOMENT,
         routes={
-            "particles": compared_with(lambda: tensor_of_particles(seen_particles(body, there))),
+            **body.another_way(tensor_at, there),
             "trace": lambda found: (found.trace(), inertia.value.trace()),
         },
         outcome=shape_of,
@@ -138,10 +126,6 @@ def moment_about(
         raise Rejected(Complaint("zero-vector", "an axis along a vector that vanishes has no direction"))
     unit = ImmutableDenseMatrix((along / tidied(Norm(along))).applyfunc(tidied))
 
-    def by_distances() -> Expr:
-        arms = ((mass, explicit(Cross(unit, r))) for mass, r in seen_particles(body, point))
-        return sum((mass * explicit(Dot(arm, arm)) for mass, arm in arms), Integer(0))
-
     n = _unit_vector(direction, body, symbol.partition("_")[2] or "n", key)
     return establish(
         "tensors.moment_about",
@@ -150,7 +134,7 @@ def moment_about(
         {"inertia": inertia, "direction": n},
         key=key,
         kind=MOMENT,
-        routes={"particles": compared_with(by_distances)},
+        routes=body.another_way(lambda r: squared_distance(r, unit), point),
         lines=Lines(put_in=Level.STANDARD),
         telling=Telling(words={"about": point.name}),
         scope=Scope(about=Subject(body=body, point=point)),
@@ -198,7 +182,7 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
         key=key or f"{inertia.key}_entry_{entry}",
         kind=MOMENT,
         parents=[inertia],
-        routes={"particles": compared_with(lambda: tensor_of_particles(seen_particles(body, point))[i, j])},
+        routes=body.another_way(lambda r: tensor_at(r)[i, j], point),
         outcome="moment" if i == j else "product",
         telling=Telling(words={"about": point.name, "entry": entry}, points_to={"inertia": inertia}),
         scope=Scope(about=Subject(body=body, point=point, axis="xyz"[i] if i == j else None)),
@@ -289,10 +273,6 @@ def perpendicular_axes(
         raise Rejected(Complaint("not-flat", message, help='`moment_of_inertia(body, "x")` and `"y"` of a flat body'))
     k = "xyz".index(across)
 
-    def squares() -> Expr:
-        seen = seen_particles(body, point)
-        return sum((m * sum((x**2 for i, x in enumerate(r) if i != k), Integer(0)) for m, r in seen), Integer(0))
-
     return establish(
         "tensors.perpendicular_axes",
         scalar(symbol or f"I_{across}"),
@@ -300,7 +280,7 @@ def perpendicular_axes(
         {"first": first, "second": second},
         key=key,
         kind=MOMENT,
-        routes={"particles": compared_with(squares)},
+        routes=body.another_way(lambda r: tensor_at(r)[k, k], point),
         lines=Lines(put_in=Level.STANDARD),
         telling=Telling(words={"about": point.name, "across": across}),
         scope=Scope(about=Subject(body=body, point=point, axis=across)),
@@ -322,11 +302,6 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
         raise Rejected(Complaint("wrong-argument", message, help='use `moment_of_inertia(body, "z")`'))
     i = "xyz".index(axis)
 
-    def mean_square(k: Expr) -> tuple[Expr, Expr]:
-        seen = seen_particles(body, point)
-        whole = sum((m * sum((x**2 for j, x in enumerate(r) if j != i), Integer(0)) for m, r in seen), Integer(0))
-        return k**2, whole / sum((m for m, _ in seen), Integer(0))
-
     return establish(
         "tensors.radius_of_gyration",
         scalar(symbol, nonnegative=True),
@@ -334,7 +309,7 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
         {"moment": moment, "mass": body.mass},
         key=key,
         kind="length",
-        routes={"particles": mean_square},
+        routes=body.another_way(lambda r: tensor_at(r)[i, i], point, of=lambda k: body.mass * k**2),
         lines=Lines(put_in=None, arranged=lambda value: tidied(sqrt(tidied(value**2)))),
         scope=Scope(about=Subject(body=body, point=point, axis=axis)),
     )
