@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Mul, Symbol, expand, factor, nan, sqrt
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Mul, Rational, Symbol, expand, factor, nan
 
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.tidy import common_factor, tidied
@@ -43,7 +43,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
         lambda found: Relation(found[one], "=", found[other]),
         {"moments": moments},
         lines=Lines(
-            between=[Form(Relation(*_with_mark(sides)), "divided", Level.STANDARD), *squared],
+            between=[Form(Relation(sides[0], "=", sides[1]), "divided", Level.STANDARD), *squared],
             after=[Form(Relation(unknown, "=", bound), "positive")],
             result=False,
             arranged=lambda _: Relation(unknown, "=", bound),
@@ -101,27 +101,15 @@ def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, 
 def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
     """The one positive root, and the power of the letter that it is found by; nothing if there is not just one."""
     core = difference.as_numer_denom()[0]
-    whole = _positive_root(core, letter)
-    if whole:
-        return whole[0]
-    parts = [_positive_root(part, letter) for part in Mul.make_args(factor(core))]
-    found = [root for roots in parts for root in roots or ()]
-    return found[0] if None not in parts and len(found) == 1 else None
-
-
-def _positive_root(part: Expr, letter: Symbol) -> list[tuple[Expr, int]] | None:
-    """Of two powers of the letter, one or two apart, the positive root if there is one; else None."""
-    polynomial = part.as_base_exp()[0].as_poly(letter)
-    terms = polynomial.terms() if polynomial else []
-    if len(terms) < 2:
-        return []  # a product of what is positive
-    (top, leading), (low, rest) = ((n, coefficient) for (n,), coefficient in (terms[0], terms[-1]))
-    inside = tidied(-rest / leading)
-    if len(terms) > 2 or top - low not in (1, 2) or not (inside.is_positive or inside.is_negative):
+    parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]
+    polynomial = parts[0].as_base_exp()[0].as_poly(letter) if len(parts) == 1 else None
+    powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
+    if not polynomial or powers not in ([1, 0], [2, 0]):
         return None
-    if inside.is_negative:
-        return []
-    return [(inside, 1) if top - low == 1 else (tidied(sqrt(inside)), 2)]
+    leading, *_, rest = polynomial.all_coeffs()
+    root = tidied((-rest / leading) ** Rational(1, powers[0]))
+    is_of_square = is_zero(core - core.subs(letter, -letter))
+    return (root, 2 if is_of_square else 1) if root.is_positive else None
 
 
 def _lengths_in(difference: Expr) -> list[Any]:
@@ -134,10 +122,6 @@ def _lengths_in(difference: Expr) -> list[Any]:
 def _letters_only(factor: Expr) -> Expr:
     """The factor without its number: both sides are divided by M, not by 3 M/80."""
     return factor.as_coeff_Mul()[1]
-
-
-def _with_mark(sides: list[Expr]) -> tuple[Expr, str, Expr]:
-    return sides[0], "=", sides[1]
 
 
 def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
