@@ -47,7 +47,7 @@ from derive.steps.derivation import (
     with_ancestors,
 )
 from derive.steps.homogeneity import dimension_table
-from derive.steps.numeric import coefficient_of, comparison_of, value_of
+from derive.steps.numeric import coefficient_of, comparison_of, is_plain, value_of
 from derive.steps.step import Level, Quantity, Step
 
 
@@ -193,6 +193,8 @@ def _value(
     figures = form.figures or problem.figures
     # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
     compared = None if units else comparison_of(answer, problem.amounts)
+    if not problem.measured and not units and not form.figures and is_plain(answer):
+        return None
     value = compared or value_of(answer, problem.amounts, *first, figures, more=more)
     return value or (coefficient_of(answer, figures) if not problem.measured else None)
 

@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Rational, Symbol, preorder_traversal, sign
+from sympy import (
+    Add,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixBase,
+    Mul,
+    Rational,
+    Symbol,
+    pi,
+    preorder_traversal,
+    sign,
+)
 
 from derive.algebra.expressions import Amount, Factors, MatrixAmount, Ratio, Relation, Root, bound, explicit, scaled
 from derive.algebra.normal_form import vanishes
@@ -86,6 +98,19 @@ def value_of(
         ),
         parents=[answer],
     )
+
+
+def is_plain(answer: Quantity) -> bool:
+    """Whether its number says more as it stands than in decimals: pi/2, the root of an integer, 2 pi before letters."""
+    value, _ = _valued(answer.value)
+    if isinstance(value, MatrixBase):
+        return all(_is_plain_number(entry) for entry in value)
+    number, _ = value.as_independent(*value.free_symbols, as_Add=False)
+    return _is_plain_number(number)
+
+
+def _is_plain_number(number: Expr) -> bool:
+    return bool(number.is_number and ((number / pi).is_Rational or number.is_Rational or (number**2).is_Integer))
 
 
 def _as_it_is(value: Any) -> Any:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Integer, Matrix, Rational, pi, sqrt, symbols
+from sympy import Integer, Matrix, Mul, Rational, pi, sqrt, symbols
 
 from derive.algebra.dimensions import NUMBER
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import Root, explicit
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.layout import Applied, Digits, Fenced, Fraction, Layout, Name, Operator, Raised, Row
 from derive.render.notation.products import (
-    accelerations_first,
     between_factors,
     decimal,
     number_and_letters,
@@ -81,12 +80,15 @@ def test_roots_of_letters_are_one_root_and_keep_their_value() -> None:
     assert (explicit(together) / expr).simplify() == 1
 
 
-def test_positive_terms_and_accelerations_lead() -> None:
-    q_dot, q_ddot = symbols("q_dot q_ddot", real=True)
+def test_a_positive_term_leads() -> None:
     assert positive_first([-(a**2), b**2]) == [b**2, -(a**2)]
     assert positive_first([-a, -b]) == [-a, -b]
-    assert accelerations_first([g, M * q_dot**2, a * q_dot, M * q_ddot]) == [M * q_ddot, a * q_dot, g, M * q_dot**2]
-    assert positive_first([]) == accelerations_first([]) == []
+    assert positive_first([]) == []
+
+
+def test_what_divides_a_root_goes_under_it_where_that_cancels() -> None:
+    assert str(roots_together(2 * pi / 3 * sqrt(6) * sqrt(a) / sqrt(g))) == str(2 * pi * Root(2 * a / (3 * g)))
+    assert roots_together(sqrt(a + b) * sqrt(2) / 2) == Root(Mul(2, a + b, evaluate=False)) / 2
 
 
 def test_masses_stand_before_accelerations_lengths_numbers_and_rates() -> None:

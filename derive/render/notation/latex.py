@@ -106,9 +106,14 @@ class _Printer:
                 gap = "" if isinstance(argument, Fenced) or raised else " "
                 return f"{command}{raised}{gap}{self.show(argument)}"
             case Array(rows):
-                body = r" \\ ".join(" & ".join(_Printer(True).show(entry) for entry in line) for line in rows)
-                return rf"{{\begin{{pmatrix}} {body} \end{{pmatrix}}}}"
+                return rf"{{\begin{{pmatrix}} {self._rows(rows)} \end{{pmatrix}}}}"
         raise TypeError(f"no LaTeX for {type(layout).__name__}")
+
+    def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
+        """Fractions are small in a matrix and have their full size in a column."""
+        if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
+            return r" \\[3pt] ".join(rf"\displaystyle {self.show(entry)}" for (entry,) in rows)
+        return r" \\ ".join(" & ".join(_Printer(True).show(entry) for entry in line) for line in rows)
 
     def _row(self, items: tuple[Layout, ...]) -> str:
         shown: list[str] = []

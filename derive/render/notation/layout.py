@@ -168,6 +168,15 @@ EITHER_SIGN = Operator("plus_minus")
 INNER, CROSS = Operator("inner"), Operator("cross")  # between two vectors: a dot, and a cross
 
 
+def holds_fraction(layout: Layout) -> bool:
+    """A root or a function with a fraction in it, which would be too high above another."""
+    inside = layout.inside if isinstance(layout, RootSign) else layout.argument if isinstance(layout, Applied) else None
+    if isinstance(inside, Fenced):
+        inside = inside.inside
+    items = inside.items if isinstance(inside, Row) else (inside,)
+    return any(isinstance(item, Fraction) or isinstance(item, RootSign) and holds_fraction(item) for item in items)
+
+
 def row(*items: Layout) -> Layout:
     """Items side by side, rows within rows opened."""
     flat: list[Layout] = []

@@ -66,25 +66,22 @@ from derive.render.notation.layout import (
     RootSign,
     Upright,
     begins_with_number,
+    holds_fraction,
     layout_of_name,
     row,
 )
+from derive.render.notation.order import ordered_terms, rank_of_factor
 from derive.render.notation.products import (
-    accelerations_first,
     between_factors,
     decimal,
     number_and_letters,
-    positive_first,
     present,
-    rank_of_dimension,
     root_cancelled,
-    roots_last,
     roots_together,
     side_by_side,
     sign_and_size,
 )
 
-SUMS = 3  # the rank of a sum among factors: behind lengths, before angles and rates
 PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
 
 
@@ -96,6 +93,7 @@ class Notation:
 
     def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None):
         self.known_dimensions = dimensions or {}
+        self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}
 
     def layout(self, expr: Any) -> Layout:
@@ -138,7 +136,7 @@ class Notation:
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
     def _ordered_terms(self, expr: Add) -> list[Expr]:
-        return accelerations_first(positive_first(roots_last(expr.as_ordered_terms())))
+        return ordered_terms(expr, self._places)
 
     def _terms(self, terms: list[Any]) -> Layout:
         items: list[Layout] = []
@@ -155,8 +153,10 @@ class Notation:
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)
         if letters_below:
-            top = self._factors([*number_above, *self._ordered(letters_above)])
-            return Fraction(top, self._factors([*number_below, *self._ordered(letters_below)]))
+            bottom = self._factors([*number_below, *self._ordered(letters_below)])
+            behind = [f for f in self._ordered(letters_above) if holds_fraction(self.layout(f))]
+            top = self._factors([*number_above, *self._ordered([f for f in letters_above if f not in behind])])
+            return row(Fraction(top, bottom), self._factors(behind)) if behind else Fraction(top, bottom)
         letters = self._ordered(letters_above)
         if number_below and len(letters) == 1 and isinstance(letters[0], ex.Amount):
             letters = [ex.Group(letters[0])]
@@ -170,17 +170,7 @@ class Notation:
         return row(number, within(self._factors(letters), Binding.OPEN)) if letters else number
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
-        return sorted(factors, key=self._rank)
-
-    def _rank(self, factor: Expr) -> tuple[int, int, str]:
-        """Density and mass, accelerations, lengths, numbers, rates; then brackets and functions."""
-        base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
-        if isinstance(base, Add | ex.Terms):
-            return (0, SUMS, str(factor))
-        if not isinstance(base, Symbol | ex.Amount):
-            return (2 if isinstance(base, Add | ex.Terms | ex.Group) else 1, 0, str(factor))
-        dimension = self.known_dimensions.get(base)
-        return (0, rank_of_dimension(dimension), str(base))
+        return sorted(factors, key=lambda f: rank_of_factor(f, self.known_dimensions.get))
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:

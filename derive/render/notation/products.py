@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import Any
 
-from sympy import Add, Expr, MatrixBase, Mul, Pow, Rational, factorint
+from sympy import Add, Expr, MatrixBase, Mul, Pow, Rational, factorint, gcd
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
@@ -89,23 +89,6 @@ def positive_first(terms: list[Any]) -> list[Any]:
     return terms
 
 
-def accelerations_first(terms: list[Any]) -> list[Any]:
-    """In an equation of motion the terms with accelerations lead, then those with one rate; others keep their order."""
-
-    def place(term: Any) -> int:
-        rates = [s for s in term.free_symbols if s.name.endswith("_dot")]
-        accelerates = any(s.name.endswith("_ddot") for s in term.free_symbols)
-        return (
-            0
-            if accelerates
-            else 1
-            if len(rates) == 1 and term.has(*rates) and not term.has(*(s**2 for s in rates))
-            else 2
-        )
-
-    return sorted(terms, key=place)
-
-
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
     """Factors that are numbers (13, sqrt(14), pi) and the others; a 1 is no factor."""
     factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
@@ -150,7 +133,17 @@ def roots_together(expr: Expr) -> Expr:
         return expr
     squares = (Mul.make_args(Pow(root.base, 2 * root.exp)) for root in roots)
     inside = Mul(*(f for square in squares for f in square), evaluate=False)
-    return Mul(*(f for f in factors if f not in roots), ex.Root(inside))
+    others = Mul(*(f for f in factors if f not in roots))
+    times, under = _below_under_root(others.as_coeff_Mul()[0], inside.as_coeff_Mul()[0])
+    if times != 1 and not inside.has(Add):
+        others, inside = others / times, Mul(under, *(f for f in inside.args if not f.is_Rational), evaluate=False)
+    return Mul(others, ex.Root(inside))
+
+
+def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rational]:
+    """sqrt(6)/3 as sqrt(2/3), sqrt(2)/2 as sqrt(1/2): what goes under the root, and the number that is then there."""
+    shared = gcd(number.q, inside.p) if inside.q == 1 else Rational(1)
+    return Rational(1, shared), inside / shared**2
 
 
 def _is_fourth_root(factor: Pow) -> bool:

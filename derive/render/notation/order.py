@@ -1,0 +1,82 @@
+"""In which order terms and factors are written.
+
+Terms: of a motion first, by accelerations and rates; then what is plain, what has letters below, functions of angles.
+Factors: masses, accelerations of gravity, lengths, sums, numbers, roots, rates, functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from sympy import Add, Expr, Function, Mul, Pow, Rational, Symbol, exp, fraction
+
+from derive.algebra import expressions as ex
+from derive.algebra.dimensions import Dimension
+from derive.render.notation.products import positive_first, rank_of_dimension, roots_last
+
+SUMS, ROOTS, RATES = 3, 6, 7  # ranks among factors: sums behind lengths, before angles; then roots, and rates last
+RATE_ENDS = ("_ddot", "_dot")  # in the names of accelerations and of rates
+
+
+def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
+    """The terms of a sum as they are written; `moving` numbers the coordinates."""
+    terms = roots_last(expr.as_ordered_terms())
+    if expr.has(ex.Amount):
+        return positive_first(terms)
+    return positive_first(motion_first(plain_first(terms), moving))
+
+
+def plain_first(terms: list[Any]) -> list[Any]:
+    """1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a: fractions behind letters, then roots, then functions."""
+
+    def place(term: Any) -> tuple[bool, bool, bool]:
+        functions = any(not isinstance(f, exp) for f in term.atoms(Function))
+        return functions, bool(fraction(term, exact=True)[1].free_symbols), _has_root(term)
+
+    return sorted(terms, key=place)
+
+
+def _has_root(term: Expr) -> bool:
+    return any(not power.exp.is_Integer for power in term.atoms(Pow))
+
+
+def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
+    """Terms with accelerations lead, then those with rates, each by the order of the coordinates and by powers.
+
+    Beside them what holds a coordinate stands before constants: m y_ddot + k y - m g.
+    """
+    rates = sorted(
+        {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},
+        key=lambda s: (not s.name.endswith(RATE_ENDS[0]), moving.get(_coordinate(s), len(moving)), s.name),
+    )
+
+    def place(term: Any) -> tuple[Any, ...]:
+        powers = {f.as_base_exp()[0]: f.as_base_exp()[1] for f in Mul.make_args(term)}
+        degrees = (-powers.get(s, Rational(0)) for s in rates if powers.get(s, Rational(0)).is_Integer)
+        return (*degrees, not any(f"{s.name}{RATE_ENDS[1]}" in moving for s in term.free_symbols))
+
+    return sorted(terms, key=place) if rates else terms
+
+
+def _coordinate(letter: Symbol) -> str:
+    return next(letter.name.removesuffix(end) for end in RATE_ENDS if letter.name.endswith(end))
+
+
+def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
+    """Densities and masses, accelerations of gravity, lengths, sums, numbers, rates; then brackets and functions."""
+    is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
+    base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
+    if is_root and not base.has(Function):
+        return 0, ROOTS, 0, str(factor)
+    if isinstance(base, Symbol | ex.Amount):
+        if isinstance(base, Symbol) and (base.name.endswith(RATE_ENDS) or base == ex.TIME):
+            return 0, RATES, 0, str(base)
+        return 0, rank_of_dimension(dimension_of(base)), -1, str(base)
+    if isinstance(base, exp):
+        return 0, SUMS, 1, str(factor)
+    if isinstance(base, Add | ex.Terms):
+        ranks = {rank_of_dimension(dimension_of(letter)) for letter in base.free_symbols}
+        swings = base.has(Function, ex.TIME)  # e^(-t/T) (cos w t + ...), but (a + b) e^(-t/T)
+        return 0, 0 if ranks == {0} else SUMS, 2 if swings else 0, str(factor)
+    return 2 if isinstance(base, ex.Group) else 1, 0, 0, str(factor)

@@ -1,0 +1,81 @@
+"""The order of terms and factors is that of a textbook, and it changes no value."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sympy import Symbol, cos, exp, pi, sin, sqrt, symbols, tan
+
+from derive.algebra.expressions import TIME, rate
+from derive.algebra.kinds import dimension_of_kind
+from derive.render.notation.notation import Notation
+from derive.render.notation.order import motion_first, plain_first, rank_of_factor
+from derive.render.notation.text import plain
+
+m, M, k, b = symbols("m M k b", positive=True)
+l, R, a, g = symbols("l R a g", positive=True)
+theta, phi = symbols("theta phi", real=True)
+KINDS = {
+    **dict.fromkeys((m, M), "mass"),
+    k: "spring constant",
+    b: "damping constant",
+    **dict.fromkeys((l, R, a), "length"),
+    g: "acceleration",
+    **dict.fromkeys((theta, phi), "angle"),
+    **dict.fromkeys((rate(theta), rate(phi)), "angular speed"),
+    rate(l): "speed",
+}
+NOTATION = Notation({letter: dimension_of_kind(kind) for letter, kind in KINDS.items()})
+
+READS = [
+    (cos(theta) + 1, "1 + cos θ"),
+    (sqrt(2) + 2, "2 + √2"),
+    (2 - sqrt(2), "2 - √2"),
+    (3 * cos(theta) - 2, "3cos θ - 2"),
+    (tan(theta) ** 2 + 4, "4 + tan² θ"),
+    (m * g / k + l, "l + m g/k"),
+    (R**2 - 2 * R * a * cos(phi) + a**2, "R² + a² - 2R a cos φ"),
+    (a + R * cos(theta), "a + R cos θ"),
+    (m * l**2 * (rate(theta) ** 2 / 2 + rate(phi) ** 2), "m l² (1/2 (θ̇)² + (φ̇)²)"),
+    (m * g * cos(theta) + m * R * rate(theta) ** 2, "m R (θ̇)² + m g cos θ"),
+    (g * (M + m) / l, "(M + m) g/l"),
+    (m * rate(l) * l * rate(theta), "m l l̇ θ̇"),
+    (2 * rate(l) * sqrt(k * m), "2√(k m) l̇"),
+    (k * sqrt(l / g) / m, "k/m √(l/g)"),
+    (m * g * cos(sqrt(k / m) * TIME) / k, "m g/k cos(√(k/m) t)"),
+    (l * exp(-b * TIME / m) * (cos(TIME) + 1), "l e^(-bt/m) (1 + cos t)"),
+    (l * exp(-b * TIME / m) * (a + R), "l (R + a) e^(-bt/m)"),
+    (2 * pi / 3 * sqrt(6) * sqrt(l / g), "2π √(2l/(3g))"),
+]
+
+
+@pytest.mark.parametrize(("expr", "reads"), READS, ids=[reads for _, reads in READS])
+def test_a_formula_has_the_order_of_a_textbook(expr: Any, reads: str) -> None:
+    assert plain(NOTATION.layout(expr)) == reads
+
+
+def test_terms_of_a_motion_follow_the_order_of_its_coordinates() -> None:
+    places = {"theta": 0, "phi": 1, "theta_dot": 2}
+    T = [rate(phi) ** 2, rate(theta) * rate(phi), rate(theta) ** 2]
+    assert motion_first(T, places) == T[::-1]
+    equation = [m * g, k * theta, rate(phi) ** 2, b * rate(theta), rate(phi, 2), rate(theta, 2)]
+    assert motion_first(equation, places) == [
+        rate(theta, 2),
+        rate(phi, 2),
+        b * rate(theta),
+        rate(phi) ** 2,
+        k * theta,
+        m * g,
+    ]
+    assert motion_first([m, k], {}) == [m, k]
+
+
+def test_fractions_stand_behind_letters_and_functions_last() -> None:
+    assert plain_first([sin(theta), 1 / l, l, sqrt(a)]) == [l, sqrt(a), 1 / l, sin(theta)]
+
+
+def test_rates_stand_behind_all_that_is_constant() -> None:
+    factors = [rate(theta), cos(theta), sqrt(k), l, M + m, m, Symbol("unknown")]
+    ordered = sorted(factors, key=lambda f: rank_of_factor(f, NOTATION.known_dimensions.get))
+    assert ordered == [m, M + m, l, Symbol("unknown"), sqrt(k), rate(theta), cos(theta)]
