@@ -87,9 +87,11 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
         if _has_fractions_inside(inside) or int(inside.count_ops()) > int(whole.count_ops()):  # (3/4) m (R - a)^2
             return Mul(whole, *powers)
-        return Mul(Rational(1, 2), inside, *powers, evaluate=False)
+        return Mul(Rational(1, 2), inside, *powers, evaluate=bool(inside.as_numer_denom()[1].free_symbols))
     found = _tidied(coefficient, Integer(1))
     spread_out = _spread(found.value)
+    if _has_fractions_inside(spread_out):  # (3/20) m (1 + 5 cos^2 a), not 3 m (cos^2 a/4 + 1/20)
+        spread_out = found.value
     return Mul(_shortest(Factored(spread_out, found.is_prime and spread_out == found.value)), *powers)
 
 

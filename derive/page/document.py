@@ -21,6 +21,7 @@ from derive.course.reference.comparison import Remark
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
+from derive.page.assumptions import between_bounds
 from derive.page.checks import Checks, checks_of
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
@@ -267,7 +268,7 @@ class _Writer:
         """What the script takes to hold of the letters, said with what is given."""
         if not self.derivation.assumed:
             return ()
-        conditions = joined([(Math(each),) for each in self.derivation.assumed], self._and)
+        conditions = joined([(Math(each),) for each in between_bounds(self.derivation.assumed)], self._and)
         return (Text(" "), *filled(self.words.labels["assumed"], {"conditions": conditions}))
 
     # --- drawings ---

@@ -23,6 +23,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest
+from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
@@ -282,6 +283,16 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
     return {q: letters(q) for q in sought}
 
 
+def _level_where(force: Expr, q: Symbol) -> Relation | None:
+    """Where a factor of the force that does not hold the coordinate vanishes there is rest anywhere; unless, told."""
+    factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
+    left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
+    if left is None or not left.left.is_Add:
+        return left
+    away = [-term for term in left.left.args if term.could_extract_minus_sign()]
+    return Relation(left.left + Add(*away), left.mark, Add(*away))
+
+
 def _rest(
     potential: Quantity,
     conditions: Sequence[Quantity],
@@ -303,6 +314,8 @@ def _rest(
     told = {}
     if state.exists is not None:
         told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.mark, -state.exists.left))
+    if len(sought) == 1 and (excluded := _level_where(conditions[0].value.left, sought[0])) is not None:
+        told["excluded"] = (excluded, Relation(excluded.right, "!=", excluded.left))
 
     def no_force(_: Any) -> tuple[Expr, Expr]:
         marks = [Symbol(f"u_{i}", real=True) for i in range(len(sought))]

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
+from sympy import Abs, Add, Dummy, Expr, Function, Integer, Mul, Poly, Rational, Symbol, acos, atan, cos, pi, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR8
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import At, Relation, Slope, explicit, scalar
+from derive.algebra.expressions import At, Relation, explicit, scalar
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -86,8 +86,8 @@ def _extremum(
         kind=kind_of_unknown(x, coordinates_of(of)),
         telling=Telling(
             formulas={
-                "slope": (Relation(Slope(value, x, Integer(1)), "=", 0), Relation(slope, "=", 0)),
-                **({"condition": (condition, Relation(tidied(condition.left), ">", 0))} if condition else {}),
+                "letter": (x, x),
+                **({"condition": (_apart(condition), condition)} if condition else {}),
             },
             judged_by={"value": value, "letter": x, "place": place},
         ),
@@ -106,6 +106,23 @@ def _extremum(
         telling=Telling(judged_by={"value": value, "letter": x, "place": place}),
     )
     return at, top
+
+
+def _apart(condition: Relation) -> Relation:
+    """b^2 < 2 k m of (k m - b^2/2)/m^2 > 0: what is taken away stands on the other side."""
+    above, below = condition.left.as_numer_denom()
+    terms = Add.make_args((above / abs(above.as_content_primitive()[0])).expand())
+    away = [-term for term in terms if term.could_extract_minus_sign()]
+    if not below.is_positive or not away or len(away) == len(terms):
+        return condition
+    return Relation(Add(*away), "<", Add(*(term for term in terms if -term not in away)))
+
+
+def _root_of(inside: Expr) -> Expr:
+    """sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m)."""
+    drawn = tidied(sqrt(inside))
+    numbers = [f for f in Mul.make_args(drawn) if f.is_number and not f.is_Rational]
+    return sqrt(inside.expand()) if numbers and inside.expand().is_Add else drawn
 
 
 # --- where the slope vanishes ---
@@ -160,7 +177,7 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
         if b == 0:
             inside = lecture_form(-c / a)
             condition = None if sign_known(inside) == 1 else Relation(inside, ">", 0)
-            return [] if sign_known(inside) == -1 else [(sign * tidied(sqrt(inside)), condition) for sign in (1, -1)]
+            return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
         inside = tidied(b**2 - 4 * a * c)
         if sign_known(inside) == -1:
             return []

@@ -56,7 +56,7 @@ def limiting_case(
     return establish(
         "limits.limiting_case",
         name,
-        lambda _: Expansion(value, x, place, power),
+        lambda _: Expansion(_as_written(value, x, place), x, place, power),
         {"quantity": of},
         lines=Lines(
             law=Level.STANDARD,
@@ -76,6 +76,16 @@ def limiting_case(
         ),
         scope=Scope(case_of=of),
     )
+
+
+def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
+    """What is a polynomial already in ascending powers, its leading term in front: 2 pi sqrt(l/g) (1 + A^2/16)."""
+    if place != 0 or value.is_Add or not value.is_polynomial(x):
+        return value
+    try:
+        return in_ascending_powers(expanded(value, x, place, Rational(value.as_poly(x).degree())), x, place)
+    except NoExpansion:
+        return value
 
 
 def _sort_of(place: Expr) -> str:

@@ -15,7 +15,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
-from derive.algebra.expressions import TIME, Relation, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import oscillations
@@ -117,7 +117,7 @@ def _one(
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     counted = {
-        f"counted_{n}": (Relation(q, "=", place[q] + s), Relation(s, "=", q - place[q]))
+        f"counted_{n}": (Relation(q, "=", Terms(place[q], s)), Relation(s, "=", q - place[q]))
         for n, (q, s) in enumerate(away, 1)
     }
     return establish(

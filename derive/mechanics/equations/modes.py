@@ -104,7 +104,10 @@ def _characteristic(
     Source: that of `normal_modes`.
     """
     matrix = ImmutableDenseMatrix((together.stiffness - letter**2 * together.mass).applyfunc(tidied))
+    factored = pencil.factored(letter**2)
     whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
+    if len(linear) == 1 and is_zero(whole + factored):
+        whole = factored  # the sign alone is no step
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
@@ -120,7 +123,7 @@ def _characteristic(
         None,
         lambda *_: Relation(whole, "=", 0),
         {"omega": letter},
-        lines=Lines(put_in=None, arranged=lambda _: Relation(pencil.factored(letter**2), "=", 0)),
+        lines=Lines(put_in=None, arranged=lambda _: Relation(factored, "=", 0)),
         routes={"trial": by_trial},
         outcome="several" if len(linear) > 1 else "one",
         key=f"{start}characteristic_equation",

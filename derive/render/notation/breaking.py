@@ -27,13 +27,13 @@ def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
 
 def _pieces(layout: Layout, room: float) -> list[Layout]:
     """The parts before each of which a line may end."""
-    terms = _terms(layout)
+    terms = terms_of(layout)
     if len(terms) > 1:
         return [piece for term in terms for piece in (_pieces(term, room) if width(term) > room else [term])]
     items = layout.items if isinstance(layout, Row) else (layout,)
     at = max(range(len(items)), key=lambda i: width(items[i]))
     before, widest, after = items[:at], items[at], items[at + 1 :]
-    if isinstance(widest, Fraction) and len(_terms(widest.above)) > 1 and width(widest) > SMALL_PART * room:
+    if isinstance(widest, Fraction) and len(terms_of(widest.above)) > 1 and width(widest) > SMALL_PART * room:
         before, widest = (*before, Fraction(Digits("1"), widest.below)), Fenced(widest.above)
     if not isinstance(widest, Fenced) or widest.kind != "(" or width(widest) <= SMALL_PART * room:
         return [layout]
@@ -43,7 +43,7 @@ def _pieces(layout: Layout, room: float) -> list[Layout]:
     return [row(*before, Operator("open"), first), *others[:-1], row(others[-1], Operator("close"), *after)]
 
 
-def _terms(layout: Layout) -> list[Layout]:
+def terms_of(layout: Layout) -> list[Layout]:
     """The terms of a sum, each with its sign."""
     if not isinstance(layout, Row):
         return [layout]

@@ -70,7 +70,7 @@ from derive.render.notation.layout import (
     layout_of_name,
     row,
 )
-from derive.render.notation.order import ordered_terms, rank_of_factor
+from derive.render.notation.order import holds_rates, ordered_terms, rank_of_factor
 from derive.render.notation.products import (
     between_factors,
     decimal,
@@ -131,7 +131,7 @@ class Notation:
     def _sum(self, expr: Any) -> Layout:
         if isinstance(expr, Add):
             content, rest = expr.primitive()
-            if content != 1 and content.q == 1:
+            if content != 1 and content.q == 1 and not holds_rates(expr):
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
@@ -333,9 +333,16 @@ class Notation:
         return row(*items, *([THIN_SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
 
     def _swing(self, expr: SwingTime) -> Layout:
+        """The constants of f under a root before the sign, and no fraction below the other."""
         f, q, amplitude, _ = expr.args
         sign = IntegralSign(Digits("0"), self.layout(amplitude))
-        return row(sign, Fraction(row(Upright("d"), self.layout(q)), RootSign(self.layout(f))))
+        constant, varying = f.as_independent(q, as_Add=False)
+        above, below = fraction(varying)
+        differential = row(Upright("d"), self.layout(q))
+        before: list[Layout] = [] if constant == 1 else [RootSign(self.layout(1 / constant)), THIN_SPACE]
+        if below == 1:
+            return row(*before, sign, Fraction(differential, RootSign(self.layout(above))))
+        return row(*before, sign, RootSign(self.layout(below / above)), THIN_SPACE, differential)
 
     def _mass_integral(self, expr: ex.MassIntegral) -> Layout:
         return row(IntegralSign(), self._as_factor(expr.args[0]), THIN_SPACE, Upright("d"), Name("m"))

@@ -28,11 +28,12 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 
 
 def plain_first(terms: list[Any]) -> list[Any]:
-    """1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a: fractions behind letters, then roots, then functions."""
+    """1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a: letters, then fractions, roots, functions."""
 
-    def place(term: Any) -> tuple[bool, bool, bool]:
-        functions = any(not isinstance(f, exp) for f in term.atoms(Function))
-        return functions, bool(fraction(term, exact=True)[1].free_symbols), _has_root(term)
+    def place(term: Any) -> tuple[int, bool, bool]:
+        functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
+        changing = any(f.has(ex.TIME) for f in functions)
+        return len(functions[:1]) + changing, bool(fraction(term, exact=True)[1].free_symbols), _has_root(term)
 
     return sorted(terms, key=place)
 
@@ -59,8 +60,13 @@ def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     return sorted(terms, key=place) if rates else terms
 
 
+def holds_rates(expr: Expr) -> bool:
+    return any(s.name.endswith(RATE_ENDS) for s in expr.free_symbols)
+
+
 def _coordinate(letter: Symbol) -> str:
-    return next(letter.name.removesuffix(end) for end in RATE_ENDS if letter.name.endswith(end))
+    name: str = letter.name
+    return next(name.removesuffix(end) for end in RATE_ENDS if name.endswith(end))
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:

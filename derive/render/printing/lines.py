@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 
 from derive.page.document import Answer, Equations
 from derive.page.wording import Inline, Text
-from derive.render.notation.breaking import broken
+from derive.render.notation.breaking import broken, terms_of
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
+from derive.render.notation.text import plain
 
 LINE_WIDTH, ANSWER_WIDTH = 60.0, 70.0  # of a line, and of a boxed result
 LINE_INDENT = 4.0  # of a line that goes on
@@ -37,7 +38,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         if line.left is not None and packed:
             packed.append(Printed(notation.side(line.left), (side,), line.reason))
             continue
-        if last and last.sides[-1][1] == side[1] and line.relation == "equals":
+        if last and _alike(last.sides[-1][1], side[1]) and line.relation == "equals":
             continue  # what is laid out alike is one line to the reader
         room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit
         if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
@@ -48,6 +49,11 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     lines[-1] = replace(lines[-1], number=equations.number)
     return lines
+
+
+def _alike(first: Layout, second: Layout) -> bool:
+    """Whether they read the same, or have the same terms in another order."""
+    return first == second or sorted(map(plain, terms_of(first))) == sorted(map(plain, terms_of(second)))
 
 
 def answer_lines(answer: Answer, notation: Notation, limit: float = ANSWER_WIDTH) -> list[Printed]:

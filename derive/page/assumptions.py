@@ -1,0 +1,43 @@
+"""What is assumed of the letters, as one writes it: 0 < alpha < pi/2, and nothing that follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from sympy import Expr, Integer, Symbol, cos, pi, sin
+
+from derive.algebra.expressions import Relation
+
+MIRRORED = {">": "<", ">=": "<="}
+
+
+def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
+    """Two bounds of a letter in one line; a sine or cosine that its bounds keep from zero is not told."""
+    conditions = list(assumed)
+    below = {r.left: r for r in conditions if r.mark in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number}
+    above = {r.left: r for r in conditions if r.mark in MIRRORED.values() and r.left in below and r.right.is_number}
+    found: list[Any] = []
+    for condition in conditions:
+        letter = condition.left
+        if above.get(letter) == condition or _follows(condition, below, above):
+            continue
+        if below.get(letter) == condition and letter in above:
+            lower = Relation(condition.right, MIRRORED[condition.mark], letter)
+            found.append(Relation(lower, above[letter].mark, above[letter].right))
+        else:
+            found.append(condition)
+    return found
+
+
+def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
+    """sin(alpha) != 0 of 0 < alpha < pi/2."""
+    function = condition.left
+    if condition.mark != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
+        return False
+    (angle,) = function.args
+    if angle not in above:
+        return False
+    lower, upper = (0, pi) if isinstance(function, sin) else (-pi / 2, pi / 2)
+    open_ends = below[angle].mark == ">" and above[angle].mark == "<"
+    return bool(open_ends and below[angle].right >= lower and above[angle].right <= upper)
