@@ -10,11 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.taylor import slope
+from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.constraint import Kept
@@ -291,6 +292,10 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
     def by_virtual_work() -> Relation:
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
 
+    gathered = by_accelerations(explicit(changing.value - force.value), moving)
+    alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
+    left = _without_common_factor(gathered) if alone else gathered
+
     return establish(
         "lagrangian.equation_of_motion",
         None,
@@ -299,9 +304,10 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
         lines=Lines(
             between=[
                 Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL),
+                Form(Relation(gathered, "=", 0), "result"),
             ],
             put_in=None,
-            arranged=lambda relation: Relation(by_accelerations(relation.left, moving), "=", 0),
+            arranged=lambda _: Relation(left, "=", 0),
         ),
         routes={"virtual_work": compared_with(by_virtual_work)},
         outcome="cyclic" if force.value == 0 else "generic",
@@ -310,6 +316,26 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
         parents=[force, momentum, changing],
         facts=[FromLagrangian(of), OfCoordinate(q), matter],
     )
+
+
+def _without_common_factor(left: Expr) -> Expr:
+    """l theta_ddot + g sin(theta) of m l^2 theta_ddot + m g l sin(theta): what is positive in all terms is left out.
+
+    Not numbers where there are brackets, in which others stand.
+    """
+    terms = Add.make_args(left)
+    bracketed = any(f.is_Add for term in terms for f in Mul.make_args(term))
+    factors = Mul.make_args(common_factor(list(terms)))
+    common = Mul(*(f for f in factors if f.is_positive and not (bracketed and f.is_number)))
+    divided = Add(*(_divided(term, common) for term in terms), evaluate=False)
+    return min((divided, left), key=lambda form: int(form.count_ops()))
+
+
+def _divided(term: Expr, common: Expr) -> Expr:
+    """Factor by factor, so that brackets stay."""
+    for factor in Mul.make_args(common):
+        term = term / factor
+    return term
 
 
 def equations_of_motion(of: Quantity) -> tuple[Quantity, ...]:
