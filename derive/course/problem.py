@@ -116,7 +116,8 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     written = written_problem(root, problem_id, faults)
     script_path, script = _script(root, path, written.solve, faults)
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
-    drawings = placements(written.drawings, pinned.symbols, len(written.parts), faults)
+    brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
+    drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
     points = written.points_in_all(faults)
     faults.stop()
     assert written.title is not None

@@ -191,6 +191,31 @@ def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
     return found
 
 
+def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]]:
+    """Pairs of particles on lines of which a constraint keeps the sum of the coordinates: a string joins them."""
+    held = [(each, set(each.coordinates)) for each in system.constraints if not each.in_rates]
+    pairs = [(i, j) for i in tracks for j in tracks if i < j and tracks[i].is_unit and tracks[j].is_unit]
+    return [
+        (i, j)
+        for i, j in pairs
+        if any(
+            moving == {tracks[i].by, tracks[j].by} and vanishes(each.along(tracks[i].by) - each.along(tracks[j].by))
+            for each, moving in held
+        )
+    ]
+
+
+def kept_length(system: System, length: Expr) -> Expr | None:
+    """What a constraint keeps a distance at: R of r - R = 0."""
+    for each in system.constraints:
+        if not each.in_rates and set(each.coordinates) == {length}:
+            share = each.along(length)
+            found = tidied(length - each.residual / share) if share.is_number else length
+            if not moving_in(system, found):
+                return found
+    return None
+
+
 def _way_from_foot(track: Track) -> float:
     """How far along its line a particle is from the foot, with every letter one and the coordinate a half."""
     along = Add(*(a * b for a, b in _pairs(track.start, track.way))) + track.by

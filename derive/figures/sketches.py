@@ -11,16 +11,24 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
-from sympy import ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi
+from sympy import ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
 
-from derive.algebra.expressions import explicit, scalar
+from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import ConnectionMark, ParticleMark, SpringMark
 from derive.figures.placed_bodies import placed_marks
 from derive.figures.positions import column_of
-from derive.figures.recognition import angle_of_link, is_fixed, is_spring, link_to, moving_in, same
+from derive.figures.recognition import (
+    angle_of_link,
+    is_fixed,
+    is_spring,
+    kept_length,
+    link_to,
+    moving_in,
+    same,
+)
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FixedEnd, GravityMark, WayMark
@@ -33,6 +41,7 @@ __all__ = ["sketch"]
 ZERO = Integer(0)
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
 ECCENTRICITY = Rational(1, 2)
+BROADSIDE = Rational(23, 36) * pi  # across the usual way of looking
 
 
 def sketch(key: str, system: System, *more: Marks, values: Mapping[Any, Any] | None = None) -> Drawing:
@@ -61,7 +70,19 @@ class _Scene:
 
     @property
     def values(self) -> Mapping[Symbol, Any]:
-        return self.sliding.values if self.sliding else {}
+        found = dict(self.sliding.values) if self.sliding else {}
+        for link in self.links.values():
+            if (radius := kept_length(self.system, link.length)) is not None:
+                found[link.length] = radius
+        return {**found, **self._carried_round()}
+
+    def _carried_round(self) -> Mapping[Symbol, Any]:
+        """What turns about the vertical at a given rate is drawn when its plane is that of the paper."""
+        if self.rows != 3 or len(self.system.particles) != 1:
+            return {}
+        angles = {f.args[0] for c in self.system.particles[0].at.components for f in c.atoms(sin, cos)}
+        rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
+        return {TIME: BROADSIDE / rates[0]} if len(rates) == 1 and not rates[0].has(TIME) else {}
 
     @cached_property
     def marks(self) -> list[Mark]:

@@ -25,7 +25,17 @@ from derive.figures.parts import (
     WheelMark,
 )  # fmt: skip
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, Track, carrier_of, is_fixed, moving_in, ropes_of, same, track_of
+from derive.figures.recognition import (
+    Link,
+    Track,
+    carrier_of,
+    is_fixed,
+    moving_in,
+    ropes_of,
+    same,
+    strings_of,
+    track_of,
+)
 from derive.figures.surroundings import ROOM, AngleBetween, DistanceMark, FixedEnd, FloorMark
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import System
@@ -44,6 +54,7 @@ class Sliding:
         self.carriers = {i: carrier_of(system, i, track) for i, track in tracks.items()}
         self.tracks = {i: track for i, track in tracks.items() if self._is_held(track, self.carriers[i])}
         self.ropes = ropes_of({i: track for i, track in self.tracks.items() if is_fixed(system, track.start)})
+        self.strings = strings_of(system, {i: t for i, t in self.tracks.items() if is_fixed(system, t.start)})
         self.moved = self._moved_apart()
 
     def marks(self) -> Iterable[Mark]:
@@ -54,7 +65,7 @@ class Sliding:
         for i, track in self.tracks.items():
             if i not in slopes:
                 yield from self._on_line(i, track, i in wedges)
-        for pair in self.ropes:
+        for pair in (*self.ropes, *self.strings):
             yield from self._rope(*pair)
 
     def _is_held(self, track: Track, carrier: int | None) -> bool:
@@ -86,7 +97,7 @@ class Sliding:
 
     def _free_side(self, i: int) -> int:
         """Of what hangs: the side on which nothing hangs or lies at the other end of its string."""
-        other = next((k for pair in self.ropes if i in pair for k in pair if k != i), None)
+        other = next((k for pair in (*self.ropes, *self.strings) if i in pair for k in pair if k != i), None)
         return 1 if other is not None and self._numeric((self._at(other) - self._at(i)).components[0]) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
@@ -102,7 +113,7 @@ class Sliding:
         above = [self.system.particles[k].at for k in alike]
         above += [t.start for k, t in alike.items() if self._is_measured(k)]
         walls = self._walls_at(track)
-        corners = [alike[k].foot for k in alike for pair in self.ropes if k in pair]
+        corners = [alike[k].foot for k in alike for pair in (*self.ropes, *self.strings) if k in pair]
         left, right = ROOM, ROOM
         if walls or corners:
             at = self.system.particles[i].at.components[0]
@@ -176,7 +187,7 @@ class Sliding:
             yield CornerRopeMark(a, column_of(one), b, (lifts[0], lifts[1]))
             return
         middle, radius = Rational(1, 2) * (one + other), abs(tidied((other - one).components[0] / 2))
-        wheel = WheelMark(column_of(middle), radius, label=radius if not self.moved else None)
+        wheel = WheelMark(column_of(middle), radius, label=radius if radius.is_Symbol and not self.moved else None)
         top = column_of(middle + Location((ZERO, Rational(9, 5) * radius)))
         yield RopeMark((a, wheel.centre, b), (ZERO, radius, ZERO))
         yield from (wheel, BarMark(wheel.centre, top), FixedEnd(top, ImmutableDenseMatrix([0, -1])))

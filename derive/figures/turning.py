@@ -14,7 +14,7 @@ from derive.figures.elements import CLEAR
 from derive.figures.marks import Mark
 from derive.figures.parts import COIL, BarMark, ConnectionMark, ParticleMark
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, angle_of_link, is_spring, moving_in, same
+from derive.figures.recognition import Link, angle_of_link, is_spring, kept_length, moving_in, same
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, WayMark
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import System
@@ -42,11 +42,17 @@ def turning_marks(system: System, link: Link, mass: Any) -> Iterable[Mark]:
         up = ImmutableDenseMatrix([-link.way.components[1], link.way.components[0]]) if rows == 2 else None
         yield DistanceMark(start, end, up, COIL + CLEAR, label=link.length)
     else:
+        if (radius := kept_length(system, link.length)) is not None and around:
+            yield WayMark(column_of(bound_place(link.end, link.length, radius)), around[0], -pi, pi, "wire")
         if TIME in moving and link.length.is_Symbol:
             yield WayMark(end, link.length, ZERO, Rational(3, 2) * link.length, "wire")
         yield ConnectionMark(start, end, label=link.length)
         if not any(same(link.start, place) for each in system.between for place in (each.start, each.end)):
             yield PointMark(start)
+
+
+def bound_place(place: Location, letter: Expr, value: Expr) -> Location:
+    return Location(tuple(c.xreplace({letter: value}) for c in place.components))
 
 
 def downwards(rows: int) -> ImmutableDenseMatrix:

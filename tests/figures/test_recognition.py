@@ -10,13 +10,15 @@ from derive.figures.recognition import (
     carrier_of,
     is_fixed,
     is_spring,
+    kept_length,
     link_to,
     moving_in,
     ropes_of,
     same,
+    strings_of,
     track_of,
 )  # fmt: skip
-from derive.mechanics import Particle, System, central, coordinate, point, spring
+from derive.mechanics import Particle, System, central, constraint, coordinate, point, spring
 from derive.steps.record import recorded
 from tests.figures.machines import ORIGIN, SYSTEMS, R, a, alpha, h, hung, k, l, l1, l2, letter, m, omega
 
@@ -148,3 +150,22 @@ def test_what_contains_the_time_moves() -> None:
     system = SYSTEMS["driven"]
     assert {letter.name for letter in moving_in(system, *system.particles[0].at.components)} == {"t", "theta"}
     assert is_fixed(system, point(a, omega))
+
+
+def test_a_constraint_on_the_sum_of_two_lengths_is_a_string() -> None:
+    with recorded():
+        x, y = coordinate("x", "length"), coordinate("y", "length")
+        hanging = Particle(m, point(-a, -x)), Particle(k, point(a, -y))
+        tracks = {i: track for i, each in enumerate(hanging) if (track := track_of(System(*hanging), each.at))}
+        assert strings_of(System(*hanging, constraint(x + y, l)), tracks) == [(0, 1)]
+        assert strings_of(System(*hanging, constraint(x - y, l)), tracks) == []
+        assert strings_of(System(*hanging), tracks) == []
+
+
+def test_a_distance_that_is_kept_is_the_radius_of_a_circle() -> None:
+    with recorded():
+        r, theta = coordinate("r", "positive length"), coordinate("theta")
+        bead = Particle(m, point(r * sin(theta), r * cos(theta)))
+        assert kept_length(System(bead, constraint(R - r)), r.symbol) == R
+        assert kept_length(System(bead, constraint(r, 2 * a)), r.symbol) == 2 * a
+        assert kept_length(System(bead), r.symbol) is None

@@ -117,7 +117,7 @@ def _one(
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     counted = {
-        f"counted_{n}": (Relation(q, "=", Terms(place[q], s)), Relation(s, "=", q - place[q]))
+        f"counted_{n}": (Relation(q, "=", Terms(*Add.make_args(place[q]), s)), Relation(s, "=", q - place[q]))
         for n, (q, s) in enumerate(away, 1)
     }
     return establish(

@@ -135,6 +135,12 @@ def multipliers(*equations: Quantity) -> tuple[Quantity, ...]:
     return tuple(_multiplier(problem, each, rates) for each in problem.constraints)
 
 
+def _not_all_negative(left: Expr) -> Expr:
+    """x_ddot + y_ddot = 0, not -x_ddot - y_ddot = 0."""
+    terms = Add.make_args(left)
+    return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
+
+
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
     """A constraint differentiated until accelerations stand in it, d^2 f/dt^2 = 0.
 
@@ -165,7 +171,9 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         lines=Lines(
             put_in=None,
             law=Level.FULL,
-            arranged=lambda found: Relation(by_accelerations(explicit(found.left), moving), "=", ZERO),
+            arranged=lambda found: Relation(
+                _not_all_negative(by_accelerations(explicit(found.left), moving)), "=", ZERO
+            ),
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "in_coordinates",

@@ -131,6 +131,8 @@ def _with_words(svg: str, alt: str) -> str:
 
 def _bounds(pieces: Sequence[Piece], labels: Sequence[Placed]) -> tuple[float, float, float, float]:
     spots = [spot for piece in pieces if not isinstance(piece, Tag) for spot in piece.spots]
+    discs = [piece for piece in pieces if isinstance(piece, Bullet)]
+    spots += [(disc.spot[0] + s * disc.size, disc.spot[1] + s * disc.size) for disc in discs for s in (-1, 1)]
     spots += [spot for label in labels for spot in (label.extent[:2], label.extent[2:])]
     left, right = (choice(spot[0] for spot in spots) for choice in (min, max))
     below, above = (choice(spot[1] for spot in spots) for choice in (min, max))

@@ -6,12 +6,14 @@ from dataclasses import replace
 
 from derive.figures.marks import LAST, SPACE, Drawing, Mark, Surface
 from derive.figures.pieces import Piece, Tag
-from derive.figures.space import NOUGHT, dot, mean, plus, size_of
+from derive.figures.space import NOUGHT, Spot, dot, mean, plus, size_of
+from derive.figures.surroundings import ARROW
 from derive.render.drawing.camera import Numbers, best_stance
 from derive.render.drawing.hidden_lines import OnPaper
 
 POINTS_PER_CM = 72 / 2.54
 TRIES = 12  # to find the scale
+LABEL = 8.0  # points: about how wide a letter is
 SMALLEST = 15.0  # points, where parts of a fixed size leave no room
 
 
@@ -38,6 +40,12 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
     return OnPaper(numbers, best_stance(drawing, numbers), 60 / reach, reach, middle, tuple(fixed))
 
 
+def _labels_at_the_top(pieces: list[Piece], top: float) -> list[Spot]:
+    """Where labels to the right of what is highest end, which the arrow of gravity stands beside."""
+    tags = [p for p in pieces if isinstance(p, Tag) and p.label is not None and p.towards[0] > 0 and p.way is None]
+    return [(tag.spot[0] + tag.gap + LABEL, tag.spot[1]) for tag in tags if tag.spot[1] > top - ARROW]
+
+
 def _pieces(drawing: Drawing, paper: OnPaper) -> list[Piece]:
     def before(mark: Mark) -> tuple[int, float]:
         if not isinstance(mark, Surface) or drawing.view != SPACE:
@@ -47,6 +55,6 @@ def _pieces(drawing: Drawing, paper: OnPaper) -> list[Piece]:
     ordered = sorted(drawing.marks, key=before)
     pieces = [piece for mark in ordered if mark.layer < LAST for piece in mark.pieces(paper)]
     if drawn := tuple(spot for piece in pieces for spot in piece.spots):
-        paper = replace(paper, drawn=drawn)
+        paper = replace(paper, drawn=(*drawn, *_labels_at_the_top(pieces, max(y for _, y in drawn))))
     pieces += [piece for mark in ordered if mark.layer >= LAST for piece in mark.pieces(paper)]
     return [piece for piece in pieces if not (isinstance(piece, Tag) and piece.label is None)]
