@@ -29,7 +29,7 @@ from derive.figures.parts import (
     WedgeMark,
     WheelMark,
 )  # fmt: skip
-from derive.figures.positions import SIDES, name_of, towards, vector_of, vectors_of
+from derive.figures.positions import SIDES, name_of, towards, value_and_keys, vector_of, vectors_of
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GravityMark, GroundMark, WayMark
 from derive.mechanics.systems.coordinates import Coordinate
 
@@ -197,7 +197,8 @@ def length_mark(start: Any, end: Any, label: Any, aside: Any = None, past: Any =
     (a, b), keys = vectors_of(start, end)
     side = None if aside is None else _way(aside, a.rows)
     off = CLEAR + max(past.usual) / 2 if isinstance(past, BlockMark) else ASIDE
-    return DistanceMark(a, b, side, off, label=name_of(None, label), keys=keys)
+    _, own = value_and_keys(label)
+    return DistanceMark(a, b, side, off, label=name_of(None, label), keys=keys + own)
 
 
 def way(

@@ -1,6 +1,6 @@
-"""Whole scenes of mechanics: a top that leans on its pivot, a slab rolled on a cylinder.
+"""A whole scene of mechanics: a top that leans on its pivot.
 
-Each is a list of marks for `drawing()`, so that a script can add its own marks to it.
+It is a list of marks for `drawing()`, so that a script can add its own marks to it.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from typing import Any
 from sympy import Add, Expr, Rational, Symbol, cos, pi, sin
 
 from derive.algebra.expressions import column, scalar
-from derive.figures.annotations import AngleMark, Arrow, Axis, LengthMark, Line, PointMark, Support, Turn
-from derive.figures.bodies import ORIGIN, Y, Z, in_units, is_line, round_outline
+from derive.figures.annotations import AngleMark, Arrow, Axis, Line, PointMark, Support, Turn
+from derive.figures.bodies import ORIGIN, Z, in_units, is_line, round_outline
 from derive.figures.marks import Mark
-from derive.figures.surfaces import Circle, Polyhedron, ThinRod
+from derive.figures.surfaces import ThinRod
 from derive.mechanics.rotation.composite import Composed, Part
 from derive.steps.step import Quantity
 
-__all__ = ["leaning_top", "slab_on_cylinder"]
+__all__ = ["leaning_top"]
 
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
 
@@ -90,42 +90,3 @@ def _weight(weight: Any, body: Composed, e: Any) -> list[Mark]:
         moments = [part.body.mass * part.at for part in body.parts]
         centre = (Add(*moments) / Add(*masses)).cancel() * e
     return [PointMark(centre, keys=keys), Arrow(centre, -Z, Rational(1, 2), False, label=name, keys=keys)]
-
-
-def slab_on_cylinder(
-    radius: Expr, thickness: Expr, angle: Expr, centre: Any = None, weight: Any = None, half_length: Expr | None = None
-) -> list[Mark]:
-    """A slab rolled on a fixed cylinder, seen along its axis: x to the right, y upwards, angles clockwise.
-
-    radius        of the cylinder; its axis is the origin O
-    thickness     of the slab
-    angle         by which it has turned, positive to the right; balanced on top at zero
-    centre        the two quantities (x, y) that say where its centre is: drawn with the contact and how far it moved
-    weight        name of the weight, which acts in the centre
-    half_length   of the slab, as drawn; one and a half radii and half its thickness if it is left out
-    """
-    reach = half_length if half_length is not None else Rational(3, 2) * radius + thickness / 2
-    along, across = column(cos(angle), -sin(angle), 0), column(sin(angle), cos(angle), 0)
-    contact = radius * across
-    foot = contact - radius * angle * along  # the point of the face under the centre, R q behind the contact
-    corners = [foot + s * reach * along + h * across for s, h in ((-1, 0), (1, 0), (1, thickness), (-1, thickness))]
-    marks: list[Mark] = [
-        Circle(ORIGIN, Z, radius, True),
-        Polyhedron(tuple(corners)),
-        Line(ORIGIN, Rational(13, 10) * radius * Y + thickness * Y, "construction"),
-        Line(ORIGIN, contact, "construction", label=radius),
-        PointMark(ORIGIN, label=Symbol("O", real=True)),
-        AngleMark(ORIGIN, Y, across, Rational(2, 5) * radius, label=angle),
-        LengthMark(corners[1], corners[2], along, label=thickness),
-    ]
-    if centre is None:
-        return marks
-    place, keys = column(centre[0].value, centre[1].value, 0), tuple(quantity.key for quantity in centre)
-    marks += [
-        Line(foot, foot + thickness * across, "hidden"),
-        Line(contact, contact + thickness * across, "hidden"),
-        PointMark(contact, label=Symbol("P", real=True)),
-        PointMark(place, label=Symbol("C", real=True), keys=keys),
-        LengthMark(foot + thickness * across, contact + thickness * across, across, label=radius * angle),
-    ]
-    return marks if weight is None else [*marks, Arrow(place, -Y, Rational(1, 4), False, label=weight, keys=keys)]

@@ -19,7 +19,7 @@ from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, moving_in, track_of
 from derive.figures.space import Vector, hull
 from derive.figures.surfaces import Polyhedron
-from derive.figures.surroundings import AngleBetween, FixedEnd, GroundMark
+from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
@@ -105,20 +105,26 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
 
 def placed_outline(placed: Any) -> list[Mark]:
     """What is seen of a body at its place; nothing of one of which only the mass and the moments are known."""
-    body = placed.body
+    body = getattr(placed.body, "look", None) or placed.body
     words: dict[str, Any] = {
         "name": getattr(body, "seen_as", "") or getattr(body, "name", ""),
-        "measures": _measures(body),
+        "measures": _measures(body) if body is placed.body else (),
     }
+    # A shape that stands for a body has its middle where that has its centre of mass.
+    reference = placed.point.position
+    if body is not placed.body:
+        reference = reference - placed.body.middle.position + body.middle.position
 
     def at(x: Expr | int, y: Expr | int, z: Expr | int) -> ImmutableDenseMatrix:
         """Where a point of the body is."""
-        own = ImmutableDenseMatrix(column(x, y, z) - placed.point.position)
+        own = ImmutableDenseMatrix(column(x, y, z) - reference)
         return column_of(placed.at + placed.seen_in_space(own))
 
     if isinstance(body, EdgedBody):
         corners = tuple(at(*corner) for corner in body.corners)
-        return [Polyhedron(corners, body.faces, **words) if len(corners[0]) == 3 else SilhouetteMark(corners, **words)]
+        if len(corners[0]) == 3:
+            return [Polyhedron(corners, body.faces, **words)]
+        return [SilhouetteMark(corners, **words), *_sides(body, corners)]
     if not isinstance(body, RoundBody):
         return []
     (lower, upper), origin = body.ends, at(0, 0, 0)
@@ -133,6 +139,14 @@ def placed_outline(placed: Any) -> list[Mark]:
     sides = [(side * body.radius_at(z), z) for z in heights for side in (-1, 1)]
     corners = tuple(at(0, r, z) if placed.across == 0 else at(r, 0, z) for r, z in sides)
     return [SilhouetteMark(corners, **words)]
+
+
+def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
+    """The lengths of a flat figure that are letters, or multiples of one, each beside one edge."""
+    for length, edges in body.edges if len(corners) <= 4 else ():
+        if length.as_coeff_Mul()[1].is_Symbol:
+            start, end = (corners[i] for i in edges[-1])
+            yield DistanceMark(start, end, label=length)
 
 
 def _measures(body: Any) -> tuple[tuple[str, Any], ...]:

@@ -134,6 +134,15 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     return abs(one - other) > 1e-9 * (1 + abs(one))
 
 
+def link_from_fixed(system: System, end: Location) -> Link | None:
+    """The way to a moving place from one at rest from which its distance is constant."""
+    for start in (_without(end, q) for q in moving_in(system, *end.components)):
+        link = _link(system, start, end) if start is not None and is_fixed(system, start) else None
+        if link is not None and link.is_constant:
+            return link
+    return None
+
+
 # --- angles ----------------------------------------------------------------------------------------------------------
 
 

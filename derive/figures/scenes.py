@@ -106,8 +106,8 @@ def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, as
     label    its name, if it is not the quantity's own
     asked    whether it is what the problem asks for, and so drawn strongly
     """
-    (value, own), (start, others) = vector_of(vector), vector_of(at)
-    return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others)
+    (value, own), (start, others), (_, named) = vector_of(vector), vector_of(at), value_and_keys(label)
+    return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others + named)
 
 
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:

@@ -16,6 +16,7 @@ from sympy import ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis
+from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import ConnectionMark, ParticleMark, SpringMark
 from derive.figures.placed_bodies import placed_marks
@@ -91,6 +92,7 @@ class _Scene:
     def _all(self) -> Iterable[Mark]:
         for each in self.system.between:
             yield from self._between(each)
+        yield from contact_marks(self.system)
         for placed in getattr(self.system, "bodies", ()):
             yield from placed_marks(self.system, placed)
         for i, link in self.links.items():

@@ -49,7 +49,6 @@ from derive.mechanics.rotation.vectors import *
 from derive.mechanics.systems.brackets import *
 from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraint import *
-from derive.mechanics.systems.constraints import *
 from derive.mechanics.systems.coordinates import *
 from derive.mechanics.systems.cyclic import *
 from derive.mechanics.systems.effective import *
@@ -58,12 +57,12 @@ from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
 from derive.mechanics.systems.lagrangian import *
+from derive.mechanics.systems.located import *
 from derive.mechanics.systems.no_slip import *
 from derive.mechanics.systems.phase_space import *
 from derive.mechanics.systems.places import *
 from derive.mechanics.systems.reactions import *
 from derive.mechanics.systems.rigid import *
-from derive.mechanics.systems.rolling import *
 from derive.mechanics.systems.symmetry import *
 from derive.mechanics.systems.system import *
 from derive.mechanics.tops.precession import *

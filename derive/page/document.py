@@ -248,6 +248,8 @@ class _Writer:
     def _page_names(self) -> dict[str, Any]:
         described = self.problem.described.letters if self.problem.described else {}
         names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
+        coordinates = (q for step in self.derivation.steps for q, _ in step.coordinates)
+        names.update({q.name: (Math(q),) for q in coordinates})
         names.update({step.key: name_of(step) for step in self.derivation.steps})
         for given in self.problem.givens:
             names[given.name] = given_words(given, self.problem.measured, self.words)

@@ -9,12 +9,27 @@ from typing import Any
 from sympy import Symbol, symbols
 
 from derive.algebra.expressions import column
-from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline, point_mark, slab_on_cylinder
+from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline, point_mark, sketch
 from derive.figures.marks import Drawing, Mark
 from derive.figures.pieces import Piece, Stroke
-from derive.mechanics import Composed, Cone, Coordinate, Cuboid, Disc, Part, Rod, rolled_centre
+from derive.mechanics import (
+    Composed,
+    Cone,
+    Cuboid,
+    Disc,
+    Part,
+    Plate,
+    RigidBody,
+    Rod,
+    System,
+    coordinate,
+    no_slip,
+    point,
+    weight,
+)
 from derive.render.drawing.camera import Numbers
 from derive.render.drawing.picture import picture
+from derive.steps.record import recorded
 from tests.mechanics.block import M, a, known_block, omega
 
 R, h = symbols("R h", positive=True)
@@ -42,9 +57,18 @@ def leaning(tilt: Any = theta, **names: Any) -> list[Mark]:
     return leaning_top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
 
 
-SLAB = drawing(
-    "slab", slab_on_cylinder(R, a, theta, rolled_centre(R, a / 2, Coordinate(theta, "angle")), M), view="plane"
-)
+def slab(inertia: Any = None) -> Drawing:
+    """A slab that rolls on a cylinder: a plate, or a body of which only a moment is known, drawn as one."""
+    with recorded():
+        angle, way = coordinate("theta"), coordinate("s", "length")
+        plate = Plate((3 * R + a, a), M)
+        body = plate if inertia is None else RigidBody(M, inertia).drawn_as(plate)
+        rolled = body.placed(-angle, point(-way, R + a / 2).turned(-angle))
+        rolling = no_slip(rolled, at=point(0, R).turned(-angle), fixes=way)
+        return sketch("slab", System(rolled, rolling, weight(a)))
+
+
+SLAB = slab()
 SCENES = [
     vectors_of_block(),
     vectors_of_block(axis=(1, 1, 0)),

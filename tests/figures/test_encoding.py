@@ -7,11 +7,11 @@ import json
 import pytest
 
 from derive.algebra.expressions import column
-from derive.figures import drawing, outline, plot, point_mark, slab_on_cylinder
+from derive.figures import drawing, outline, plot, point_mark
 from derive.figures.annotations import PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Drawing
-from tests.figures.scenery import CONE, M, R, a, h, leaning, theta, vectors_of_block
+from tests.figures.scenery import CONE, SLAB, M, a, h, leaning, theta, vectors_of_block
 from tests.mechanics.block import known_block
 
 
@@ -20,7 +20,7 @@ def test_drawings_go_to_json_and_back_unchanged() -> None:
         vectors_of_block(),
         drawing("cone", outline(CONE), point_mark(column(0, 0, h / 4), "C")),
         drawing("top", leaning(precession=theta, spin=theta, weight=M)),
-        drawing("slab", slab_on_cylinder(R, a, theta), view="plane"),
+        SLAB,
         plot("torque", known_block()["magnitude"], a, (1, 2), of="length"),
     ]
     assert list(drawings_from_data(json.loads(json.dumps(drawings_to_data(scenes))))) == scenes

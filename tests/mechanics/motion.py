@@ -9,17 +9,21 @@ from sympy import Integer, symbols
 from derive.algebra.expressions import scalar
 from derive.mechanics import (
     Coordinate,
+    Particle,
+    RigidBody,
+    System,
     coordinate,
     equation_of_motion,
     frequency,
     frequency_squared,
     lagrangian,
     linearised,
-    plane_kinetic_energy,
-    rate_of,
-    weight_energy,
+    point,
+    potential_energy_of,
+    weight,
 )
 from derive.steps.establish import Scope, establish
+from derive.steps.record import coordinate_named, recorded
 from derive.steps.step import Quantity
 
 m, l, g, b = symbols("m l g b", positive=True)
@@ -43,18 +47,29 @@ def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "lengt
     )
 
 
-def energies(
+def of_system(
     x: Any, y: Any, *coordinates: Coordinate, inertia: Any = ZERO, turning: Coordinate | None = None
-) -> tuple[Quantity, Quantity]:
-    """Kinetic and potential energy of a body of mass m whose centre is at (x, y)."""
-    place = position("X", x, *coordinates), position("Y", y, *coordinates)
-    moving = plane_kinetic_energy(m, [rate_of(part) for part in place], place, inertia, turning)
-    return moving, weight_energy(m, g, place)
+) -> Quantity:
+    """The Lagrangian of a body of mass m whose centre is at (x, y)."""
+    with recorded():
+        for q in (*coordinates, *([turning] if turning else [])):
+            coordinate_named(q.symbol, q.kind)
+        at = point(Integer(0) + x, Integer(0) + y)
+        moving = Particle(m, at) if turning is None else RigidBody(m, inertia).placed(turning.symbol, at)
+        return lagrangian(System(moving, weight(g)))
+
+
+def potential(x: Any, y: Any, *coordinates: Coordinate) -> Quantity:
+    """The potential energy of a particle of mass m at (x, y)."""
+    with recorded():
+        for q in coordinates:
+            coordinate_named(q.symbol, q.kind)
+        return potential_energy_of(System(Particle(m, point(Integer(0) + x, Integer(0) + y)), weight(g)))
 
 
 def motion(x: Any, y: Any, q: Coordinate, **named: Any) -> Quantity:
     """The equation of motion of q."""
-    return equation_of_motion(lagrangian(*energies(x, y, q, **named)), q)
+    return equation_of_motion(of_system(x, y, q, **named), q)
 
 
 def small_oscillations(x: Any, y: Any, q: Coordinate, at: Any = None, **named: Any) -> Quantity:

@@ -6,8 +6,9 @@ from functools import cache
 from types import SimpleNamespace
 from typing import Any
 
-from sympy import symbols
+from sympy import cos, sin, symbols
 
+from derive.steps.record import recorded
 from derive.steps.step import Quantity
 from tests.mechanics.block import with_what_they_rest_on
 from tests.mechanics.verbs import verbs_as_imported
@@ -19,25 +20,37 @@ def slab_derivation(
     verbs: SimpleNamespace, radius: Any = R, thickness: Any = a, mass: Any = M, inertia: Any = I, gravity: Any = g
 ) -> dict[str, Quantity]:
     """Every quantity of the slab, by key; where no letter decides the stability there is no bound."""
-    theta = verbs.coordinate("theta")
-    x, y = verbs.rolled_centre(radius, thickness / 2, theta)
-    T = verbs.plane_kinetic_energy(mass, (verbs.rate_of(x), verbs.rate_of(y)), (x, y), inertia, theta)
-    U = verbs.weight_energy(mass, gravity, (x, y))
-    L = verbs.lagrangian(T, U)
+    with recorded():
+        return _derived(verbs, radius, thickness, mass, inertia, gravity)
+
+
+def _derived(
+    verbs: SimpleNamespace, radius: Any, thickness: Any, mass: Any, inertia: Any, gravity: Any
+) -> dict[str, Quantity]:
+    theta, s, x, y = verbs.coordinate("theta"), *(verbs.coordinate(name, "length") for name in "sxy")
+    slab = verbs.RigidBody(mass, inertia)
+    rolled = slab.placed(-theta, verbs.point(-s, radius + thickness / 2).turned(-theta))
+    centre = verbs.components(rolled, verbs.no_slip(rolled, at=verbs.point(0, radius).turned(-theta), fixes=s))
+    system = verbs.System(slab.placed(-theta, verbs.point(*centre)), verbs.weight(gravity))
+    L, U = verbs.lagrangian(system), verbs.potential_energy_of(system)
     motion = verbs.equation_of_motion(L, theta)
     squared = verbs.frequency_squared(verbs.linearised(motion))
-    stable = verbs.positive_where(squared, radius, key="stability")
-    minimum = verbs.positive_where(verbs.curvature_at(verbs.slope(U, 2)), radius, key="minimum")
-    balanced = verbs.leading_order(U, where=verbs.boundary_case(minimum))
+    stable = verbs.where(squared, ">", 0, radius, key="stability")
+    curvature = verbs.stability(U, {theta: 0}, letter=radius, key="curvature")
+    minimum = verbs.where(curvature, ">", 0, radius, key="minimum")
 
-    free_x, free_y = verbs.coordinate("x", "length"), verbs.coordinate("y", "length")
-    ties = (verbs.tie(free_x, x), verbs.tie(free_y, y))
-    free = verbs.free_lagrangian(mass, gravity, inertia, (free_x, free_y), theta)
-    equations = [verbs.equation_with_multipliers(free, q, ties) for q in (free_x, free_y, theta)]
-    forces = tuple(verbs.force_of_constraint(equation, t) for equation, t in zip(equations, ties, strict=False))
-    again = verbs.multipliers_eliminated(equations[2], forces, motion)
-    contact = verbs.contact_forces(forces, (x, y), theta, motion)
-    answers = [motion, verbs.frequency(squared), stable, verbs.slope(U), minimum, balanced, again, *contact]
+    kept = [verbs.constraint(q, at.value, force=f"lambda_{at.key}") for q, at in zip((x, y), centre, strict=True)]
+    free = verbs.System(slab.placed(-theta, verbs.point(x, y)), verbs.weight(gravity), *kept)
+    L_free = verbs.lagrangian(free, symbol="L_free", key="free_lagrangian")
+    equations = verbs.equations_of_motion(L_free, derivatives=False)
+    forces = verbs.multipliers(*equations, keeping=[theta])
+    again = verbs.put_in(equations[0], *forces, again=motion, key="multipliers_eliminated")
+    across, along = ({x: e[0], y: e[1]} for e in ((sin(theta), cos(theta)), (cos(theta), -sin(theta))))
+    contact = [
+        verbs.constraint_force(forces, across, "N", "normal_force"),
+        verbs.constraint_force(forces, along, "F", "tangent_force"),
+    ]
+    answers = [motion, verbs.frequency(squared), stable, minimum, verbs.leading_order(curvature), again, *contact]
     return with_what_they_rest_on(answers)
 
 

@@ -12,10 +12,10 @@ from sympy import Derivative, Expr, Function, Integer, Matrix, Symbol, cos, exp,
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TimeRate, explicit, rate, scalar
 from derive.errors import Rejected
-from derive.mechanics import equation_of_motion, lagrangian, rate_of, slope
+from derive.mechanics import equation_of_motion, rate_of, slope
 from derive.mechanics.systems.coordinates import T as time
 from derive.mechanics.systems.coordinates import by_functions_of_time, changing, kind_of_rate, letters_of, unchanging
-from tests.mechanics.motion import THETA, X, energies, position
+from tests.mechanics.motion import THETA, X, of_system, position
 from tests.mechanics.slab import known_slab
 
 q, q_dot, q_ddot = THETA.symbol, THETA.rate, THETA.acceleration
@@ -107,7 +107,7 @@ def test_a_rate_is_named_for_its_quantity_and_has_the_kind_of_a_rate() -> None:
 
 
 def test_what_has_no_letter_takes_no_dot() -> None:
-    L = lagrangian(*energies(c * sin(q), -c * cos(q), THETA))
+    L = of_system(c * sin(q), -c * cos(q), THETA)
     with pytest.raises(Rejected, match="`equation_of_motion` has no letter that could take a dot"):
         rate_of(equation_of_motion(L, THETA))
     with pytest.raises(Rejected, match="`frequency_squared` has no letter"):

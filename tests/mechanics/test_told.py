@@ -42,17 +42,6 @@ def cylindrical(**changed: Any) -> Judged:
     return Judged(pi * R**2 * h / 3, told | changed, subject=Subject(body=Cone()), words={"start": "apex"})
 
 
-def rolled(**changed: Any) -> Judged:
-    told = {"angle": q, "arc": R * q, "above": R + a} | changed
-    return Judged((R + a) * sin(q) - R * q * cos(q), told)
-
-
-def test_the_arc_of_a_rolling_body_is_judged_by_where_its_centre_is() -> None:
-    assert told_rightly("rolling.rolled_centre", "across", rolled())
-    assert not told_rightly("rolling.rolled_centre", "across", rolled(arc=-R * q))
-    assert not told_rightly("rolling.rolled_centre", "across", rolled(arc=R + a, above=R * q))
-
-
 @pytest.mark.parametrize(
     "wrong",
     [{"x_is": -r * cos(theta)}, {"y_is": r}, {"x_is": r * sin(theta), "y_is": r * cos(theta)}, {"edge": 0 * r}],
@@ -68,14 +57,6 @@ def test_two_roles_of_a_rotation_cannot_be_exchanged() -> None:
     other = {"inertia": found["spin"], "omega": found["inertia_tensor"]}
     assert told_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=roles))
     assert not told_rightly("rotation.angular_momentum", "generic", Judged(Integer(1), quantities=other))
-
-
-def test_each_free_coordinate_has_its_own_inertia_and_weight() -> None:
-    L = m * (rate(x) ** 2 + rate(y) ** 2) / 2 + a * rate(q) ** 2 / 2 - m * g * y
-    told = {"mass": m, "gravity": g, "inertia": a, "x": x, "y": y, "q": q}
-    assert told_rightly("constraints.free_lagrangian", "generic", Judged(L, told))
-    assert not told_rightly("constraints.free_lagrangian", "generic", Judged(L, told | {"x": y, "y": x}))
-    assert not told_rightly("constraints.free_lagrangian", "generic", Judged(L, told | {"y": q, "q": y}))
 
 
 @pytest.mark.parametrize(("named", "right"), [("centre", True), ("corner", False)])
@@ -96,15 +77,6 @@ def test_a_strict_condition_is_said_to_be_strict(mark: str, strictly: str, right
     for turned in (mark, mark.replace(">", "<")):
         facts = Judged(Relation(R, turned, a), words={"strictly": strictly})
         assert told_rightly("conditions.positive_where", "conditional", facts) is right
-
-
-def test_a_constraint_that_is_told_is_an_equation_of_its_coordinate() -> None:
-    motion = Relation(m * rate(x, 2), "=", g)
-    told = {"q": x, "constraint": Relation(x, "=", a)}
-    assert told_rightly("constraints.equation_with_multipliers", "free", Judged(motion, told))
-    for wrong in (Relation(x, ">", a), Relation(y, "=", a)):
-        facts = Judged(motion, told | {"constraint": wrong})
-        assert not told_rightly("constraints.equation_with_multipliers", "free", facts)
 
 
 def test_of_the_parts_of_an_energy_one_moves_and_one_is_constant() -> None:
@@ -148,11 +120,6 @@ def test_of_the_parts_of_an_energy_one_moves_and_one_is_constant() -> None:
             "bodies.section_radius",
             Judged(R, **FROM_CENTRE),
             Judged(R, **(FROM_CENTRE | {"words": {"start": "corner"}})),
-        ),
-        (
-            "constraints.multipliers_eliminated",
-            Judged(KEPT, {"found": Relation(2 * rate(q), "=", 2 * R)}),
-            Judged(KEPT, {"found": Relation(rate(q), "=", 2 * R)}),
         ),
         (
             "composed.part_moment",

@@ -18,9 +18,11 @@ from derive.mechanics import (
     Direction,
     Disc,
     Part,
+    Particle,
     Plate,
     RigidBody,
     Rod,
+    System,
     Top,
     angle_between,
     angular_momentum,
@@ -29,12 +31,10 @@ from derive.mechanics import (
     axial_moment,
     centre_distance,
     changing_angular_velocity,
+    components,
     coordinate,
     equation_of_motion,
-    equation_with_multipliers,
     euler_equations,
-    force_of_constraint,
-    free_lagrangian,
     frequency_squared,
     inertia_tensor,
     kinetic_energy,
@@ -45,23 +45,22 @@ from derive.mechanics import (
     magnitude,
     moment_of_inertia,
     moved_to,
-    plane_kinetic_energy,
+    no_slip,
+    point,
     principal_moments,
     rate_in_space,
     rate_of,
-    rolled_centre,
     spin,
-    tie,
     torque,
     total_mass,
     transverse_moment,
-    weight_energy,
+    weight,
     with_values,
 )
 from derive.steps.derivation import with_ancestors
 from derive.steps.record import recorded
 from tests.mechanics.block import known_block
-from tests.mechanics.motion import motion
+from tests.mechanics.motion import motion, potential
 from tests.mechanics.slab import known_slab
 
 a, b, l, m, M, R, h, g, k, omega, Omega = symbols("a b l m M R h g k omega Omega", positive=True)
@@ -75,12 +74,14 @@ def of_block() -> Any:
     return known_block()["inertia_tensor"]
 
 
-def rolled(radius: Any = R, height: Any = a / 2) -> Any:
-    return rolled_centre(radius, height, THETA)
-
-
-def energy(place: Any, mass: Any = M, inertia: Any = NOTHING, turning: Any = None, **named: str) -> Any:
-    return plane_kinetic_energy(mass, [rate_of(x) for x in place], place, inertia, turning, **named)
+def slab(radius: Any = R, mass: Any = M, inertia: Any = k) -> Any:
+    """The Lagrangian of a slab that has rolled on a cylinder."""
+    with recorded():
+        theta, way = coordinate("theta"), coordinate("s", "length")
+        body = RigidBody(mass, inertia)
+        rolled = body.placed(-theta, point(-way, radius + a / 2).turned(-theta))
+        centre = components(rolled, no_slip(rolled, at=point(0, radius).turned(-theta), fixes=way))
+        return lagrangian(System(body.placed(-theta, point(*centre)), weight(g)))
 
 
 def composed(parts: int = 1) -> Composed:
@@ -91,14 +92,6 @@ def top_of(body: Composed, **instead: Any) -> Top:
     mass = total_mass(body)
     made = {"distance": centre_distance(body, mass), "across": transverse_moment(body), "along": axial_moment(body)}
     return Top(mass, **{**made, **instead})
-
-
-def multipliers(of: int) -> Any:
-    x, y = rolled()
-    free_x, free_y = coordinate("x", "length"), coordinate("y", "length")
-    ties = tie(free_x, x), tie(free_y, y)
-    equation = equation_with_multipliers(free_lagrangian(M, g, k, (free_x, free_y), THETA), free_x, ties)
-    return force_of_constraint(equation, ties[of])
 
 
 def grown() -> Any:
@@ -155,40 +148,36 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "moments of a rigid body that change": (lambda: RigidBody(moments=(a * TIME, b, l)), "depends on the time t"),
     "a moment about the end": (
-        lambda: energy(rolled(), M, moment_of_inertia(Rod(l, M), axis="x", about="end"), THETA),
+        lambda: slab(inertia=moment_of_inertia(Rod(l, M), axis="x", about="end")),
         "is about the end",
     ),
     "a moment about a corner": (
-        lambda: energy(rolled(), M, moment_of_inertia(Plate((a, b), M), about="corner"), THETA),
+        lambda: slab(inertia=moment_of_inertia(Plate((a, b), M), about="corner")),
         "is about the corner",
     ),
     "a moment about an axis in the plane": (
-        lambda: energy(rolled(), M, moment_of_inertia(Plate((a, b), M), axis="x"), THETA),
+        lambda: slab(inertia=moment_of_inertia(Plate((a, b), M), axis="x")),
         "about an axis in the plane",
     ),
     "a rod about its own line": (
-        lambda: energy(rolled(), M, moment_of_inertia(Rod(l, M), axis="z"), THETA),
+        lambda: slab(inertia=moment_of_inertia(Rod(l, M), axis="z")),
         "about the line of a rod",
     ),
     "the moment of another mass": (
-        lambda: energy(rolled(), m, moment_of_inertia(Cylinder(R, h, M)), THETA),
+        lambda: slab(mass=m, inertia=moment_of_inertia(Cylinder(R, h, M))),
         "the moment of a mass M, not of m",
     ),
-    "a mass that changes": (lambda: energy(rolled(), M + m * TIME), "depends on the time t"),
-    "the weight of another mass": (
-        lambda: lagrangian(energy(place := rolled(), M), weight_energy(m, g, place)),
-        "must belong to one mass",
-    ),
+    "a mass that changes": (lambda: slab(mass=M + m * TIME), "depends on the time t"),
     "kinetic energy on one cylinder, potential energy on another": (
-        lambda: lagrangian(energy(rolled(R), M), weight_energy(M, g, rolled(2 * R))),
-        "one motion of the centre of mass",
+        lambda: lagrangian(slab(R).parents[0], slab(2 * R).parents[1]),
+        "must belong to one body",
     ),
-    "rolling on a cylinder that grows": (lambda: rolled(R + l * TIME), "needs a constant radius"),
-    "the tie of the other coordinate": (lambda: multipliers(1), "the tie keeps y"),
-    "a tie to what is another coordinate": (
-        lambda: tie(coordinate("x", "length"), rolled()[1]),
-        "keeps x at what was found for it",
+    "rolling on a cylinder that grows": (lambda: slab(R + l * TIME), "the body cannot roll there"),
+    "a component of more names than it has": (
+        lambda: components(point(l, b), names=("x", "y", "z")),
+        "needs 2 names, not 3",
     ),
+    "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "turns a way in a plane"),
     "moments of a top that are exchanged": (
         lambda: top_of(body := composed(), across=axial_moment(body), along=transverse_moment(body)),
         "needs a moment about x or y",
@@ -212,7 +201,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         "not its border",
     ),
     "a shape of a potential that changes": (
-        lambda: leading_order(weight_energy(M, g, rolled(0 * R, TIME * l))),
+        lambda: leading_order(potential(0 * l, TIME * l * cos(THETA.symbol), THETA)),
         "depends on the time t",
     ),
     "a frequency of what is not an oscillator": (
@@ -319,13 +308,12 @@ def test_two_axes_and_two_angles_stand_on_one_page() -> None:
 
 def test_two_lagrangians_of_one_coordinate_stand_on_one_page() -> None:
     with recorded():
+        theta = coordinate("theta")
         equations = []
         for name, length in (("short", l), ("long", 2 * l)):
-            place = rolled_centre(0 * R, -length, THETA, (f"x_{name}", f"y_{name}"))
-            T = energy(place, M, symbol=f"T_{name}", key=f"{name}_energy")
-            U = weight_energy(M, g, place, f"U_{name}", f"{name}_potential")
-            L = lagrangian(T, U, f"L_{name}", f"{name}_lagrangian")
-            equations.append(equation_of_motion(L, THETA, f"{name}_motion"))
+            at = point(length * sin(theta), -length * cos(theta))
+            L = lagrangian(System(Particle(M, at), weight(g)), symbol=f"L_{name}", key=f"{name}_lagrangian")
+            equations.append(equation_of_motion(L, theta, f"{name}_motion"))
         keys = list(with_ancestors(equations))
         assert len(keys) == len(set(keys))
         assert {"short_lagrangian_force_theta", "long_lagrangian_force_theta"} <= set(keys)

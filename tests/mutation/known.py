@@ -89,7 +89,6 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.equations.quadratics:coefficients_of: condition: -1 if polynomial.LC().could_extract_minus_sign() else 1 -> -1 if not polynomial.LC().could_extract_minus_sign() else 1",
         "mechanics.equations.quadratics:coefficients_of: number: 1 -> 2 (3)",
         "mechanics.equations.quadratics:coefficients_of: sign: turn * each -> -(turn * each)",
-        "mechanics.systems.rolling:rolled_centre: order: (explicit(above), along_normal()) -> [along_normal(), explicit(above)]",
         "mechanics.tops.sleeping:upright_rate: order: (carried, upright) -> [upright, carried]",
         "mechanics.tops.top:constant_spin: name: top.along.symbol -> top.along.value (2)",
     ),

@@ -1,31 +1,9 @@
 """A slab that rocks on a fixed cylinder: where it is stable, how fast it swings, and what holds it there."""
 
-from derive.given import Acceleration, Length, Mass, MomentOfInertia
-from derive.mechanics import (
-    Plate,
-    boundary_case,
-    contact_forces,
-    coordinate,
-    curvature_at,
-    equation_of_motion,
-    equation_with_multipliers,
-    force_of_constraint,
-    free_lagrangian,
-    frequency,
-    frequency_squared,
-    lagrangian,
-    leading_order,
-    linearised,
-    moment_of_inertia,
-    multipliers_eliminated,
-    plane_kinetic_energy,
-    positive_where,
-    rate_of,
-    rolled_centre,
-    slope,
-    tie,
-    weight_energy,
-)
+from sympy import cos, sin
+
+from derive.given import *
+from derive.mechanics import *
 
 
 def solve(
@@ -38,33 +16,29 @@ def solve(
 ):
     if width is not None and inertia is not None:
         raise ValueError("give `inertia` or `width`, not both")
-    if width is not None:  # a section of the slab will do: every slice along the cylinder has its share of the mass
-        inertia = moment_of_inertia(Plate((width, thickness), mass))
-    theta = coordinate("theta")
-    x, y = rolled_centre(radius, thickness / 2, theta)  # no slipping: the contact moves on by R theta
+    section = Plate((width or 3 * radius + thickness, thickness), mass)  # every slice has its share of the mass
+    slab = section if width is not None else RigidBody(mass, inertia).drawn_as(section)
+    theta, s, x, y = coordinate("theta"), *(coordinate(name, "length") for name in ("s", "x", "y"))
+    across = point(0, 1).turned(-theta)
+    rolled = slab.placed(-theta, point(-s, radius + thickness / 2).turned(-theta))
+    rolling = no_slip(rolled, at=radius * across, fixes=s)
+    centre = components(rolled, rolling)
+    system = System(slab.placed(-theta, point(*centre)), weight(gravity), rolling)
 
-    T = plane_kinetic_energy(mass, (rate_of(x), rate_of(y)), (x, y), inertia, theta)
-    U = weight_energy(mass, gravity, (x, y))
-    L = lagrangian(T, U)
-    motion = equation_of_motion(L, theta)  # d/dt dL/dtheta_dot = dL/dtheta
-
-    small = linearised(motion)
-    squared = frequency_squared(small)
-    omega_0 = frequency(squared)
-    stable = positive_where(squared, radius, key="stability")
-
-    slope_of_U = slope(U, key="slope")
-    curvature = curvature_at(slope(U, 2))
-    minimum = positive_where(curvature, radius, key="minimum")
-    balanced = leading_order(U, where=boundary_case(minimum))  # the case on the border
+    L = lagrangian(system)
+    U = potential_energy_of(system)
+    motion = equation_of_motion(L, theta)
+    squared = frequency_squared(linearised(motion))
+    stable = where(squared, ">", 0, radius, key="stability")
+    curvature = stability(U, {theta: 0}, letter=radius, key="curvature")
+    minimum = where(curvature, ">", 0, radius, key="minimum")
 
     # Once more, with x, y and theta free and the contact force in their equations.
-    free_x, free_y = coordinate("x", "length"), coordinate("y", "length")
-    ties = (tie(free_x, x), tie(free_y, y))
-    free = free_lagrangian(mass, gravity, inertia, (free_x, free_y), theta)
-    equation_x, equation_y, turning = (equation_with_multipliers(free, q, ties) for q in (free_x, free_y, theta))
-    forces = force_of_constraint(equation_x, ties[0]), force_of_constraint(equation_y, ties[1])
-    again = multipliers_eliminated(turning, forces, motion)
-    normal, friction = contact_forces(forces, (x, y), theta, motion)
-
-    return L, motion, omega_0, stable, slope_of_U, minimum, balanced, again, normal, friction
+    kept = [constraint(q, place.value, force=f"lambda_{place.key}") for q, place in zip((x, y), centre)]
+    free = System(slab.placed(-theta, point(x, y)), weight(gravity), *kept)
+    equations = equations_of_motion(lagrangian(free, symbol="L_free", key="free_lagrangian"), derivatives=False)
+    forces = multipliers(*equations, keeping=[theta])
+    again = put_in(equations[0], *forces, again=motion, key="multipliers_eliminated")
+    N = constraint_force(forces, {x: sin(theta), y: cos(theta)}, "N", "normal_force")
+    F = constraint_force(forces, {x: cos(theta), y: -sin(theta)}, "F", "tangent_force")
+    return L, motion, frequency(squared), stable, curvature, minimum, leading_order(curvature), again, N, F

@@ -123,7 +123,7 @@ def test_every_line_about_a_motion_is_homogeneous(variant: dict[str, Any]) -> No
     force = MASS * LENGTH / TIME**2
     assert (dimensions["x"], dimensions["x_rate"]) == (LENGTH, LENGTH / TIME)
     assert (dimensions["lagrangian"], dimensions["potential_energy"]) == (ENERGY, ENERGY)
-    assert (dimensions["force_x"], dimensions["normal_force"], dimensions["tangent_force"]) == (force, force, force)
+    assert (dimensions["lambda_x"], dimensions["normal_force"], dimensions["tangent_force"]) == (force, force, force)
     assert dimensions["frequency"] == TIME**-1
     assert dimensions["momentum_theta"] == ENERGY * TIME
 

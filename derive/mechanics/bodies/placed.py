@@ -75,7 +75,7 @@ class PlacedBody:
 
     def moved(self, values: Mapping[Symbol, Expr]) -> PlacedBody:
         """The same, some coordinates being known by others."""
-        at = Location(tuple(c.subs(values) for c in self.at.components))
+        at = self.at.with_values(values)
         if not isinstance(self.turned, Axes):
             return replace(self, at=at, turned=self.turned.subs(values))
         turns = tuple((i, angle.subs(values)) for i, angle in self.turned.turns)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, sqrt
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.inequalities import of_the_size
+from derive.mechanics.equations.inequalities import of_the_size, sign_by_factors
 from derive.mechanics.equations.unknowns import (
     lecture_form,
     left_over,
@@ -46,10 +46,11 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
     mark     one of =, !=, <, >, <=, >=
     bound    what it is compared with, of the same unit; 0, or another quantity
     letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
-    in its square
+    in its square; or what was given for a letter, 2b for R, of which one letter is taken
     Second route: a little above the solved bound, at it and a little below, the sign of the difference; and at random
     points both relations are true, or both false.
-    Outcomes: solved, squared (for the square of the letter only), always, never (whatever the letters are).
+    Outcomes: solved, squared (for the square of the letter only); whatever the letters are: always, never, equal (it is
+    neither greater nor less, where one of the two was asked for).
     Errors: the relation cannot be solved for that letter; a mark that is none.
     Source: none needed: algebra of inequalities.
     """
@@ -58,14 +59,17 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
     bound = Integer(bound) if isinstance(bound, int) else bound
     difference = tidied(explicit(_scalar(of)) - explicit(value_behind(bound)))
-    unknown = unknown_of("where", letter)
-    sign = sign_known(difference)
+    sign = sign_by_factors(difference)
     if sign is not None:
         return _of_known_sign(of, mark, bound, difference, sign, key)
-    alone, solved, turned = _solved(of, difference, mark, unknown)
+    unknown, (alone, solved, turned) = _solved_for_one_of(of, difference, mark, letter)
     if _settled_by_its_letter(alone, solved):
         return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
     result = Relation(alone, turned, solved)
+
+    def same_truth(found: Relation) -> Verdict:
+        return _same_truth(found, difference, mark, unknown)
+
     return establish(
         "conditions.where",
         None,
@@ -79,7 +83,8 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            "points": lambda found: _same_truth(found, difference, mark, unknown),
+            # Where one factor of known sign lies between the two relations, what is so beside the bound is so anywhere.
+            **({} if _divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
         telling=Telling(words={"comparison": WORDS[mark]}, judged_by={"unknown": unknown}),
@@ -165,12 +170,26 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
         None,
         lambda v, b: Relation(v, fact, b),
         {"quantity": of, "bound": bound},
-        lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
+        lines=Lines(put_in=Level.STANDARD if sign else None, result=False, arranged=explicit),
         routes={"points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.mark, None)},
-        outcome="always" if holds else "never",
+        outcome="always" if holds else "never" if sign else "equal",
         telling=Telling(words={"comparison": WORDS[mark]}, judged_by={"difference": difference, "sign": Integer(sign)}),
         key=key,
     )
+
+
+def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, tuple[Expr, Expr, str]]:
+    """The unknown itself, or of what was given for a letter, b of 2b for R, the first letter that will do."""
+    given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
+    if not isinstance(given, Add | Mul):
+        unknown = unknown_of("where", letter)
+        return unknown, _solved(of, difference, mark, unknown)
+    for one in sorted(given.free_symbols & difference.free_symbols, key=str):
+        try:
+            return one, _solved(of, difference, mark, one)
+        except Rejected:
+            continue
+    raise _unsolvable(of, given)
 
 
 def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:

@@ -7,7 +7,7 @@ acceleration is that of a place in a turning body, and no tensor is used.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -40,10 +40,11 @@ from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.equations.conservation import Acting, highest_rates
+from derive.mechanics.rotation.given_moments import check_given_moment
 from derive.mechanics.rotation.vectors import RateByParticles, Through
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
 from derive.steps.subject import Subject
 
 __all__ = [
@@ -65,24 +66,30 @@ class RigidBody(Placeable, OfParticles):
 
     mass      kg, where more is asked than its free rotation
     moments   its principal moments of inertia, three, kg m^2; axes x, y, z along the principal axes. For a motion in a
-              plane the one about the axis across it
+              plane the one about the axis across it, a letter or the step that found it
     centre    where its centre of mass is, from the point where its axes begin, the "pivot", m
     about     the point the moments are about: "centre_of_mass", or "fixed_point", the pivot; that is so where a centre
               is given and nothing is said
     """
 
     mass: Expr | None = None
-    moments: tuple[Expr, Expr, Expr] | Expr = ()
+    moments: tuple[Expr, Expr, Expr] | Expr | Quantity = ()
     centre: tuple[Expr, ...] = (Integer(0), Integer(0), Integer(0))
     about: str = ""
     name: ClassVar[str] = "a rigid body"
     called: str = ""
+    look: Any = field(default=None, compare=False)
+    across_plane: ClassVar[Quantity | None] = None  # the step that found the moment across the plane
     is_plane: ClassVar[bool] = False  # whether only the moment across a plane is known
 
     def __post_init__(self) -> None:
         if not isinstance(self.moments, tuple | list):
+            if isinstance(self.moments, Quantity):
+                check_given_moment("RigidBody", self.mass, self.moments)
+                object.__setattr__(self, "across_plane", self.moments)
+            moment = value_behind(self.moments)
             object.__setattr__(self, "is_plane", True)
-            object.__setattr__(self, "moments", (self.moments / 2, self.moments / 2, self.moments))
+            object.__setattr__(self, "moments", (moment / 2, moment / 2, moment))
         object.__setattr__(self, "centre", (*self.centre, *(Integer(0),) * (3 - len(self.centre))))
         object.__setattr__(self, "about", self.about or ("fixed_point" if any(self.centre) else "centre_of_mass"))
         if len(self.moments) != 3:
@@ -101,8 +108,14 @@ class RigidBody(Placeable, OfParticles):
 
     def named(self, called: str) -> RigidBody:
         """The same body under a name of its own, "upper rod", for a page that has another."""
-        twin = replace(self, moments=self.moments[2] if self.is_plane else self.moments)
+        twin = replace(self, moments=(self.across_plane or self.moments[2]) if self.is_plane else self.moments)
         object.__setattr__(twin, "called", called)
+        return twin
+
+    def drawn_as(self, shape: Any) -> RigidBody:
+        """The same body, drawn as a body of a shape; its middle is where the centre of mass is."""
+        twin = self.named(self.called)
+        object.__setattr__(twin, "look", shape)
         return twin
 
     @property

@@ -14,12 +14,14 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
+from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import expanded, matter_behind, potential_at_rest, slope_otherwise
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
+from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
@@ -121,6 +123,9 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
     told: dict[str, tuple[Any, Any]] = {}
+    level = [] if place.rest is not None else [slope(potential, by=q)]
+    if level:
+        told["place"] = (Relation(q, "=", place.values[q]), Relation(place.values[q], "=", q))
     if condition is not None:
         told["condition"] = (condition, Relation(value, ">", 0))
     if place.exists is not None:
@@ -138,9 +143,12 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     return establish(
         "minima.stability",
         At(Slope(potential.symbol, q, Integer(2)), q, place.values[q] if place.rest is None else place.rest.symbol),
-        lambda U, at: At(Slope(U, q, Integer(2)), q, at),
-        {"potential": potential, "at": place.rest if place.rest is not None else place.values[q]},
-        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: value),
+        lambda second, at: At(second, q, at),
+        {
+            "curvature": slope(potential, 2, by=q),
+            "at": place.rest if place.rest is not None else place.values[q],
+        },
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: spread_or_by_terms(value)),
         routes={"small_force": lambda found: (found, _small_force(place, q))},
         outcome=outcome,
         telling=Telling(
@@ -153,7 +161,8 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
             },
         ),
         key=key,
-        parents=[potential],
+        parents=[*level, potential],
+        facts=[Shape(potential, q, place.values[q], border)],
     )
 
 

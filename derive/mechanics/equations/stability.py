@@ -43,17 +43,29 @@ class LowestOrder(Fact):
         return self.order % 2 == 0 and bool(self.coefficient.is_positive)
 
 
-def slope(potential: Quantity, order: int = 1, key: str | None = None) -> Quantity:
+@dataclass(frozen=True)
+class Shape(Fact):
+    """The potential energy of which this is the curvature, the place, and a letter with its value on the border."""
+
+    missing = "is not the curvature at a state of rest"
+    potential: Quantity
+    coordinate: Symbol
+    place: Expr
+    border: Relation | None
+
+
+def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbol | None = None) -> Quantity:
     """Derivative of a potential energy by its coordinate, U' = dU/dq or U'' = d^2U/dq^2.
 
     potential   a function of one coordinate, J
     order       1, 2, ...
+    by          the coordinate, where it depends on several
     Second route: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
     Errors: the potential depends on several coordinates, or on none.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
-    q = only_coordinate(potential)
+    q = by or only_coordinate(potential)
     named = {1: "slope", 2: "curvature"}.get(order, f"derivative_{order}")
     return establish(
         "potentials.slope",
@@ -133,11 +145,12 @@ def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> No
 
 
 def leading_order(
-    potential: Quantity, where: Relation | None = None, at: Expr | None = None, key: str = "leading_order"
+    of: Quantity, where: Relation | None = None, at: Expr | None = None, key: str = "leading_order"
 ) -> Quantity:
     """Potential energy near an equilibrium to the lowest order that decides, U = U(q_0) + c_n (q - q_0)^n.
 
-    potential   a function of one coordinate, J
+    of          a potential energy of one coordinate, J; or its curvature at rest, as `stability` yields it, which knows
+                place and border
     where       a letter and the value for which the curvature of this potential vanishes, as `boundary_case` yields it
     at          q_0; 0 unless given
     Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
@@ -146,7 +159,11 @@ def leading_order(
     Errors: U' does not vanish there; the border is that of another potential.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
-    q, place = only_coordinate(potential), at if at is not None else Integer(0)
+    shape = of.fact(Shape)
+    if shape is not None:
+        potential, q, place, where = shape.potential, shape.coordinate, shape.place, shape.border
+    else:
+        potential, q, place = of, only_coordinate(of), at if at is not None else Integer(0)
     _check_lasts("leading_order", potential, q)
 
     def in_case(energy: Expr) -> Expr:
@@ -189,6 +206,7 @@ def leading_order(
         outcome=_shape(order, leading, at_bound=where is not None),
         key=key,
         kind=potential.step.kind,
+        parents=[of] if shape is not None else [],
         facts=[LowestOrder(order, leading)],
         scope=Scope(case_of=potential),
     )

@@ -7,6 +7,7 @@ from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
 
+from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.unknowns import (
@@ -20,7 +21,7 @@ from derive.mechanics.equations.unknowns import (
 )
 from derive.mechanics.systems.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.step import Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
 __all__ = ["put_in"]
@@ -29,17 +30,25 @@ Replacement = tuple[Expr, Expr]  # what stands there, and what is put there
 Rests = Quantity | Mapping[Any, Any] | Sequence[Quantity]
 
 
-def put_in(of: Quantity, *others: Rests, key: str | None = None, symbol: str | None = None, **values: Any) -> Quantity:
+def put_in(
+    of: Quantity,
+    *others: Rests,
+    key: str | None = None,
+    symbol: str | None = None,
+    again: Quantity | None = None,
+    **values: Any,
+) -> Quantity:
     """What a value or an equation becomes with other results, or values of letters, put in: f(x) with x = g is f(g).
 
     of       a value or an equation
     others   results, each for the letter that it is called by; equations that have a letter, a rate, its square or a
     cosine alone on their left; mappings of letters or coordinates to values
     values   of letters by their names, `theta=0`: those at one moment
+    again    what is found once more in this way, so that it must be the same
     One after another, in this order, the values last. A coordinate that is given as a function of others, or of the
     time, takes its rates along.
-    Second route: the letters of the original replaced all at once by what they finally are.
-    Outcomes: results, values (letters only), identity (an equation that then holds by itself).
+    Second route: the letters of the original replaced all at once by what they finally are; what is found once more.
+    Outcomes: results, values (letters only), identity (an equation that then holds by itself), again.
     Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold.
     Source: none needed: substitution.
     """
@@ -51,7 +60,7 @@ def put_in(of: Quantity, *others: Rests, key: str | None = None, symbol: str | N
     there = _values(of, given, values, value)
     for pair in there:
         value = _all_put(value, [pair], str(pair[0]), of, told)
-    result = _arranged(value)
+    result = _of_motion(value, coordinates_of(of, *rests)) or _arranged(value)
     _check_holds(of, result)
     name = _name(of, symbol)
     return establish(
@@ -60,13 +69,16 @@ def put_in(of: Quantity, *others: Rests, key: str | None = None, symbol: str | N
         lambda *_: value,
         {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},
         lines=Lines(
-            law=Level.STANDARD,
+            law=Level.STANDARD if again is None else Level.FULL,
             put_in=None,
             arranged=lambda _: result,
             means={} if name is None or isinstance(name, Symbol) else meaning(name, result),
         ),
-        routes={"at_once": lambda found: (found, _at_once(explicit(of.value), told))},
-        outcome="identity" if _is_identity(result) else "results" if rests else "values",
+        routes={
+            "at_once": lambda found: (found, _at_once(explicit(of.value), told)),
+            **({"found_before": compared_with(lambda: again.value)} if again is not None else {}),
+        },
+        outcome="again" if again is not None else _outcome(result, rests),
         key=key or _key_for(of, rests, there),
         kind=of.step.kind,
         telling=Telling(
@@ -74,11 +86,28 @@ def put_in(of: Quantity, *others: Rests, key: str | None = None, symbol: str | N
                 f"value_{i + 1}": (Relation(target, "=", at), Relation(at, "=", target))
                 for i, (target, at) in enumerate(there)
             },
-            judged_by={"replaced": [letter_of(target) for target, _ in told]},
+            judged_by={
+                "replaced": [letter_of(target) for target, _ in told],
+                **({"found": again.value} if again is not None else {}),
+            },
+            points_to={"found": again} if again is not None else {},
         ),
+        parents=[again] if again is not None else [],
         facts=[*(f for f in of.facts if isinstance(f, OfCoordinate)), *_at_one_moment(of, rests, there)],
         scope=Scope(differ=EVERYTHING, case_of=of),
     )
+
+
+def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
+    return "identity" if _is_identity(result) else "results" if rests else "values"
+
+
+def _of_motion(value: Any, moving: Mapping[Symbol, str]) -> Relation | None:
+    """An equation with accelerations on both of its sides, gathered on one."""
+    fast = [rate(q, 2) for q in moving]
+    if not isinstance(value, Relation) or not all(side.has(*fast) for side in value.sides):
+        return None
+    return Relation(by_accelerations(value.residual, list(moving)), value.mark, Integer(0))
 
 
 def _at_one_moment(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> list[AtOneMoment]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from sympy import Expr, Integer, Poly, Rational, Symbol, oo
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import sign_is
@@ -216,12 +217,18 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "following": _of_several(False),
     },
     "roots.roots_absent": {"none": _absent, "none_positive": _absent, "none_reached": _beyond_one},
-    "substitution.put_in": {"results": _put_in(False), "values": _put_in(True), "identity": _identity},
+    "substitution.put_in": {
+        "results": _put_in(False),
+        "values": _put_in(True),
+        "identity": _identity,
+        "again": lambda facts: bool(equal(facts.result, facts.inputs["found"])),
+    },
     "conditions.where": {
         "solved": _compared(False),
         "squared": _compared(True),
         "always": _always(True),
-        "never": _always(False),
+        "never": lambda facts: _always(False)(facts) and not is_zero(facts.inputs["difference"]),
+        "equal": lambda facts: _always(False)(facts) and is_zero(facts.inputs["difference"]),
     },
     "limits.limiting_case": {
         "small": _near(Integer(0)),

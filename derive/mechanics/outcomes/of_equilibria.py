@@ -101,7 +101,7 @@ def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
     """Some numbers for the letters, where the state exists, and how the energy changes there to second order."""
     exists, letters, moving = facts.inputs.get("exists"), _letters_here(facts), _moving(facts)
     points = [n for n in _numbers(set(letters)) if exists is None or _holds(exists, n)]
-    energy = lambdify([*letters, *moving], facts.inputs["potential_here"], "mpmath")
+    energy = lambdify([*letters, *moving], facts.inputs["potential_here"], "mpmath", dummify=True)
     place = lambdify(letters, list(facts.inputs["place"]), "mpmath")
     with mp.workdps(50):
         found = []

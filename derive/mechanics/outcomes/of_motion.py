@@ -12,16 +12,6 @@ from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
 
-def _even_in(sign: int) -> Predicate:
-    """How a coordinate of the rolled body changes with the sign of the angle: across turns over, up does not."""
-
-    def is_so(facts: Judged) -> bool:
-        q = facts.inputs["angle"]
-        return is_zero(facts.result.subs(q, -q) - sign * facts.result)
-
-    return is_so
-
-
 def _cyclic(facts: Judged) -> bool:
     return is_zero(slope(explicit(facts.inputs["lagrangian"]), facts.inputs["coordinate"]))
 
@@ -62,27 +52,6 @@ def _shape_by(order: int, derivative: Expr) -> str:
     return "minimum" if derivative.is_positive else "maximum" if derivative.is_negative else "conditional"
 
 
-def _constraint_of(wanted: str) -> Predicate:
-    """A free coordinate has a multiplier of its own on its right side, with the factor one."""
-
-    def is_so(facts: Judged) -> bool:
-        own = facts.inputs.get("multiplier")
-        return (wanted == "free") == (own is not None and is_zero(facts.result.right - own))
-
-    return is_so
-
-
-def _directed(wanted: str) -> Predicate:
-    """At the angle zero the normal is upwards and the tangent to the right."""
-
-    def is_so(facts: Judged) -> bool:
-        q, forces = facts.inputs["angle"], (facts.inputs["right"], facts.inputs["up"])
-        there = forces[0 if wanted == "tangent" else 1]
-        return is_zero((facts.result - there).subs(q, 0))
-
-    return is_so
-
-
 _SIGNS = {
     "stable": always_sign(1),
     "unstable": always_sign(-1),
@@ -101,11 +70,6 @@ def _free_bodies(facts: Judged) -> int:
 
 _TABLE: dict[str, dict[str, Predicate]] = {
     "coordinates.rate_of": {"generic": lasts, "zero": vanishes},
-    "rolling.rolled_centre": {"across": _even_in(-1), "up": _even_in(1)},
-    "lagrangian.plane_kinetic_energy": {
-        "turning": lambda facts: "inertia" in facts.inputs,
-        "particle": lambda facts: "inertia" not in facts.inputs,
-    },
     "systems.squared_speed": {
         "alone": lambda facts: len(facts.subject.body.particles) == 1 and _free_bodies(facts) == 0,
         "centre": lambda facts: not facts.subject.body.particles and _free_bodies(facts) <= 1,
@@ -145,8 +109,6 @@ _TABLE: dict[str, dict[str, Predicate]] = {
             for shape in ("minimum", "maximum", "inflection", "conditional", "flat")
         },
     },
-    "constraints.equation_with_multipliers": {"free": _constraint_of("free"), "turning": _constraint_of("turning")},
-    "constraints.contact_forces": {"normal": _directed("normal"), "tangent": _directed("tangent")},
 }
 
 for _rule, _predicates in _TABLE.items():

@@ -31,7 +31,13 @@ def _has_rates(condition: Expr) -> bool:
     return any(condition.has(rate(q)) for q in coordinates_in(condition))
 
 
+def _of_a_centre(facts: Judged) -> bool:
+    return "centre" in facts.inputs and is_zero(facts.result - facts.inputs["centre"])
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
+    "located.component": {"centre": _of_a_centre, "place": lambda facts: "centre" not in facts.inputs},
+    "kept.constraint_force": {"generic": lasts, "zero": vanishes},
     "rigid.angular_velocity": {
         "space": _along_space,
         "body": lambda facts: _along_body(facts) and not _along_space(facts),

@@ -11,7 +11,6 @@ from typing import Any
 
 from sympy import Expr, Integer, Symbol, cos, diff, integrate, pi, sin
 
-from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, column, explicit, rate
 from derive.steps.outcomes import Judged, told_by
 from derive.steps.step import is_zero
@@ -40,13 +39,6 @@ def _cylindrical(facts: Judged, outcome: str) -> bool:
     return from_start and is_zero(area - facts.inputs["element"]) and is_zero(sections - explicit(facts.result))
 
 
-def _rolled(facts: Judged, outcome: str) -> bool:
-    """Out along the normal by the height, and back along the surface by the arc."""
-    q, arc, above = (explicit(facts.inputs[role]) for role in ("angle", "arc", "above"))
-    there = above * sin(q) - arc * cos(q) if outcome == "across" else above * cos(q) + arc * sin(q)
-    return isinstance(q, Symbol) and is_zero(facts.result - there)
-
-
 def _of_three_angles(facts: Judged, outcome: str) -> bool:
     phi, theta, psi, sine, cosine = (facts.inputs[role] for role in ("precession", "tilt", "turning", "sine", "cosine"))
     by_angles = column(rate(theta), rate(phi) * sin(theta), rate(psi) + rate(phi) * cos(theta))
@@ -73,24 +65,6 @@ def _sine_of_the_tilt(facts: Judged, outcome: str) -> bool:
     sine = facts.inputs["sine"]
     of_the_tilt = isinstance(sine, sin) and sine.args[0] in _letters_of(facts.result)
     return of_the_tilt and facts.inputs["carried"] != sine and facts.symbol == rate(facts.inputs["cyclic"])
-
-
-def _of_free_coordinates(facts: Judged, outcome: str) -> bool:
-    """Mass and weight belong to x and y, the moment of inertia to the angle."""
-    L = explicit(facts.result)
-    mass, gravity, inertia, x, y, q = (facts.inputs[role] for role in ("mass", "gravity", "inertia", "x", "y", "q"))
-    second = {x: mass, y: mass, q: inertia}
-    pushes = {x: Integer(0), y: -mass * gravity, q: Integer(0)}
-    return len(second) == 3 and all(
-        is_zero(diff(L, rate(s), 2) - value) and is_zero(diff(L, s) - pushes[s]) for s, value in second.items()
-    )
-
-
-def _kept_by_a_force(facts: Judged, outcome: str) -> bool:
-    """A constraint is an equation for the coordinate along which its force acts."""
-    constraint = facts.inputs.get("constraint")
-    kept = constraint is None or (constraint.mark == "=" and constraint.left == facts.inputs["q"])
-    return kept and isinstance(facts.inputs["q"], Symbol)
 
 
 def _one_part_moves(facts: Judged, outcome: str) -> bool:
@@ -125,11 +99,6 @@ def _equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
     return isinstance(equation, Relation) and isinstance(unknown, Symbol) and unknown in _letters_of(equation)
 
 
-def _pushed_across(facts: Judged, outcome: str) -> bool:
-    """Contact lasts as long as the component across the surface is positive."""
-    return outcome != "tangent" or facts.quantities["normal"].step.outcome == "normal"
-
-
 def _counted_from_its_point(facts: Judged, outcome: str) -> bool:
     """A length or a position is counted from the point that it is about."""
     return facts.words["start"] == getattr(facts.subject.point, "name", facts.words["start"])
@@ -138,11 +107,6 @@ def _counted_from_its_point(facts: Judged, outcome: str) -> bool:
 def _from_its_point_along_the_axis(facts: Judged, outcome: str) -> bool:
     along = outcome != "on_axis" or str(facts.symbol.name).endswith("z")
     return _counted_from_its_point(facts, outcome) and along
-
-
-def _found_once_more(facts: Judged, outcome: str) -> bool:
-    """What is said to have been found before is the same equation."""
-    return bool(equal(facts.result, facts.inputs["found"]))
 
 
 def _named_as_its_moment(facts: Judged, outcome: str) -> bool:
@@ -201,26 +165,21 @@ _TABLE: dict[str, Told] = {
     "rotation.torque": _of_their_kinds,
     "free_rotation.rate_in_body": _of_their_kinds,
     "bodies.volume": _cylindrical,
-    "rolling.rolled_centre": _rolled,
     "tops.turning_rate": _of_three_angles,
     "tops.constant_spin": _component_that_is_kept,
     "composed.part_moment": _named_as_its_moment,
     "cyclic.conserved_momentum": _momentum_of_a_coordinate,
     "quadratics.roots_of": _equation_in_its_unknown,
-    "constraints.contact_forces": _pushed_across,
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
     "bodies.centre_of_mass": _counted_from_its_point,
     "bodies.section_radius": _counted_from_its_point,
-    "constraints.multipliers_eliminated": _found_once_more,
     "precession.no_steady_precession": _strict,
     "precession.fixed_tilt": _as_given,
     "equations.at": _for_a_vector,
     "tops.tilt_equation": _one_angle_left,
     "precession.steady_precession": _steady,
     "sleeping.upright_rate": _sine_of_the_tilt,
-    "constraints.free_lagrangian": _of_free_coordinates,
-    "constraints.equation_with_multipliers": _kept_by_a_force,
     "sleeping.effective_potential": _one_part_moves,
     "conditions.positive_where": _as_strictly,
     "free_rotation.euler_equation": _rate_of_the_component,

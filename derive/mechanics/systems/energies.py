@@ -24,10 +24,10 @@ from derive.algebra.expressions import (
 )
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
-from derive.mechanics.systems.coordinates import by_functions_of_time
+from derive.mechanics.systems.coordinates import by_functions_of_time, rate_of
 from derive.mechanics.systems.dalembert import MassPoint, Matter
 from derive.mechanics.systems.forced import acting_on, squares_of_rates
-from derive.mechanics.systems.places import Axes
+from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.rigid import (
     angular_velocity,
     convenient_axes,
@@ -43,28 +43,35 @@ from derive.steps.subject import EVERYTHING, Subject
 __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
 
 
+SPEEDS = ("v", "u", "w")  # the letter of a speed: the next where one is given
+
+
 @dataclass(frozen=True)
 class Mover:
     """What has a kinetic energy by the motion of its centre of mass: a particle, or a body that is not held."""
 
     mass: Expr
-    place: tuple[Expr, ...]
+    at: Location
     letter: str
     is_body: bool
 
+    @property
+    def place(self) -> tuple[Expr, ...]:
+        return self.at.components
 
-def movers(system: System) -> list[Mover]:
-    """v of the only one, else v_1, v_2, ...; of a body with a name v with that name."""
-    found = [Mover(particle.mass, particle.at.components, "", False) for particle in system.particles]
+
+def movers(system: System, lagrangian: str = "") -> list[Mover]:
+    """v of the only one, else v_1, v_2, ...; of a body with a name v with that name, of a second Lagrangian its."""
+    found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
-        Mover(placed.body.mass, placed.centre.components, placed.body.called.partition(" ")[0], True)
+        Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
         for placed in system.bodies
         if not is_about_the_point(placed)
     ]
     own = system.called.partition(" ")[0]
 
     def index(i: int, mover: Mover) -> str:
-        parts = [mover.letter or (str(i + 1) if len(found) > 1 else ""), own]
+        parts = [mover.letter or (str(i + 1) if len(found) > 1 else ""), own, lagrangian]
         return "_".join(part for part in parts if part)
 
     return [replace(mover, letter=index(i, mover)) for i, mover in enumerate(found)]
@@ -73,24 +80,36 @@ def movers(system: System) -> list[Mover]:
 def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
     moving = list(system.coordinates)
-    name = f"v_{mover.letter}" if mover.letter else "v"
+    given = {s.name.partition("_")[0] for place in system.places for c in place.components for s in c.free_symbols}
+    base = next((letter for letter in SPEEDS if letter not in given), SPEEDS[0])
+    name = f"{base}_{mover.letter}" if mover.letter else base
     letter = scalar(name)
     matter = Matter((MassPoint(Integer(2), mover.place),), (), tuple(moving))
+    velocity = _velocity(mover, moving)
+    at = {f"place_{k}": c for k, c in enumerate(mover.place)}
     return establish(
         "systems.squared_speed",
         Pow(letter, 2),
-        lambda *at: squares_of_rates(at, moving),
-        {f"place_{k}": c for k, c in enumerate(mover.place)},
+        (lambda *v: Terms(*(Pow(c, 2) for c in v))) if velocity else (lambda *at: squares_of_rates(at, moving)),
+        {f"velocity_{k}": v for k, v in enumerate(velocity)} if velocity else at,
         key=f"squared_speed_{mover.letter}" if mover.letter else "squared_speed",
         outcome="of_several" if several else "centre" if mover.is_body else "alone",
         routes={"functions_of_time": compared_with(matter.kinetic_energy)},
         lines=Lines(
-            put_in=None,
+            put_in=Level.STANDARD if velocity else None,
             arranged=lambda value: by_rates(value, moving),
             means={letter: _speed(mover.place, moving)},
         ),
+        parents=[known for _, known in mover.at.found] if velocity else [],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
+    """The rates of the components that are steps of their own, if those that change all are."""
+    known = dict(mover.at.found)
+    changing = [k for k, c in enumerate(mover.place) if c.has(TIME, *moving)]
+    return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
 
 
 def _speed(place: tuple[Expr, ...], moving: list[Symbol]) -> Expr:
@@ -170,7 +189,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     Errors: the moments of a body are about another point.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
-    moved = movers(system)
+    moved = movers(system, symbol.partition("_")[2])
     speeds = [_squared_speed(system, mover, len(moved) > 1) for mover in moved]
     turnings = _turnings(system)
     moving = list(system.coordinates)
@@ -203,7 +222,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         inputs,
         key=key,
         kind="energy",
-        parents=system.conditions,
+        parents=system.put_in,
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
         facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated],
@@ -233,24 +252,34 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
     masses = system.masses if system.weights else []
-    higher = [(mass, at.height) for mass, at in masses if at.height != 0]
-    as_factors = any(height.is_Add for _, height in higher)  # a sum stays in its bracket, where the law shows it
-    heights = [
-        Factors(mass, system.gravity, height) if as_factors else mass * system.gravity * height
-        for mass, height in higher
-    ]
+    higher = [(mass, dict(at.found).get(len(at.components) - 1, at.height)) for mass, at in masses if at.height != 0]
+    named = {f"height_{i}": y for i, (_, y) in enumerate(higher) if isinstance(y, Quantity)}
+    # A sum stays in its bracket, where the law shows it.
+    as_factors = bool(named) or any(height.is_Add for _, height in higher)
     stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     stored += [each.energy for each in system.stored]
+
+    def law(*given: Expr) -> Expr:
+        known = dict(zip(named, given, strict=True))
+        heights = [known.get(f"height_{i}", y) for i, (_, y) in enumerate(higher)]
+        weights = [(mass, system.gravity, y) for (mass, _), y in zip(higher, heights, strict=True)]
+        terms = [*(Factors(*each) if as_factors else Mul(*each) for each in weights), *stored]
+        return Terms(*terms) if len(terms) > 1 else Add(*terms)
+
     return establish(
         "systems.potential_energy",
         scalar(symbol),
-        lambda: Terms(*heights, *stored) if len(heights) + len(stored) > 1 else Add(*heights, *stored),
-        {},
+        law,
+        named,
         key=key,
         kind="energy",
         routes={"work": work},
         outcome=lambda value: "zero" if value == 0 else "generic",
-        lines=Lines(put_in=None, arranged=_terms_together),
+        lines=Lines(
+            put_in=Level.BRIEF if named else None,
+            result=not named,
+            arranged=explicit if named else _terms_together,
+        ),
         facts=[replace(matter, points=(), fields=()), *acting_on(system)],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )

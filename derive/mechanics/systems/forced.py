@@ -8,7 +8,7 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
 
-from derive.algebra.collect import by_accelerations, by_rates, by_terms
+from derive.algebra.collect import by_accelerations, by_rates, by_terms, spread
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -160,14 +160,12 @@ def _by_rates_or_terms(value: Expr, moving: Sequence[Symbol]) -> Expr:
     return by_rates(value, moving) if any(value.has(rate(q)) for q in moving) else by_terms(tidied(value))
 
 
-def forced_equation(
-    of: Quantity, q: Coordinate, force: Quantity, momentum: Quantity, changing: Quantity, key: str
-) -> Quantity:
+def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity], key: str) -> Quantity:
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
 
     of         the Lagrangian, J
     q          one of its coordinates
-    force, momentum, changing   dL/dq, dL/dq_dot and its rate
+    derivatives   dL/dq, dL/dq_dot and its rate, where they are steps
     The generalized force Q is a step of its own.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
     Outcomes: applied (forces without a potential energy), kept (forces that keep constraints), both, free (neither
@@ -179,7 +177,7 @@ def forced_equation(
     constraints = [c for c in (kept.constraints if kept else ()) if c.along(q.symbol) != 0]
     applied = applied_force(of, q) if acted is not None else None
     acts = applied is not None and applied.value != 0
-    reaction = [tidied(c.along(q.symbol)) * c.force for c in constraints]
+    reaction = [spread(c.along(q.symbol)) * c.force for c in constraints]
 
     def law(*given: Any) -> Relation:
         L, others = given[0], given[1:]
@@ -200,7 +198,7 @@ def forced_equation(
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
         telling=Telling(judged_by={"coordinate": q.symbol, "letters": tuple(c.force for c in constraints)}),
         key=key,
-        parents=[force, momentum, changing, *([applied] if applied is not None else [])],
+        parents=[*derivatives, *([applied] if applied is not None else [])],
         facts=[
             OfCoordinate(q),
             ForcedMotion(of),
@@ -217,7 +215,7 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
     letters = [c.force for c in constraints]
     alone = [term for term in Add.make_args(whole) if _drives(term, moving, letters)]
     driven = -Add(*alone)
-    held = Add(*(tidied(diff(driven, letter)) * letter for letter in letters))
+    held = Add(*(spread(diff(driven, letter)) * letter for letter in letters))
     given = driven.xreplace(dict.fromkeys(letters, ZERO))
     left = by_accelerations(whole - Add(*alone), moving)
     return Relation(left, "=", Add(by_terms(tidied(given)), held))

@@ -10,24 +10,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
+from sympy import Add, Expr, Integer, Mul, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
-from derive.mechanics.systems.dalembert import Load, Matter, plane_body
+from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
-from derive.steps.subject import Subject, called
+from derive.steps.subject import Subject
 
 __all__ = [
     "equation_of_motion",
@@ -36,7 +35,6 @@ __all__ = [
     "generalized_momentum",
     "lagrangian",
     "momentum_rate",
-    "plane_kinetic_energy",
     "weight_energy",
 ]
 
@@ -63,88 +61,6 @@ class Energies(Fact):
     @property
     def whole(self) -> Expr:
         return explicit(self.kinetic.value + self.potential.value)
-
-
-def plane_kinetic_energy(
-    mass: Expr | Quantity,
-    velocity: Sequence[Quantity],
-    place: Sequence[Quantity],
-    inertia: Any = ZERO,
-    turning: Coordinate | None = None,
-    symbol: str = "T",
-    key: str = "kinetic_energy",
-) -> Quantity:
-    """Kinetic energy of a body that moves in a plane, T = (1/2) I theta_dot^2 + (1/2) M (x_dot^2 + y_dot^2).
-
-    mass       M, kg
-    velocity   of the centre of mass, components in m/s
-    place      the centre of mass itself, components in m
-    inertia    I about the centre of mass, across the plane, kg m^2; none for a particle
-    turning    the coordinate by which the body turns
-    Second route: half the sum of m v^2 over mass points, whose places are differentiated as functions of t.
-    Errors: the moment is about another point than the centre of mass, about an axis in the plane, or that of another
-    mass; mass or moment change.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3 (the energy of and about the centre of mass).
-    """
-    own = turning.letters if turning else {}
-    coordinates = {**own, **{q: kind for part in place for q, kind in part.coordinates.items()}}
-    if turning and inertia is None:
-        raise Rejected(Complaint("wrong-argument", "`plane_kinetic_energy` needs the moment of inertia of what turns"))
-    moment = value_behind(inertia)
-    require_constant("plane_kinetic_energy", "mass", mass)
-    if turning:
-        require_constant("plane_kinetic_energy", "moment of inertia", inertia)
-    _check_moment(mass, inertia)
-    angle = turning.symbol if turning else Integer(0)
-    matter = plane_body(value_behind(mass), [x.value for x in place], moment, angle, list(coordinates))
-    inputs: dict[str, Any] = {"mass": mass, **{f"velocity_{i}": v for i, v in enumerate(velocity)}}
-    if turning:
-        inputs["inertia"] = inertia
-
-    def law(m: Expr, *rest: Expr) -> Expr:
-        speeds, moments = rest[: len(velocity)], rest[len(velocity) :]
-        moving = Factors(Rational(1, 2), m, Terms(*(Pow(v, 2) for v in speeds)))
-        spinning = [Factors(Rational(1, 2), i, Pow(turning.rate, 2)) for i in moments if turning]
-        return Terms(*spinning, moving) if spinning else moving
-
-    return establish(
-        "lagrangian.plane_kinetic_energy",
-        scalar(symbol),
-        law,
-        inputs,
-        lines=Lines(put_in=Level.STANDARD, arranged=lambda value: by_rates(value, list(coordinates), halves=True)),
-        routes={"mass_points": compared_with(matter.kinetic_energy)},
-        outcome="turning" if turning else "particle",
-        key=key,
-        kind="energy",
-        parents=list(place),
-        facts=[matter],
-        scope=Scope(coordinates=own, about=Subject(mass=value_behind(mass), place=tuple(x.value for x in place))),
-    )
-
-
-def _check_moment(mass: Any, inertia: Any) -> None:
-    """A moment of a body must be that of this mass, about its centre of mass, and about an axis across the plane."""
-    if not isinstance(inertia, Quantity):
-        return
-    verb, body, about = "plane_kinetic_energy", inertia.subject.body, inertia.subject
-    require_kind(verb, "inertia", inertia, "moment of inertia")
-    if body is not None and about.point is not None:
-        middle = getattr(body, "middle", None)
-        if not isinstance(about.point, Point) or not middle or not is_zero(about.point.position - middle.position):
-            message = f"`{verb}` needs a moment about the centre of mass, but `{inertia.key}` is about "
-            help_line = 'give the moment with about="centre"'
-            raise Rejected(Complaint("wrong-point", message + called(about.point), help=help_line))
-    if about.mass is not None and not is_zero(about.mass - value_behind(mass)):
-        message = f"`{verb}`: `{inertia.key}` is the moment of a mass {called(about.mass)}"
-        raise Rejected(Complaint("different-subjects", f"{message}, not of {called(value_behind(mass))}"))
-    across = getattr(body, "flat_across", None)
-    if across is not None and about.axis not in (None, across):
-        message = f"`{inertia.key}` is about an axis in the plane of {called(body)}, which moves in that plane"
-        raise Rejected(Complaint("wrong-axis", message, help=f'give the moment with axis="{across}"'))
-    if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
-        message = f"`{inertia.key}` is about the line of {called(body)} itself, which lies in the plane"
-        raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))
 
 
 def weight_energy(
@@ -270,12 +186,14 @@ def coordinates_of(of: Quantity) -> list[Coordinate]:
     return [Coordinate(q, kind) for q, kind in of.coordinates.items() if q in matter.coordinates]
 
 
-def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_motion") -> Quantity:
+def equation_of_motion(
+    of: Quantity, q: Coordinate, key: str = "equation_of_motion", derivatives: bool = True
+) -> Quantity:
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with other forces and constraints, see `forced_equation`.
 
     of   the Lagrangian, J
     q    one of its coordinates
-    The force dL/dq, the momentum dL/dq_dot and its rate are steps of their own.
+    derivatives   whether the force dL/dq, the momentum dL/dq_dot and its rate are steps of their own
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from places and forces.
     Outcomes: generic, cyclic (L does not contain q, so its momentum is constant).
     Errors: L does not depend on q.
@@ -284,10 +202,12 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
     required(of.coordinates, q, "equation_of_motion", of)
     matter = of.needed(Matter)
     moving = list(of.coordinates)
-    force, momentum = generalized_force(of, q), generalized_momentum(of, q)
-    changing = momentum_rate(momentum, q)
+    found: list[Quantity] = []
+    if derivatives:
+        momentum = generalized_momentum(of, q)
+        found = [generalized_force(of, q), momentum, momentum_rate(momentum, q)]
     if of.fact(ActedOn) or of.fact(Kept):
-        return forced_equation(of, q, force, momentum, changing, key)
+        return forced_equation(of, q, found, key)
 
     def by_virtual_work() -> Relation:
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
@@ -303,17 +223,18 @@ def equation_of_motion(of: Quantity, q: Coordinate, key: str = "equation_of_moti
         {"lagrangian": of},
         lines=Lines(
             between=[
-                Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL),
+                *(Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL)
+                  for force, _, changing in ([found] if found else [])),
                 Form(Relation(gathered, "=", 0), "result"),
             ],
             put_in=None,
             arranged=lambda _: Relation(left, "=", 0),
         ),
         routes={"virtual_work": compared_with(by_virtual_work)},
-        outcome="cyclic" if force.value == 0 else "generic",
+        outcome="cyclic" if is_zero(slope(explicit(of.value), q.symbol)) else "generic",
         telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key,
-        parents=[force, momentum, changing],
+        parents=found,
         facts=[FromLagrangian(of), OfCoordinate(q), matter],
     )
 
@@ -338,15 +259,16 @@ def _divided(term: Expr, common: Expr) -> Expr:
     return term
 
 
-def equations_of_motion(of: Quantity) -> tuple[Quantity, ...]:
+def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantity, ...]:
     """Lagrange's equations, one for each coordinate, d/dt dL/dq_dot - dL/dq = 0.
 
-    of   the Lagrangian, J
+    of            the Lagrangian, J
+    derivatives   whether dL/dq, dL/dq_dot and its rate are steps of their own
     Keys: motion_ and the name of the coordinate.
     Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
-    return tuple(equation_of_motion(of, q, key=f"motion_{q.symbol.name}") for q in coordinates_of(of))
+    return tuple(equation_of_motion(of, q, f"motion_{q.symbol.name}", derivatives) for q in coordinates_of(of))
 
 
 def _difference(first: Expr, second: Expr) -> Expr:

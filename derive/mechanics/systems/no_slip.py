@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, diff, factor
@@ -14,12 +15,12 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.systems.constraint import Constraint
-from derive.mechanics.systems.coordinates import by_functions_of_time
+from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import KnownCoordinate
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, changes, coordinates_in
-from derive.steps.step import Form, Level, Quantity, is_zero
+from derive.steps.step import Fact, Form, Level, Quantity, is_zero
 
 __all__ = ["no_slip", "rolling_constraint"]
 
@@ -27,14 +28,19 @@ ZERO = Integer(0)
 
 
 def no_slip(
-    body: PlacedBody, at: Location, ground: Location | None = None, key: str = "no_slip"
+    body: PlacedBody,
+    at: Location,
+    ground: Location | None = None,
+    key: str = "no_slip",
+    fixes: Coordinate | None = None,
 ) -> Quantity | tuple[Quantity, ...]:
     """Condition of rolling without slipping, v + omega x (r_contact - r) = 0, solved for a rate.
 
     body     a body that is placed or held; v is the velocity of the point r where that is
     at       where it touches the surface, m
     ground   a place of the surface, where that moves without turning; by default it is at rest
-    One condition for each rate that it fixes, that of the body's last turn first. Given to a `System` as one of its
+    fixes    the coordinate whose rate is to stand alone, if it can; by default that of the body's last turn
+    One condition for each rate that it fixes. Given to a `System` as one of its
     parts, it gives a coordinate by others where it can be integrated.
     Second route: the place that the particle at the contact has in the body, held fast and differentiated with it; the
     condition follows from that being at rest, and is no more.
@@ -42,8 +48,9 @@ def no_slip(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
     found: dict[Symbol, Quantity] = {}
-    for condition in _independent(body, at, ground):
-        found[condition.q] = _solved(body, at, ground, condition, key if not found else f"{key}_{len(found) + 1}")
+    for condition in _independent(body, at, ground, fixes):
+        name = key if not found else f"{key}_{len(found) + 1}"
+        found[condition.q] = _solved(body, at, ground, condition, name, fixes)
     return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
 
 
@@ -57,6 +64,16 @@ def rolling_constraint(
         Constraint(each.left, ZERO, scalar(letter), in_rates=True)
         for each, letter in zip(conditions, letters, strict=True)
     )
+
+
+@dataclass(frozen=True)
+class Rolling(Fact):
+    """The body that rolls, the place of contact, and a place of what it rolls on, if that moves."""
+
+    missing = "is not a condition of rolling"
+    body: PlacedBody
+    at: Location
+    ground: Location | None
 
 
 class _Condition:
@@ -74,11 +91,14 @@ class _Condition:
         return tidied(-(self.left - self.factor * rate(self.q)) / self.factor)
 
 
-def _independent(body: PlacedBody, at: Location, ground: Location | None) -> Iterator[_Condition]:
+def _independent(
+    body: PlacedBody, at: Location, ground: Location | None, fixes: Coordinate | None = None
+) -> Iterator[_Condition]:
     """Conditions of which none follows from the others."""
     _check(body, at, ground)
     known: dict[Symbol, Expr] = {}
-    order = _order(body, at)
+    first = [fixes.symbol] if fixes is not None else []
+    order = list(dict.fromkeys([*first, *_order(body, at)]))
     for left in _conditions(contact_velocity(body, at, ground)):
         rest = tidied(left.subs(known))
         present = [q for q in order if not is_zero(diff(rest, rate(q)))]
@@ -149,7 +169,9 @@ def _rates_alone(component: Expr) -> Expr:
     return Mul(*kept) if kept else component
 
 
-def _solved(body: PlacedBody, at: Location, ground: Location | None, condition: _Condition, key: str) -> Quantity:
+def _solved(
+    body: PlacedBody, at: Location, ground: Location | None, condition: _Condition, key: str, fixes: Coordinate | None
+) -> Quantity:
     """The condition as the rate that it fixes."""
     q, found = condition.q, condition.rate
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
@@ -158,7 +180,7 @@ def _solved(body: PlacedBody, at: Location, ground: Location | None, condition: 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
         """The particle of the body at the contact is at rest there, all conditions taken together."""
         velocity = velocity_of_particle(body, at, ground)
-        known = {**_all_rates(body, at, ground), relation.left: relation.right}
+        known = {**_all_rates(body, at, ground, fixes), relation.left: relation.right}
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
@@ -169,10 +191,10 @@ def _solved(body: PlacedBody, at: Location, ground: Location | None, condition: 
     coefficients = [diff(found, rate(other)) for other in moving]
     plain = found - Add(*(c * rate(other) for c, other in zip(coefficients, moving, strict=True)))
     constant = all(changes(c, moving) is None for c in coefficients) and is_zero(plain)
-    facts = []
+    facts: list[Fact] = [Rolling(body, at, ground)]
     if constant:
         function = Add(*(c * other for c, other in zip(coefficients, moving, strict=True)))
-        facts = [KnownCoordinate(q, function)]  # but for a constant, which is zero where both angles are
+        facts.append(KnownCoordinate(q, function))  # but for a constant, which is zero where both angles are
     factors = tuple(f.as_base_exp()[0] for f in Mul.make_args(condition.factor) if not f.is_nonzero)
     for each in factors:
         assume(Relation(each, "!=", ZERO))
@@ -205,9 +227,9 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
     return int(rows.subs(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
 
 
-def _all_rates(body: PlacedBody, at: Location, ground: Location | None) -> dict[Symbol, Expr]:
+def _all_rates(body: PlacedBody, at: Location, ground: Location | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:
     found: dict[Symbol, Expr] = {}
-    for condition in _independent(body, at, ground):
+    for condition in _independent(body, at, ground, fixes):
         found = {fixed: value.subs(rate(condition.q), condition.rate) for fixed, value in found.items()}
         found[rate(condition.q)] = condition.rate
     return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, cos, eye, sin
@@ -11,15 +11,20 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME
 from derive.errors import Complaint, Rejected, Unverified
+from derive.steps.step import Quantity, value_behind
 
 __all__ = ["Axes", "Location", "X", "Y", "Z", "point", "space", "t"]
 
 
 @dataclass(frozen=True)
 class Location:
-    """A place, or a way between two: two components in a plane, three in space, m; the last is upwards."""
+    """A place, or a way between two: two components in a plane, three in space, m; the last is upwards.
+
+    found   the steps that its components come from, where a script has them, by their number
+    """
 
     components: tuple[Expr, ...]
+    found: tuple[tuple[int, Quantity], ...] = field(default=(), compare=False)
 
     def __add__(self, other: Any) -> Location:
         if not isinstance(other, Location):
@@ -40,17 +45,34 @@ class Location:
 
     __rmul__ = __mul__
 
+    def with_values(self, values: Any) -> Location:
+        """The place with some letters known; itself if it holds none of them."""
+        moved = tuple(c.subs(values) for c in self.components)
+        return self if moved == self.components else Location(moved)
+
+    def turned(self, angle: Any) -> Location:
+        """The same way in its plane, turned by an angle from right to up."""
+        if len(self.components) != 2:
+            message = "`turned` turns a way in a plane, but this has three components"
+            raise Rejected(Complaint("wrong-argument", message, help="axes in space are: `space.turned(Z, phi)`"))
+        (x, y), c, s = self.components, cos(0 + angle), sin(0 + angle)
+        return Location((x * c - y * s, x * s + y * c))
+
     @property
     def height(self) -> Expr:
         return self.components[-1]
 
 
 def point(*components: Any) -> Location:
-    """The place with these components, (x, y) in a vertical plane or (x, y, z) in space, y or z upwards, m."""
+    """The place with these components, (x, y) in a vertical plane or (x, y, z) in space, y or z upwards, m.
+
+    Components that are steps, as `components` yields them, are called by their letters wherever the place is used.
+    """
     if len(components) not in (2, 3):
         raise Rejected(Complaint("wrong-argument", f"`point` needs two components or three, not {len(components)}"))
+    found = tuple((i, c) for i, c in enumerate(components) if isinstance(c, Quantity))
     try:
-        return Location(tuple(Integer(0) + c for c in components))
+        return Location(tuple(Integer(0) + value_behind(c) for c in components), found)
     except TypeError:
         raise Rejected(Complaint("wrong-argument", "`point` needs expressions, one for each component")) from None
 

@@ -5,31 +5,41 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, diff
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
 from derive.algebra.collect import by_accelerations
-from derive.algebra.expressions import Relation, TimeRate, explicit, rate
+from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time
-from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.dalembert import Matter, Reaction
 from derive.mechanics.systems.forced import ForcedMotion
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.mechanics.systems.rigid import by_squares
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import coordinates_in
-from derive.steps.step import Level, Quantity, compared_with
+from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 
-__all__ = ["accelerations", "constraint_rate", "multipliers"]
+__all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
 ZERO = Integer(0)
 MOST = 8  # unknowns that are solved for together
+
+
+@dataclass(frozen=True)
+class ForceOf(Fact):
+    """The constraint that a force keeps, and the equations from which it was found."""
+
+    missing = "is not the force of a constraint"
+    constraint: Constraint
+    problem: Any
 
 
 @dataclass(frozen=True)
@@ -38,14 +48,25 @@ class _Problem:
 
     lagrangian   which they all come from
     equations    one for each coordinate
+    keeping      coordinates whose accelerations are not solved for, so that their equations are not used
     """
 
     lagrangian: Quantity
     equations: tuple[Quantity, ...]
+    keeping: tuple[Symbol, ...] = ()
 
     @property
     def moving(self) -> list[Symbol]:
         return [each.needed(OfCoordinate).coordinate.symbol for each in self.equations]
+
+    @property
+    def solved(self) -> list[Symbol]:
+        """The coordinates whose accelerations are solved for."""
+        return [q for q in self.moving if q not in self.keeping]
+
+    @property
+    def used(self) -> list[Quantity]:
+        return [each for each in self.equations if each.needed(OfCoordinate).coordinate.symbol not in self.keeping]
 
     @property
     def constraints(self) -> tuple[Constraint, ...]:
@@ -54,7 +75,7 @@ class _Problem:
 
     @property
     def unknowns(self) -> list[Symbol]:
-        return [*(rate(q, 2) for q in self.moving), *(each.force for each in self.constraints)]
+        return [*(rate(q, 2) for q in self.solved), *(each.force for each in self.constraints)]
 
     @property
     def known(self) -> dict[Symbol, Expr]:
@@ -72,17 +93,17 @@ class _Problem:
 
     @property
     def residuals(self) -> list[Expr]:
-        equations = [explicit(each.value).residual for each in self.equations]
+        equations = [explicit(each.value).residual for each in self.used]
         return [*equations, *(each.acceleration(self.moving) for each in self.constraints)]
 
 
-def _problem(verb: str, equations: Sequence[Quantity]) -> _Problem:
+def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordinate] = ()) -> _Problem:
     if not equations:
         raise Rejected(Complaint("wrong-argument", f"`{verb}` needs equations of motion"))
     found = [_lagrangian_of(verb, each) for each in equations]
     if any(each.step != found[0].step for each in found):
         raise Rejected(Complaint("different-subjects", f"`{verb}` needs the equations of motion of one Lagrangian"))
-    problem = _Problem(found[0], tuple(equations))
+    problem = _Problem(found[0], tuple(equations), tuple(q.symbol for q in keeping))
     matter = found[0].needed(Matter)
     missing = [q.name for q in matter.coordinates if q not in problem.moving]
     if missing or len(set(problem.moving)) < len(problem.moving):
@@ -118,16 +139,17 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     return tuple(_acceleration(problem, q, rates) for q in problem.moving)
 
 
-def multipliers(*equations: Quantity) -> tuple[Quantity, ...]:
+def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
     """Forces of constraint, the multipliers lambda, as the equations of motion and the constraints give them.
 
     equations   of motion, one for each coordinate of one Lagrangian
+    keeping     coordinates whose accelerations stay in the forces: their equations are then left for the motion
     Keys: the letters of the forces.
     Second route: as `accelerations`.
     Errors: no constraint is kept by a force; else as `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
-    problem = _problem("multipliers", equations)
+    problem = _problem("multipliers", equations, keeping)
     if not problem.constraints:
         message = "`multipliers` needs constraints that forces keep, but this system has none"
         raise Rejected(Complaint("wrong-argument", message, help="`constraint(f, force=...)` is one"))
@@ -209,25 +231,94 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
     return establish(
         "kept.multiplier",
         each.force,
-        lambda: found[each.force],
+        lambda: _gathered(problem, found[each.force]),
         {},
         lines=Lines(put_in=None, arranged=lambda value: value),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=each.force.name,
         kind=each.kind_of_force,
-        parents=[*problem.equations, *rates],
+        parents=[*problem.used, *rates],
+        facts=[ForceOf(each, problem)],
     )
+
+
+def _gathered(problem: _Problem, value: Expr) -> Expr:
+    """By the accelerations that stay in a force, and by squares of rates."""
+    return by_accelerations(value, problem.moving) if problem.keeping else value
+
+
+def constraint_force(
+    forces: Sequence[Quantity], along: Mapping[Any, Expr], symbol: str = "N", key: str = "constraint_force"
+) -> Quantity:
+    """What forces of constraint do per unit of a displacement, N = sum of lambda df/dq dq: their component along it.
+
+    forces   as `multipliers` yields them, of one system
+    along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
+    symbol   of the component: a force where the displacement is a length
+    Second route: Newton's law along the displacement, sum of (m a - F) . dr over the mass points and the other forces.
+    Outcomes: generic, zero.
+    Errors: they belong to different systems; a further constraint does work in this displacement.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
+    """
+    kept = [force.needed(ForceOf) for force in forces]
+    if not kept or any(each.problem.lagrangian.step != kept[0].problem.lagrangian.step for each in kept):
+        raise Rejected(Complaint("different-subjects", "`constraint_force` needs the forces of one system"))
+    problem: _Problem = kept[0].problem
+    way = {q.symbol if isinstance(q, Coordinate) else q: ZERO + value for q, value in along.items()}
+    strange = [q for q in way if q not in problem.moving]
+    if strange:
+        message = f"`constraint_force`: this system has no coordinate {strange[0]}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
+    works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
+    missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
+    if missing:
+        message = f"`constraint_force`: {missing[0].force} does work in this displacement too"
+        raise Rejected(Complaint("wrong-argument", message, help="give all forces that `multipliers` yields"))
+    acting = {f"force_{i}": f for i, (f, k) in enumerate(zip(forces, kept, strict=True)) if works[k.constraint] != 0}
+    factors = [works[f.needed(ForceOf).constraint] for f in acting.values()]
+
+    def law(*names: Expr) -> Expr:
+        pairs = list(zip(names, factors, strict=True))
+        terms = [-Factors(f, -by) if by.could_extract_minus_sign() else Factors(f, by) for f, by in pairs]
+        return Terms(*terms) if len(terms) > 1 else Add(*terms)
+
+    return establish(
+        "kept.constraint_force",
+        scalar(symbol),
+        law,
+        acting,
+        lines=Lines(put_in=None, arranged=lambda value: by_accelerations(value, problem.moving)),
+        routes={"newton": compared_with(lambda: _by_newton(problem, way))},
+        outcome=lambda value: "zero" if value == 0 else "generic",
+        key=key,
+        kind={"length": "force", "angle": "torque"}.get("".join({problem.lagrangian.coordinates[q] for q in way})),
+        parents=list(forces),
+    )
+
+
+def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
+    """What inertia asks for along the displacement, less what all other forces do."""
+    matter = problem.lagrangian.needed(Matter)
+    total = ZERO
+    for q, dq in way.items():
+        kept = Add(*(load.work_along(q) for load in matter.others if isinstance(load, Reaction)))
+        total += dq * (matter.inertia_along(q) - matter.force_along(q) + kept)
+    if not problem.keeping:
+        return total.xreplace(_solution(problem)).xreplace(problem.known)
+    known = problem.known
+    twice = {rate(q, 2): by_functions_of_time(v, problem.moving, 2) for q, v in known.items() if q in problem.moving}
+    return total.xreplace(twice).xreplace(known)
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
     """Each coordinate with a factor of its own, so that no two terms can make up for one another."""
     matter = problem.lagrangian.needed(Matter)
-    marks = [Symbol(f"delta_{q.name}", real=True) for q in problem.moving]
+    marks = [Symbol(f"delta_{q.name}", real=True) for q in problem.solved]
     whole = Add(
         *(
             mark * (matter.inertia_along(q) - matter.force_along(q))
-            for q, mark in zip(problem.moving, marks, strict=True)
+            for q, mark in zip(problem.solved, marks, strict=True)
         )
     )
     return whole.xreplace(dict(found)).xreplace(problem.known), ZERO
@@ -287,14 +378,14 @@ def _is_singular(matrix: ImmutableDenseMatrix) -> bool:
 
 def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
     """What is wrong with equations that have no solution, or many."""
-    count = len(problem.moving)
+    count = len(problem.solved)
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
         names = ", ".join(each.force.name for each in problem.constraints)
         how = "contradict" if _contradict(problem.constraints) else "repeat"
         message = f"the constraints kept by {names} {how} one another, so the forces are not determined"
         return Rejected(Complaint("constraints", message, help="leave out those that follow from the others"))
-    bare = next((q.name for i, q in enumerate(problem.moving) if not any(matrix[i, :count])), None)
+    bare = next((q.name for i, q in enumerate(problem.solved) if not any(matrix[i, :count])), None)
     what = f"no mass moves with {bare}" if bare else "the mass matrix is singular"
     return Rejected(Complaint("no-inertia", f"the accelerations are not determined: {what}"))
 

@@ -159,7 +159,7 @@ def inertia_of(placed: PlacedBody) -> Inertia:
     if hasattr(body, "point_called"):
         _check_moments(placed)
         moments: tuple[Expr, ...] = body.moments
-        tensor: Inertia = body.tensor if axis is None else moments[axis]
+        tensor: Inertia = body.tensor if axis is None else getattr(body, "across_plane", None) or moments[axis]
         return tensor
     if axis is None:
         return inertia_tensor(body, about=about)

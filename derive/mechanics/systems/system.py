@@ -7,7 +7,7 @@ made of the places alone; so are the mass points and forces by which every secon
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -154,7 +154,9 @@ class System:
         self.called = name
         self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
         known = dict(_known_by(condition) for condition in self.conditions)
+        self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
+        self.put_in = tuple(c for c in self.conditions if _is_put_into(c, parts))
         parts = tuple(_with_known(part, known) for part in parts) if known else parts
         self.particles = tuple(part for part in parts if isinstance(part, Particle))
         self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
@@ -254,6 +256,12 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     return found.coordinate, found.function
 
 
+def _is_put_into(condition: Quantity, parts: Sequence[PartOfSystem]) -> bool:
+    """Whether a part depends on the coordinate that a condition gives by others."""
+    known = dict([_known_by(condition)])
+    return any(_with_known(part, known) != part for part in parts if not isinstance(part, Quantity))
+
+
 def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
     """A part of a system with some of the coordinates given by others."""
     if isinstance(part, PlacedBody):
@@ -272,7 +280,7 @@ def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
 
 
 def _moved(place: Location, known: Mapping[Symbol, Expr]) -> Location:
-    return Location(tuple(c.subs(known) for c in place.components))
+    return place.with_values(known)
 
 
 def mass_points(placed: PlacedBody) -> list[MassPoint]:

@@ -1,0 +1,36 @@
+"""A moment of inertia that was derived and is given to a body: it must be that of the body's mass, about its centre."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.regions import Point
+from derive.steps.record import require_constant
+from derive.steps.step import Quantity, is_zero, require_kind
+from derive.steps.subject import called
+
+__all__: list[str] = []
+
+
+def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
+    """Of this mass, about the centre of mass, and about an axis across the plane of a flat body."""
+    body, about = inertia.subject.body, inertia.subject
+    require_kind(verb, "moments", inertia, "moment of inertia")
+    require_constant(verb, "moment of inertia", inertia)
+    if body is not None and about.point is not None:
+        middle = getattr(body, "middle", None)
+        if not isinstance(about.point, Point) or not middle or not is_zero(about.point.position - middle.position):
+            message = f"`{verb}` needs a moment about the centre of mass, but `{inertia.key}` is about "
+            help_line = 'give the moment with about="centre"'
+            raise Rejected(Complaint("wrong-point", message + called(about.point), help=help_line))
+    if about.mass is not None and mass is not None and not is_zero(about.mass - mass):
+        message = f"`{verb}`: `{inertia.key}` is the moment of a mass {called(about.mass)}, not of {called(mass)}"
+        raise Rejected(Complaint("different-subjects", message))
+    across = getattr(body, "flat_across", None)
+    if across is not None and about.axis not in (None, across):
+        message = f"`{inertia.key}` is about an axis in the plane of {called(body)}, which moves in that plane"
+        raise Rejected(Complaint("wrong-axis", message, help=f'give the moment with axis="{across}"'))
+    if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
+        message = f"`{inertia.key}` is about the line of {called(body)} itself, which lies in the plane"
+        raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))

@@ -1,0 +1,64 @@
+"""What a body rolls on is drawn from the condition of rolling: a cylinder outside of it, or round it."""
+
+from __future__ import annotations
+
+from sympy import Matrix, cos, sin, symbols
+
+from derive.figures import sketch
+from derive.figures.annotations import PointMark
+from derive.figures.parts import ConnectionMark
+from derive.figures.pieces import Bullet
+from derive.figures.placed_bodies import SilhouetteMark
+from derive.figures.surfaces import Circle
+from derive.figures.surroundings import AngleBetween, DistanceMark
+from derive.mechanics import Disc, System, coordinate, no_slip, point, weight
+from derive.steps.record import recorded
+from tests.figures.scenery import SLAB, M, R, a, pieces_of, slab, theta
+
+b = symbols("b", positive=True)
+
+
+def test_the_centre_of_a_rolled_slab_is_where_rolling_takes_it() -> None:
+    """x = (R + a/2) sin q - R q cos q, y = (R + a/2) cos q + R q sin q; the corners are about that centre."""
+    x, y = (R + a / 2) * sin(theta) - R * theta * cos(theta), (R + a / 2) * cos(theta) + R * theta * sin(theta)
+    corners = next(mark.corners for mark in SLAB.marks if isinstance(mark, SilhouetteMark))
+    mean = sum((Matrix(corner) for corner in corners), Matrix([0, 0])) / 4
+    assert (mean - Matrix([x, y])).expand() == Matrix([0, 0])
+
+
+def test_the_point_of_contact_is_on_the_cylinder_and_on_the_face_of_the_slab() -> None:
+    line = next(mark for mark in SLAB.marks if isinstance(mark, ConnectionMark))
+    contact = Matrix(line.end)
+    assert (contact.dot(contact) - R**2).simplify() == 0
+    assert (list(line.start), line.label) == ([0, 0], R)
+    corners = next(mark.corners for mark in SLAB.marks if isinstance(mark, SilhouetteMark))
+    face, beside = Matrix(corners[1]) - Matrix(corners[0]), Matrix(corners[0]) - contact
+    assert (face[0] * beside[1] - face[1] * beside[0]).simplify() == 0
+    assert any(isinstance(mark, PointMark) and Matrix(mark.at) == contact for mark in SLAB.marks)
+
+
+def test_the_angle_of_the_contact_and_the_side_that_is_a_letter_are_named() -> None:
+    assert [mark.label for mark in SLAB.marks if isinstance(mark, AngleBetween)] == [theta]
+    assert [mark.label for mark in SLAB.marks if isinstance(mark, DistanceMark)] == [a]
+
+
+def test_a_body_of_which_only_a_moment_is_known_is_drawn_as_the_shape_that_it_is_given() -> None:
+    shape, given = (next(m for m in each.marks if isinstance(m, SilhouetteMark)) for each in (SLAB, slab(M * a**2)))
+    assert given.corners == shape.corners
+    assert given.measures == ()
+
+
+def test_a_disc_that_rolls_inside_a_cylinder_hides_nothing_of_it() -> None:
+    with recorded():
+        phi, psi = coordinate("phi"), coordinate("psi")
+        disc = Disc(a, M).placed(psi, point(b * sin(phi), -b * cos(phi)), across="z")
+        rolling = no_slip(disc, at=point((a + b) * sin(phi), -(a + b) * cos(phi)))
+        circle = next(m for m in sketch("inside", System(disc, rolling, weight(a))).marks if isinstance(m, Circle))
+    assert (circle.radius, circle.filled) == (a + b, False)
+    assert next(mark for mark in SLAB.marks if isinstance(mark, Circle)).filled
+
+
+def test_a_slab_that_turned_the_other_way_lies_on_the_other_side() -> None:
+    spots = {sign: [p.spot for p in pieces_of(SLAB, theta=sign * 0.5) if isinstance(p, Bullet)] for sign in (1, -1)}
+    assert spots[1][1][0] > spots[1][0][0] + 5
+    assert spots[-1][1][0] < spots[-1][0][0] - 5
