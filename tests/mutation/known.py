@@ -12,7 +12,7 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
     "other places, which the page says: a script's formulas are what the problem is about": (
         "mechanics.systems.places:Location.__add__: dropped: a + b -> b",
         "mechanics.systems.places:Location.__add__: plus/minus: a + b -> a - b",
-        "mechanics.systems.places:point: plus/minus: Integer(0) + c -> Integer(0) - c",
+        "mechanics.systems.places:point: plus/minus: Integer(0) + value_behind(c) -> Integer(0) - value_behind(c)",
     ),
     "another letter for the same thing, throughout: nothing says which letter a thing must have": (
         "mechanics.bodies.mapping:cylindrical: order: ('z', 'theta', 'r') -> ['theta', 'z', 'r']",

@@ -73,7 +73,7 @@ class RigidBody(Placeable, OfParticles):
     """
 
     mass: Expr | None = None
-    moments: tuple[Expr, Expr, Expr] | Expr | Quantity = ()
+    moments: tuple[Expr, Expr, Expr] | Expr = ()
     centre: tuple[Expr, ...] = (Integer(0), Integer(0), Integer(0))
     about: str = ""
     name: ClassVar[str] = "a rigid body"
