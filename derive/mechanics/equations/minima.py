@@ -30,6 +30,7 @@ from derive.steps.step import Form, Level, Quantity, is_zero, require_kind
 __all__ = ["stability"]
 
 HIGHEST = 8  # the order to which a border is looked at
+SHORT = 80  # operations of a curvature that is written down before a place is put in
 ZERO = Integer(0)
 
 
@@ -123,7 +124,8 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
     told: dict[str, tuple[Any, Any]] = {}
-    level = [] if place.rest is not None else [slope(potential, by=q)]
+    is_short = int(diff(place.energy, q, 2).count_ops()) <= SHORT
+    level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:
         told["place"] = (Relation(q, "=", place.values[q]), Relation(place.values[q], "=", q))
     if condition is not None:
@@ -143,9 +145,9 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     return establish(
         "minima.stability",
         At(Slope(potential.symbol, q, Integer(2)), q, place.values[q] if place.rest is None else place.rest.symbol),
-        lambda second, at: At(second, q, at),
+        lambda second, at: At(second if is_short else Slope(second, q, Integer(2)), q, at),
         {
-            "curvature": slope(potential, 2, by=q),
+            "curvature": slope(potential, 2, by=q) if is_short else potential,
             "at": place.rest if place.rest is not None else place.values[q],
         },
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda _: spread_or_by_terms(value)),

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial, nan, series
+from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial, nan, series, zoo
 
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit
+from derive.algebra.taylor import NoSeries, taylor
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.oscillations import sign_of
@@ -90,6 +91,12 @@ def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
     """The coefficient of u^n in the expansion about q = place."""
+    try:
+        found = taylor(explicit(value), {q: (place, Integer(1), *[Integer(0)] * order)}, order)[order]
+    except NoSeries:
+        found = nan
+    if not found.has(nan, zoo):
+        return found
     u = Symbol("u", real=True)
     return series(value.subs(q, place + u), u, 0, order + 1).removeO().expand().coeff(u, order)
 
