@@ -154,6 +154,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         routes={"small_force": lambda found: (found, _small_force(place, q))},
         outcome=outcome,
         telling=Telling(
+            points_to={"potential": potential},
             formulas=told,
             judged_by={
                 "coordinates": place.coordinates,

@@ -212,7 +212,15 @@ def equation_of_motion(
     def by_virtual_work() -> Relation:
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
 
-    gathered = by_accelerations(explicit(changing.value - force.value), moving)
+    whole = explicit(of.value)
+    gathered = by_accelerations(
+        explicit(
+            found[2].value - found[0].value
+            if found
+            else TimeRate(slope(whole, q.rate), *moving) - slope(whole, q.symbol)
+        ),
+        moving,
+    )
     alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
     left = _without_common_factor(gathered) if alone else gathered
 
@@ -223,8 +231,10 @@ def equation_of_motion(
         {"lagrangian": of},
         lines=Lines(
             between=[
-                *(Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL)
-                  for force, _, changing in ([found] if found else [])),
+                *(
+                    Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL)
+                    for force, _, changing in ([found] if found else [])
+                ),
                 Form(Relation(gathered, "=", 0), "result"),
             ],
             put_in=None,
