@@ -27,10 +27,10 @@ def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
     if about.mass is not None and mass is not None and not is_zero(about.mass - mass):
         message = f"`{verb}`: `{inertia.key}` is the moment of a mass {called(about.mass)}, not of {called(mass)}"
         raise Rejected(Complaint("different-subjects", message))
+    if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
+        message = f"`{inertia.key}` is about the line of {called(body)} itself, which lies in the plane"
+        raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))
     across = getattr(body, "flat_across", None)
     if across is not None and about.axis not in (None, across):
         message = f"`{inertia.key}` is about an axis in the plane of {called(body)}, which moves in that plane"
         raise Rejected(Complaint("wrong-axis", message, help=f'give the moment with axis="{across}"'))
-    if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
-        message = f"`{inertia.key}` is about the line of {called(body)} itself, which lies in the plane"
-        raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))
