@@ -5,18 +5,20 @@ multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 need
 is a letter more, and is multiplied out again before anything is said to vanish.
 
 The letters and the z of angles that are products of letters do not depend on one another by any polynomial (exponential
-functions of such angles are algebraically independent), so that a form without terms is the only one of zero.
+functions of such angles are algebraically independent), so that a form without terms is the only one of zero. The z of
+parts of pi is a root of one, and what holds of it follows from its irreducible equation, by which a form is reduced.
 
 Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms); Lang, *Algebra*, ch. VI,
-section 4 (the independence of characters).
+section 3 (cyclotomic polynomials are irreducible) and section 4 (the independence of characters).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from math import gcd, lcm
 
-from sympy import Add, Expr, I, Mul, Pow, Rational, Symbol, cos, pi, sin, tan
+from sympy import Add, Expr, I, Mul, Pow, Rational, Symbol, cos, cyclotomic_poly, pi, sin, tan
 
 from derive.algebra.sparse_polynomials import HIGHEST, PARTS, WIDTH, Form, Outside, Ring, Terms
 
@@ -107,7 +109,7 @@ class TrigRing(Ring):
     def _multiple(self, number: Rational, angle: Expr) -> int:
         """How many of the smallest parts of the angle there are."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
-        if not all(isinstance(base, Symbol) and power.is_Integer for base, power in powers):
+        if angle is not pi and not all(isinstance(base, Symbol) and power.is_Integer for base, power in powers):
             raise Outside
         if abs(number.p) > HIGHEST or number.q > PARTS:
             raise Outside
@@ -133,6 +135,8 @@ class TrigRing(Ring):
         content = gcd(*form.terms.values())
         terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
         key = frozenset(terms.items())
+        if self._has_parts_of_pi(terms):  # such a sum may vanish although it has terms
+            raise Outside
         if key not in self.letters:
             self._divisors.append((self.place(key), Form(terms, 1, form.reach)))
         scale = gcd(form.below, content)
@@ -143,7 +147,23 @@ class TrigRing(Ring):
         for place, divisor in reversed(self._divisors):
             if form.terms:
                 form = self._multiplied_out(form, place, divisor)
-        return not form.terms
+        return not form.terms or self._has_parts_of_pi(form.terms) and self._is_zero_by_roots_of_one(form.terms)
+
+    def _has_parts_of_pi(self, terms: Terms) -> bool:
+        place = self.letters.get((pi,))
+        return place is not None and any(self._power_in(monomial, place) for monomial in terms)
+
+    def _is_zero_by_roots_of_one(self, terms: Terms) -> bool:
+        """Whether, before each product of the other letters, the sum of powers of exp(i pi/parts) and of i is zero."""
+        place, parts = self.letters[(pi,)], self.units.get(pi, 1)
+        order = lcm(2 * parts, 4)
+        sums: dict[int, dict[int, int]] = {}
+        for monomial, coefficient in terms.items():
+            power = self._power_in(monomial, place)
+            turn = (power * (order // (2 * parts)) + (monomial & 1) * (order // 4)) % order
+            of_rest = sums.setdefault((monomial - (power << place)) & ~1, {})
+            of_rest[turn] = of_rest.get(turn, 0) + coefficient
+        return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
     def _multiplied_out(self, form: Form, place: int, divisor: Form) -> Form:
         by_power: dict[int, Terms] = {}
@@ -172,6 +192,24 @@ def _monomial_over(monomial: int, form: Form) -> Form:
     turns, coefficient = monomial & 1, form.terms[monomial]
     sign = (-1 if turns else 1) * (1 if coefficient > 0 else -1)
     return Form({turns - (monomial - turns): sign * form.below}, abs(coefficient), form.reach, form.cost)
+
+
+def _vanishes_at_root_of_one(powers: dict[int, int], order: int) -> bool:
+    """Whether a polynomial is zero at exp(2 i pi/order): divided by the irreducible one, it leaves nothing."""
+    modulus = _irreducible_at(order)
+    degree = len(modulus) - 1
+    left = [powers.get(n, 0) for n in range(order)]
+    for n in range(order - 1, degree - 1, -1):
+        if left[n]:
+            for k, coefficient in enumerate(modulus):
+                left[n - degree + k] -= left[n] * coefficient if k < degree else 0
+    return not any(left[:degree])
+
+
+@lru_cache(maxsize=PARTS)
+def _irreducible_at(order: int) -> tuple[int, ...]:
+    """The coefficients of the cyclotomic polynomial, the lowest power first; that of the highest is 1."""
+    return tuple(int(c) for c in reversed(cyclotomic_poly(order, polys=True).all_coeffs()))
 
 
 class _Kept:
