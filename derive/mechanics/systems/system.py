@@ -65,12 +65,16 @@ class Central:
     @cached_property
     def length(self) -> Expr:
         """Of a way along one line, its component there, where that is positive at rest and then taken to stay so."""
-        square = tidied(Add(*(c**2 for c in (self.end - self.start).components)))
-        length = sqrt(factor(square))
-        along = next(iter(length.atoms(Abs)), ZERO)
-        if length != along or not isinstance(along, Abs):
-            return length
-        (way,) = along.args
+        components = [c for c in (self.end - self.start).components if c != 0]
+        if len(components) == 1 and _is_sum_of_letters(components[0]):
+            (way,) = components
+            length = Abs(way)
+        else:
+            length = sqrt(factor(tidied(Add(*(c**2 for c in components)))))
+            along = next(iter(length.atoms(Abs)), ZERO)
+            if length != along or not isinstance(along, Abs):
+                return length
+            (way,) = along.args
         at_rest = way.xreplace(dict.fromkeys(coordinates_in(way), ZERO))
         if way == at_rest or not at_rest.is_nonzero:
             return length
@@ -84,7 +88,7 @@ class Central:
     def pulls(self) -> tuple[Load, Load]:
         """The forces at its two ends, towards each other where the energy grows with the distance."""
         way = (self.end - self.start).components
-        size = self.pull.subs(self.distance, self.length)
+        size = self.pull.xreplace({self.distance: self.length})
         pull = tuple(size * c / self.length for c in way)
         return Load(pull, self.start.components), Load(tuple(-c for c in pull), self.end.components)
 
@@ -290,6 +294,11 @@ def mass_points(placed: PlacedBody) -> list[MassPoint]:
         pairs = [j for j in axes if j > i and spread[i, j] != 0]
         points += [MassPoint(spread[i, j], placed.seen_in_space(arms[i] + arms[j]).components) for j in pairs]
     return [point for point in points if point.mass != 0]
+
+
+def _is_sum_of_letters(way: Expr) -> bool:
+    """Whether it is a sum of letters, each with its sign and nothing else: such a sum is in no factors."""
+    return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)
 
 
 def _is_so(condition: Relation, coordinates: Mapping[Symbol, str]) -> bool:
