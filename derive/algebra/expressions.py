@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from sympy import (
@@ -68,6 +69,7 @@ TIME = scalar("t")  # there is one time: what contains it changes as it passes
 RATES = ("", "_dot", "_ddot", "_dddot")
 
 
+@lru_cache(maxsize=1024)
 def rate(coordinate: Symbol, order: int = 1) -> Symbol:
     """The name of a coordinate's rate of change: theta -> theta_dot, theta_dot -> theta_ddot."""
     name = coordinate.name
