@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
+from functools import lru_cache, partial
 
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
@@ -55,8 +55,14 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
     """Such as the force of a stretched spring, a term of its own: on one denominator with others nobody can read it."""
-    powers = (power for power in term.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer)
-    return any(power.base.has(*moving) for power in powers)
+    return any(root.base.has(*moving) for root in _roots_in(term))
+
+
+@lru_cache(maxsize=4096)  # the terms of one sum have most of their factors in common
+def _roots_in(expr: Expr) -> frozenset[Pow]:
+    inside = frozenset(root for part in expr.args if part.args for root in _roots_in(part))
+    is_root = isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer
+    return inside | {expr} if is_root else inside
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:

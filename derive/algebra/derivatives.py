@@ -11,7 +11,6 @@ __all__ = ["derivative"]
 ZERO, ONE = Integer(0), Integer(1)
 
 
-@lru_cache(maxsize=4096)  # a force, a momentum and an equation of motion differentiate the same Lagrangian
 def derivative(expr: Expr, s: Symbol) -> Expr:
     """The partial derivative by a letter."""
     if not isinstance(expr, Expr) or not isinstance(s, Symbol):
@@ -31,8 +30,11 @@ def _letters(expr: Expr) -> frozenset[Symbol]:
 def _derivative(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Atom:
         return ONE if expr == s else ZERO
-    if s not in _letters(expr):
-        return ZERO
+    return _derivative_by_parts(expr, s) if s in _letters(expr) else ZERO
+
+
+@lru_cache(maxsize=16384)  # a force, a momentum and an equation of motion differentiate what has most parts in common
+def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Add:
         return Add(*(_derivative(term, s) for term in expr.args))
     if expr.is_Mul:

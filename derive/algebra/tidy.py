@@ -53,6 +53,8 @@ def tidied(value: Any) -> Any:
 
 def _signs_squared(value: Any) -> Any:
     """Whichever sign a plus-or-minus is, its square is one."""
+    if PLUS_MINUS not in value.free_symbols:
+        return value
     powers = [p for p in value.atoms(Pow) if p.base == PLUS_MINUS and p.exp.is_Integer]
     return value.xreplace({p: PLUS_MINUS if p.exp % 2 else Integer(1) for p in powers}) if powers else value
 
