@@ -70,7 +70,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
     """
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
-    known = {(): ring.one}
+    known: dict[tuple[int, ...], Any] = {(): ring.one}
     for row in reversed(range(size)):  # columns that the rows from here on stand in -> their minor
         own = entries[size * row : size * (row + 1)]
         minors: dict[tuple[int, ...], Any] = {}
@@ -81,7 +81,8 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
                     place = tuple(sorted((*columns, j)))
                     minors[place] = minors.get(place, ring.zero) + (-1) ** before * own[j] * minor
         known = {place: minor for place, minor in minors.items() if minor}
-    return known.get(tuple(range(size)), ring.zero).as_expr()
+    whole: Expr = known.get(tuple(range(size)), ring.zero).as_expr()
+    return whole
 
 
 def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:

@@ -10,7 +10,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixSymbol, Pow, Symbol, cos, diff, exp, expand, pi, sin, sqrt
+from sympy import (
+    Add,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixSymbol,
+    Pow,
+    Symbol,
+    cos,
+    diff,
+    exp,
+    expand,
+    pi,
+    sin,
+    sqrt,
+)
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
