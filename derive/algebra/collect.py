@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import lru_cache, partial
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, igcd, ilcm, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
-from derive.algebra.expressions import rate
+from derive.algebra.expressions import TIME, rate
 from derive.algebra.tidy import tidied
 
 
@@ -38,8 +38,71 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     parts: list[Expr] = []
     for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
-        parts += Add.make_args(part) if not any(powers) else [part]  # terms without rates stand side by side
+        # Terms without rates stand side by side.
+        parts += [_with_short_sums(term, moving) for term in Add.make_args(part)] if not any(powers) else [part]
     return Add(*parts, evaluate=len(parts) < 2)
+
+
+def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
+    """(1/2) m (r_dot^2 + r^2 phi_dot^2): a kinetic energy with what all its terms have in common in front, if masses or
+    moments of inertia are in it; else the terms together that have all constants in common.
+    """
+    letters = {*moving, *(rate(q) for q in moving), TIME}
+    terms = [_apart(term, letters) for term in Add.make_args(value)]
+    if len(terms) < 2:
+        return value
+    shared = set.intersection(*(set(constants) for _, constants, _ in terms))
+    number = _common_number([number for number, _, _ in terms])
+    if number is not None and any(each.free_symbols & set(weights) for each in shared):
+        rest = [Mul(n / number, *(c for c in constants if c not in shared), *others) for n, constants, others in terms]
+        return Mul(number, *sorted(shared, key=str), Add(*rest), evaluate=False)
+    groups: dict[tuple[Expr, ...], list[Expr]] = {}
+    for n, constants, others in terms:
+        groups.setdefault((n, *sorted(constants, key=str)), []).append(Mul(*others))
+    parts = [
+        Mul(*front, Add(*others), evaluate=False) if len(others) > 1 and len(front) > 1 else Mul(*front, *others)
+        for front, others in groups.items()
+    ]
+    return Add(*parts, evaluate=False) if len(groups) < len(terms) else value
+
+
+def with_constants_together(value: Expr, moving: Collection[Symbol]) -> Expr:
+    """The terms that have one function of the coordinates together: -2 (M + m) g l cos(theta)."""
+    gathered: dict[Expr, list[Expr]] = {}
+    for term in Add.make_args(value):
+        number, constants, others = _apart(term, moving)
+        gathered.setdefault(Mul(*others), []).append(number * Mul(*constants))
+    return Add(*(tidied(Add(*constants)) * function for function, constants in gathered.items()))
+
+
+def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
+    """l ((M + m) g - m l omega^2 cos(theta)) sin(theta): the constants in its sums together, where that is shorter."""
+
+    def together(sum_of: Expr) -> Expr:
+        return min((sum_of, with_constants_together(sum_of, moving)), key=lambda form: int(form.count_ops()))
+
+    return Mul(*(together(f) if f.is_Add else f for f in Mul.make_args(value)))
+
+
+def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], list[Expr]]:
+    """The number in a term, its constant factors and the others."""
+    number, constants, others = Integer(1), [], []
+    for each in Mul.make_args(term):
+        if each.is_Rational:
+            number *= each
+        elif each.free_symbols & set(letters):
+            others.append(each)
+        else:
+            constants.append(each)
+    return number, constants, others
+
+
+def _common_number(numbers: Sequence[Expr]) -> Expr | None:
+    """1/2 of 1/2, 1 and 3/2; nothing where numbers would have to be put on one denominator, 1/2 and 3/4."""
+    below = ilcm(*(n.q for n in numbers))
+    if below > 2 and len({n.q for n in numbers}) > 1:
+        return None
+    return Rational(igcd(*(int(n * below) for n in numbers)), below)
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
