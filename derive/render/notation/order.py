@@ -83,6 +83,8 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
         return 0, Place.SUM, 1, str(factor)
     if isinstance(base, Add | ex.Terms):
         place = rank_of_sum(_place_of_term(term, dimension_of) for term in base.args)
+        if place is Place.ACCELERATION and not all(term.as_coeff_Mul()[1].is_Symbol for term in base.args):
+            place = Place.SUM  # m (g + a) l, but l (l omega^2 + g)
         swings = base.has(Function, ex.TIME)  # e^(-t/T) (cos w t + ...), but (a + b) e^(-t/T)
         return 0, place, 2 if swings else 0, str(factor)
     return 2 if isinstance(base, ex.Group) else 1, 0, 0, str(factor)

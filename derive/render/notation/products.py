@@ -153,7 +153,7 @@ def higher_roots_together(expr: Expr) -> Expr:
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and f.exp.is_Rational and not f.exp.is_Integer]
     index = ilcm(*(root.exp.q for root in roots)) if len(roots) > 1 else 2
-    if index == 2 or not any(root.free_symbols for root in roots):
+    if not any(root.free_symbols and root.exp.q > 2 for root in roots):
         return expr
     wholes = [int(root.exp) if root.exp > 0 else 0 for root in roots]
     inside = [Pow(root.base, index * (root.exp - n)) for root, n in zip(roots, wholes, strict=True)]
@@ -172,7 +172,7 @@ class Place(IntEnum):
     PER_MASS = auto()  # the gravitational constant stands before the masses
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()
-    COUPLING = auto()  # a force, an energy, an angular momentum, a constant of a law of force
+    COUPLING = auto()  # an energy, an angular momentum, a constant of a law of force
     ACCELERATION = auto()  # also a speed; a field stands behind the charge that is in it
     LENGTH = auto()
     SUM = auto()
@@ -193,8 +193,7 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
     if dimension.mass and dimension.length >= 0 and not (dimension.length and dimension.time):
         return Place.MASS
     if dimension.mass:
-        is_torque_or_the_like = dimension.length > 0 and dimension.time == -2
-        return Place.COUPLING if is_torque_or_the_like or dimension.length == 2 else Place.OTHER
+        return Place.COUPLING if dimension.length >= 2 else Place.OTHER
     if dimension.length and dimension.time:
         return Place.ACCELERATION
     return Place.LENGTH if dimension.length else Place.RATE
