@@ -116,8 +116,12 @@ def _one(
     terms = [spread(matrix[i, j]) * s for matrix, letters in ordered for j, s in enumerate(letters)]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
+    named = _letters_of(rests)
     counted = {
-        f"counted_{n}": (Relation(q, "=", Terms(*Add.make_args(place[q]), s)), Relation(s, "=", q - place[q]))
+        f"counted_{n}": (
+            Relation(q, "=", Terms(*Add.make_args(named.get(q, place[q])), s)),
+            Relation(s, "=", q - named.get(q, place[q])),
+        )
         for n, (q, s) in enumerate(away, 1)
     }
     return establish(
@@ -138,6 +142,16 @@ def _one(
         facts=[linear, OfCoordinate(eta[i])],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
+
+
+def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
+    """What the page calls the coordinates at rest, r_0."""
+    found: dict[Symbol, Expr] = {}
+    for rest in rests:
+        names = [rest.symbol] if isinstance(rest.symbol, Symbol) else list(rest.symbol or ())
+        held = list(rest.needed(Rest).values)
+        found.update(zip(held, names, strict=True) if len(names) == len(held) else ())
+    return found
 
 
 def _is_of_energies_alone(equation: Quantity) -> bool:

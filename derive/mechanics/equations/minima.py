@@ -17,7 +17,13 @@ from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.equilibria import expanded, matter_behind, potential_at_rest, slope_otherwise
+from derive.mechanics.equations.equilibria import (
+    expanded,
+    matter_behind,
+    potential_at_rest,
+    slope_otherwise,
+    steady_in,
+)
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
@@ -120,7 +126,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     (q,), potential = place.coordinates, place.potential
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
-    told: dict[str, tuple[Any, Any]] = {}
+    told = steady_in(potential, [q])
     if condition is not None:
         told["condition"] = (condition, Relation(value, ">", 0))
     if place.exists is not None:
