@@ -34,13 +34,20 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     except PolynomialError:
         gathered = []
     if not gathered:
-        return tidied(value.expand())
+        return _level(tidied(value.expand()), value, moving)
     parts: list[Expr] = []
     for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
+        part = part if any(powers) else _level(part, part, moving)
         # Terms without rates stand side by side.
         parts += [_with_short_sums(term, moving) for term in Add.make_args(part)] if not any(powers) else [part]
     return Add(*parts, evaluate=len(parts) < 2)
+
+
+def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3): no common denominator that holds a coordinate."""
+    below = found.as_numer_denom()[1]
+    return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:

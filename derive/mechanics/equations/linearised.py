@@ -124,10 +124,13 @@ def _one(
         )
         for n, (q, s) in enumerate(away, 1)
     }
+    whole = Relation(left, "=", linear.driven[i])
+    if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
+        counted["as_it_is"] = (whole, equations[i].value)
     return establish(
         "linearised.equation",
         None,
-        lambda *_: Relation(left, "=", linear.driven[i]),
+        lambda *_: whole,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},

@@ -32,6 +32,7 @@ from derive.render.notation.layout import (
     begins_with_number,
     ends_in_differential,
     first_of,
+    is_differential,
     is_enclosed,
     is_number,
     last_of,
@@ -235,6 +236,8 @@ def between_factors(before: Layout, after: Layout) -> Layout | None:
     if isinstance(first_of(after), Applied):
         return THIN_SPACE
     last = last_of(before)
+    if isinstance(last, Fraction) and is_differential(first_of(last.above)) and _is_letter(after):
+        return THIN_SPACE
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or ends_in_differential(before):
         return THIN_SPACE
     if _is_letter(before) and _is_letter(after):
