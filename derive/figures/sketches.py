@@ -149,7 +149,14 @@ class _Scene:
     def _round(self, link: Link) -> Iterable[Mark]:
         """The circle on which a place is seen from above that is at a distance from an axis, and that axis."""
         *across, height = link.start.components
-        if link.is_constant or any(across) or TIME in moving_in(self.system, *link.way.components):
+        if (
+            link.is_constant
+            or is_fixed(self.system, link.start)
+            and TIME in moving_in(self.system, *link.way.components)
+        ):
+            return
+        if any(across) or height not in {*self.system.coordinates, ZERO}:
+            yield from self._ways(link.end)
             return
         for q in moving_in(self.system, *link.way.components):
             if self.system.coordinates.get(q) == "angle":
