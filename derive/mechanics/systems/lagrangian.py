@@ -329,7 +329,7 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     factors = Mul.make_args(common_factor(list(terms)))
     constant = [f for f in factors if f.is_positive and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
     common = Mul(*(f for f in constant if not (bracketed and f.is_number)))
-    divided = Add(*(_divided(term, common) for term in terms), evaluate=False)
+    divided = Add(*(part for term in terms for part in Add.make_args(_divided(term, common))), evaluate=False)
     return min((divided, left), key=lambda form: int(form.count_ops()))
 
 
