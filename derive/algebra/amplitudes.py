@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer
 from sympy.matrices import MatrixBase
 from sympy.polys.matrices import DomainMatrix
+from sympy.polys.rings import sring
 
 from derive.algebra.dimensions import Dimension, product
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, explicit
@@ -60,6 +61,28 @@ def determinant_of(matrix: MatrixBase) -> Expr:
     """Worked out in the ring of the letters of its entries, where nothing is divided; multiplied out."""
     domain = DomainMatrix.from_Matrix(matrix)
     return domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
+
+
+def expanded_by_rows(matrix: MatrixBase) -> Expr:
+    """The determinant by its definition: along the first row, with each minor of the rows below worked out once.
+
+    Source: Axler, *Linear Algebra Done Right*, section 9C; it shares nothing with `determinant_of`, but for the ring.
+    """
+    ring, entries = sring(list(matrix))
+    size = matrix.shape[0]
+    known: dict[tuple[int, ...], Any] = {(): ring.one}
+    for row in reversed(range(size)):  # columns that the rows from here on stand in -> their minor
+        own = entries[size * row : size * (row + 1)]
+        minors: dict[tuple[int, ...], Any] = {}
+        for columns, minor in known.items():
+            for j in range(size):
+                if own[j] and j not in columns:
+                    before = sum(other < j for other in columns)
+                    place = tuple(sorted((*columns, j)))
+                    minors[place] = minors.get(place, ring.zero) + (-1) ** before * own[j] * minor
+        known = {place: minor for place, minor in minors.items() if minor}
+    whole: Expr = known.get(tuple(range(size)), ring.zero).as_expr()
+    return whole
 
 
 def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:

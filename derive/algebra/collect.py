@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Collection, Sequence
+from functools import lru_cache, partial
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, igcd, ilcm, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
-from derive.algebra.expressions import rate
+from derive.algebra.expressions import TIME, rate
 from derive.algebra.tidy import tidied
 
 
@@ -34,12 +34,82 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     except PolynomialError:
         gathered = []
     if not gathered:
-        return tidied(value.expand())
+        return _level(tidied(value.expand()), value, moving)
     parts: list[Expr] = []
     for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
-        parts += Add.make_args(part) if not any(powers) else [part]  # terms without rates stand side by side
+        part = part if any(powers) else _level(part, part, moving)
+        # Terms without rates stand side by side.
+        parts += [_with_short_sums(term, moving) for term in Add.make_args(part)] if not any(powers) else [part]
     return Add(*parts, evaluate=len(parts) < 2)
+
+
+def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3): no common denominator that holds a coordinate."""
+    below = found.as_numer_denom()[1]
+    return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
+
+
+def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
+    """(1/2) m (r_dot^2 + r^2 phi_dot^2): a kinetic energy with what all its terms have in common in front, if masses or
+    moments of inertia are in it; else the terms together that have all constants in common.
+    """
+    letters = {*moving, *(rate(q) for q in moving), TIME}
+    terms = [_apart(term, letters) for term in Add.make_args(value)]
+    if len(terms) < 2:
+        return value
+    shared = set.intersection(*(set(constants) for _, constants, _ in terms))
+    number = _common_number([number for number, _, _ in terms])
+    if number is not None and any(each.free_symbols & set(weights) for each in shared):
+        rest = [Mul(n / number, *(c for c in constants if c not in shared), *others) for n, constants, others in terms]
+        return Mul(number, *sorted(shared, key=str), Add(*rest), evaluate=False)
+    groups: dict[tuple[Expr, ...], list[Expr]] = {}
+    for n, constants, others in terms:
+        groups.setdefault((n, *sorted(constants, key=str)), []).append(Mul(*others))
+    parts = [
+        Mul(*front, Add(*others), evaluate=False) if len(others) > 1 and len(front) > 1 else Mul(*front, *others)
+        for front, others in groups.items()
+    ]
+    return Add(*parts, evaluate=False) if len(groups) < len(terms) else value
+
+
+def with_constants_together(value: Expr, moving: Collection[Symbol]) -> Expr:
+    """The terms that have one function of the coordinates together: -2 (M + m) g l cos(theta)."""
+    gathered: dict[Expr, list[Expr]] = {}
+    for term in Add.make_args(value):
+        number, constants, others = _apart(term, moving)
+        gathered.setdefault(Mul(*others), []).append(number * Mul(*constants))
+    return Add(*(tidied(Add(*constants)) * function for function, constants in gathered.items()))
+
+
+def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
+    """l ((M + m) g - m l omega^2 cos(theta)) sin(theta): the constants in its sums together, where that is shorter."""
+
+    def together(sum_of: Expr) -> Expr:
+        return min((sum_of, with_constants_together(sum_of, moving)), key=lambda form: int(form.count_ops()))
+
+    return Mul(*(together(f) if f.is_Add else f for f in Mul.make_args(value)))
+
+
+def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], list[Expr]]:
+    """The number in a term, its constant factors and the others."""
+    number, constants, others = Integer(1), [], []
+    for each in Mul.make_args(term):
+        if each.is_Rational:
+            number *= each
+        elif each.free_symbols & set(letters):
+            others.append(each)
+        else:
+            constants.append(each)
+    return number, constants, others
+
+
+def _common_number(numbers: Sequence[Expr]) -> Expr | None:
+    """1/2 of 1/2, 1 and 3/2; nothing where numbers would have to be put on one denominator, 1/2 and 3/4."""
+    below = ilcm(*(n.q for n in numbers))
+    if below > 2 and len({n.q for n in numbers}) > 1:
+        return None
+    return Rational(igcd(*(int(n * below) for n in numbers)), below)
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
@@ -55,8 +125,14 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
     """Such as the force of a stretched spring, a term of its own: on one denominator with others nobody can read it."""
-    powers = (power for power in term.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer)
-    return any(power.base.has(*moving) for power in powers)
+    return any(root.base.has(*moving) for root in _roots_in(term))
+
+
+@lru_cache(maxsize=4096)  # the terms of one sum have most of their factors in common
+def _roots_in(expr: Expr) -> frozenset[Pow]:
+    inside = frozenset(root for part in expr.args if part.args for root in _roots_in(part))
+    is_root = isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer
+    return inside | {expr} if is_root else inside
 
 
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:

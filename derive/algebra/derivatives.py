@@ -11,7 +11,6 @@ __all__ = ["derivative"]
 ZERO, ONE = Integer(0), Integer(1)
 
 
-@lru_cache(maxsize=4096)  # a force, a momentum and an equation of motion differentiate the same Lagrangian
 def derivative(expr: Expr, s: Symbol) -> Expr:
     """The partial derivative by a letter."""
     if not isinstance(expr, Expr) or not isinstance(s, Symbol):
@@ -19,9 +18,23 @@ def derivative(expr: Expr, s: Symbol) -> Expr:
     return _derivative(expr, s)
 
 
+@lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each of its letters, and most of its parts have few
+def _letters(expr: Expr) -> frozenset[Symbol]:
+    if expr.is_Symbol:
+        return frozenset((expr,))
+    if expr.is_Add or expr.is_Mul or expr.is_Pow or isinstance(expr, sin | cos):
+        return frozenset().union(*map(_letters, expr.args))
+    return frozenset(expr.free_symbols)
+
+
 def _derivative(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Atom:
         return ONE if expr == s else ZERO
+    return _derivative_by_parts(expr, s) if s in _letters(expr) else ZERO
+
+
+@lru_cache(maxsize=16384)  # a force, a momentum and an equation of motion differentiate what has most parts in common
+def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Add:
         return Add(*(_derivative(term, s) for term in expr.args))
     if expr.is_Mul:
@@ -37,12 +50,9 @@ def _derivative(expr: Expr, s: Symbol) -> Expr:
 
 
 def _by_factors(product: Mul, s: Symbol) -> list[Expr]:
-    terms = []
-    for i, factor in enumerate(product.args):
+    factors, terms = product.args, []
+    for i, factor in enumerate(factors):
         inner = _derivative(factor, s)
         if inner:
-            changed = ONE
-            for other in (*product.args[:i], inner, *product.args[i + 1 :]):
-                changed = changed * other
-            terms.append(changed)
+            terms.append(Mul(*factors[:i], inner, *factors[i + 1 :]))
     return terms

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from sympy import (
@@ -22,6 +23,8 @@ from sympy import (
     MatrixBase,
     MatrixExpr,
     MatrixSymbol,
+    Pow,
+    Rational,
     Symbol,
     cos,
     diff,
@@ -68,6 +71,7 @@ TIME = scalar("t")  # there is one time: what contains it changes as it passes
 RATES = ("", "_dot", "_ddot", "_dddot")
 
 
+@lru_cache(maxsize=1024)
 def rate(coordinate: Symbol, order: int = 1) -> Symbol:
     """The name of a coordinate's rate of change: theta -> theta_dot, theta_dot -> theta_ddot."""
     name = coordinate.name
@@ -268,16 +272,22 @@ class Ratio(ScalarNode):
 
 
 class Root(ScalarNode):
-    """A square root as written, nothing drawn out of it."""
+    """A root as written, nothing drawn out of it: a square root unless its index is given. Arguments: what is under
+    it, the index."""
 
-    def _evaluated(self, inside: Expr) -> Expr:
-        return sqrt(inside)
+    @property
+    def index(self) -> int:
+        return int(self.args[1]) if len(self.args) > 1 else 2
+
+    def _evaluated(self, inside: Expr, *index: Expr) -> Expr:
+        return Pow(inside, Rational(1, self.index))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        return power(of(self.args[0]), Fraction(1, 2))
+        return power(of(self.args[0]), Fraction(1, self.index))
 
     def lowered(self, text: TextOf) -> str:
-        return f"sqrt({text(self.args[0])})"
+        inside = text(self.args[0])
+        return f"sqrt({inside})" if self.index == 2 else f"({inside})**(1/{self.index})"
 
 
 class Bracket(ScalarNode):

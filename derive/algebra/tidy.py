@@ -53,6 +53,8 @@ def tidied(value: Any) -> Any:
 
 def _signs_squared(value: Any) -> Any:
     """Whichever sign a plus-or-minus is, its square is one."""
+    if PLUS_MINUS not in value.free_symbols:
+        return value
     powers = [p for p in value.atoms(Pow) if p.base == PLUS_MINUS and p.exp.is_Integer]
     return value.xreplace({p: PLUS_MINUS if p.exp % 2 else Integer(1) for p in powers}) if powers else value
 
@@ -83,11 +85,20 @@ def _by_addition_theorem(value: Expr) -> Expr | None:
     alike = sign == other
     if first.keys() == {cos} and second.keys() == {sin} and first[cos] == second[sin]:
         a, b = sorted(first[cos], key=str)
-        return sign * cos(a - b if alike else a + b)
+        return sign * _of_two_letters(cos, a - b if alike else a + b)
     if first.keys() == second.keys() == {sin, cos} and first[sin] == second[cos] and first[cos] == second[sin]:
         (a,), (b,) = first[sin], first[cos]
-        return sign * sin(a + b if alike else a - b)
+        return sign * _of_two_letters(sin, a + b if alike else a - b)
     return None
+
+
+def _of_two_letters(function: type, angle: Expr) -> Expr:
+    """The sine or cosine of a sum or difference of two letters, of which SymPy knows no more than its sign."""
+    if not all(letter.is_real for letter in angle.free_symbols):
+        return function(angle)
+    turned = angle.could_extract_minus_sign()
+    found = function(-angle if turned else angle, evaluate=False)
+    return -found if turned and function is sin else found
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:

@@ -5,18 +5,22 @@ multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 need
 is a letter more, and is multiplied out again before anything is said to vanish.
 
 The letters and the z of angles that are products of letters do not depend on one another by any polynomial (exponential
-functions of such angles are algebraically independent), so that a form without terms is the only one of zero.
+functions of such angles are algebraically independent), so that a form without terms is the only one of zero. The z of
+parts of pi is a root of one, and what holds of it follows from its irreducible equation, by which a form is reduced.
+A square root is a letter whose square is known; such roots may depend on one another, so that nothing is said where
+some are left.
 
 Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms); Lang, *Algebra*, ch. VI,
-section 4 (the independence of characters).
+section 3 (cyclotomic polynomials are irreducible) and section 4 (the independence of characters).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from math import gcd, lcm
 
-from sympy import Add, Expr, I, Mul, Pow, Rational, Symbol, cos, pi, sin, tan
+from sympy import Add, Expr, I, Mul, Pow, Rational, Symbol, cos, cyclotomic_poly, pi, sin, tan
 
 from derive.algebra.sparse_polynomials import HIGHEST, PARTS, WIDTH, Form, Outside, Ring, Terms
 
@@ -41,7 +45,7 @@ def _asked(question: Callable[[TrigRing], bool], *exprs: Expr) -> bool:
     begun_anew = False
     while True:
         _Kept.ring = ring
-        if any(expr in ring.outside for expr in exprs):
+        if any(expr in ring.outside or _has_nested_roots(expr) for expr in exprs):
             raise Outside
         try:
             return question(ring)
@@ -56,6 +60,20 @@ def _asked(question: Callable[[TrigRing], bool], *exprs: Expr) -> bool:
             if len(exprs) == 1:
                 ring.outside.update(exprs)
             raise
+
+
+@lru_cache(maxsize=16384)  # told before any form is made, which would be for nothing
+def _has_nested_roots(expr: Expr) -> bool:
+    """Whether there are roots of roots, or others than square ones."""
+    if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
+        return bool(expr.exp.q != 2 or _has_roots(expr.base))
+    return any(_has_nested_roots(part) for part in expr.args if part.args)
+
+
+@lru_cache(maxsize=16384)
+def _has_roots(expr: Expr) -> bool:
+    is_root = isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer
+    return is_root or any(_has_roots(part) for part in expr.args if part.args)
 
 
 class _Finer(Exception):
@@ -74,6 +92,7 @@ class TrigRing(Ring):
         self.units = units  # into how many parts an angle is divided
         self.outside: set[Expr] = set()
         self._divisors: list[tuple[int, Form]] = []
+        self._roots: list[tuple[int, Form]] = []
         self._middle = (0, 0)
 
     # --- from expressions ---------------------------------------------------------------------------------------
@@ -88,7 +107,20 @@ class TrigRing(Ring):
             return Form({1: 1})
         if expr is pi:
             return self.letter(pi)
+        if isinstance(expr, Pow) and expr.exp.is_Rational and expr.exp.q == 2:
+            return self._root(self.form(expr.base), int(expr.exp.p))
         raise Outside
+
+    def _root(self, square: Form, n: int) -> Form:
+        """A power of the square root of what is known not to vanish."""
+        if not square.terms or self._is_unsure(square.terms) or abs(n) > HIGHEST:
+            raise Outside
+        shared = gcd(square.below, *square.terms.values())
+        terms = {monomial: coefficient // shared for monomial, coefficient in square.terms.items()}
+        key = (frozenset(terms.items()), square.below // shared)
+        if key not in self.letters:
+            self._roots.append((self.place(key), square))
+        return Form({n << self.place(key): 1}, 1, abs(n), square.cost)
 
     def _circular(self, function: Expr) -> Form:
         """cos q = (z + 1/z)/2 and sin q = (-i z + i/z)/2"""
@@ -107,7 +139,7 @@ class TrigRing(Ring):
     def _multiple(self, number: Rational, angle: Expr) -> int:
         """How many of the smallest parts of the angle there are."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
-        if not all(isinstance(base, Symbol) and power.is_Integer for base, power in powers):
+        if angle is not pi and not all(isinstance(base, Symbol) and power.is_Integer for base, power in powers):
             raise Outside
         if abs(number.p) > HIGHEST or number.q > PARTS:
             raise Outside
@@ -133,17 +165,67 @@ class TrigRing(Ring):
         content = gcd(*form.terms.values())
         terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
         key = frozenset(terms.items())
+        if self._is_unsure(terms):
+            raise Outside
         if key not in self.letters:
             self._divisors.append((self.place(key), Form(terms, 1, form.reach)))
         scale = gcd(form.below, content)
         return Form({1 << self.place(key): form.below // scale}, content // scale, 1, form.cost)
 
     def is_zero(self, form: Form) -> bool:
-        """Whether it has no terms once all that is divided by is multiplied out, the latest first."""
+        """Whether it has no terms once roots are squared and what is divided by is multiplied out, the latest first.
+
+        Raises `Outside` where roots are left.
+        """
+        for place, square in self._roots:
+            if form.terms:
+                form = self._squared(form, place, square)
         for place, divisor in reversed(self._divisors):
             if form.terms:
                 form = self._multiplied_out(form, place, divisor)
-        return not form.terms
+        if not form.terms or self._has_parts_of_pi(form.terms) and self._is_zero_by_roots_of_one(form.terms):
+            return True
+        if self._has_roots(form.terms):
+            raise Outside
+        return False
+
+    def _is_unsure(self, terms: Terms) -> bool:
+        """Whether a sum may vanish although it has terms."""
+        return self._has_parts_of_pi(terms) or self._has_roots(terms)
+
+    def _has_parts_of_pi(self, terms: Terms) -> bool:
+        place = self.letters.get((pi,))
+        return place is not None and any(self._power_in(monomial, place) for monomial in terms)
+
+    def _has_roots(self, terms: Terms) -> bool:
+        return any(self._power_in(monomial, place) for place, _ in self._roots for monomial in terms)
+
+    def _is_zero_by_roots_of_one(self, terms: Terms) -> bool:
+        """Whether, before each product of the other letters, the sum of powers of exp(i pi/parts) and of i is zero."""
+        place, parts = self.letters[(pi,)], self.units.get(pi, 1)
+        order = lcm(2 * parts, 4)
+        sums: dict[int, dict[int, int]] = {}
+        for monomial, coefficient in terms.items():
+            power = self._power_in(monomial, place)
+            turn = (power * (order // (2 * parts)) + (monomial & 1) * (order // 4)) % order
+            of_rest = sums.setdefault((monomial - (power << place)) & ~1, {})
+            of_rest[turn] = of_rest.get(turn, 0) + coefficient
+        return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
+
+    def _squared(self, form: Form, place: int, square: Form) -> Form:
+        """With the root in its first power at most; times as much of the square as takes it out from below."""
+        by_power: dict[int, Terms] = {}
+        for monomial, coefficient in form.terms.items():
+            whole = self._power_in(monomial, place) // 2
+            by_power.setdefault(whole, {})[monomial - (2 * whole << place)] = coefficient
+        if by_power.keys() == {0}:
+            return form
+        lowest = min(*by_power, 0)
+        parts = [
+            self.product(form._replace(terms=terms), self.power(square, whole - lowest))
+            for whole, terms in by_power.items()
+        ]
+        return self.sum(parts)
 
     def _multiplied_out(self, form: Form, place: int, divisor: Form) -> Form:
         by_power: dict[int, Terms] = {}
@@ -172,6 +254,24 @@ def _monomial_over(monomial: int, form: Form) -> Form:
     turns, coefficient = monomial & 1, form.terms[monomial]
     sign = (-1 if turns else 1) * (1 if coefficient > 0 else -1)
     return Form({turns - (monomial - turns): sign * form.below}, abs(coefficient), form.reach, form.cost)
+
+
+def _vanishes_at_root_of_one(powers: dict[int, int], order: int) -> bool:
+    """Whether a polynomial is zero at exp(2 i pi/order): divided by the irreducible one, it leaves nothing."""
+    modulus = _irreducible_at(order)
+    degree = len(modulus) - 1
+    left = [powers.get(n, 0) for n in range(order)]
+    for n in range(order - 1, degree - 1, -1):
+        if left[n]:
+            for k, coefficient in enumerate(modulus):
+                left[n - degree + k] -= left[n] * coefficient if k < degree else 0
+    return not any(left[:degree])
+
+
+@lru_cache(maxsize=PARTS)
+def _irreducible_at(order: int) -> tuple[int, ...]:
+    """The coefficients of the cyclotomic polynomial, the lowest power first; that of the highest is 1."""
+    return tuple(int(c) for c in reversed(cyclotomic_poly(order, polys=True).all_coeffs()))
 
 
 class _Kept:

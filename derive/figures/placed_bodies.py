@@ -8,12 +8,12 @@ from typing import Any, ClassVar
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Rational, sin, sqrt
 
-from derive.algebra.expressions import column
+from derive.algebra.expressions import TIME, column
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
 from derive.figures.bodies import is_line, round_outline
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.parts import BarMark, WheelMark
+from derive.figures.parts import BarMark, ParticleMark, WheelMark
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, moving_in, track_of
@@ -56,18 +56,38 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     outline = placed_outline(placed)
     yield from outline
     centre: Location = placed.centre
-    yield PointMark(column_of(centre))
     in_space = len(centre.components) == 3
     square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
+    if outline or square == 0:
+        yield PointMark(column_of(centre))
+    else:
+        yield from _axis_to(centre, placed)
     if square != 0 and is_fixed(system, placed.at):
-        at = column_of(placed.at)
-        yield Support(at) if in_space else FixedEnd(at, downwards(2), True)
+        yield _holder(system, placed)
     if square != 0 and not moving_in(system, square):
         yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
     elif not in_space and getattr(placed.turned, "is_Symbol", False):
         yield from _own_angle(system, outline)
     for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
         yield from _ground_of(system, centre, wheel.radius)
+
+
+def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
+    """A body of any shape: the line from the point that is held to its centre of mass."""
+    size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
+    yield BarMark(column_of(placed.at), column_of(centre), label=size)
+    yield ParticleMark(column_of(centre), label=placed.body.mass)
+
+
+def _holder(system: System, placed: Any) -> Mark:
+    """A stand under what is above it, a ceiling over what hangs, or a mere point of what turns at a given rate."""
+    at = column_of(placed.at)
+    way = (placed.centre - placed.at).components
+    if len(way) == 2:
+        return FixedEnd(at, downwards(2), True)
+    if TIME in moving_in(system, *way):
+        return PointMark(at)
+    return Support(at) if _in_units(way[-1]) > 0 else FixedEnd(at, downwards(3), True)
 
 
 def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:

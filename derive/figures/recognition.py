@@ -6,7 +6,7 @@ All of it is decided by algebra, after numbers have refuted most of what is not 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, diff, expand, factor, sin, sqrt
@@ -82,10 +82,11 @@ def same(a: Location, b: Location) -> bool:
 # --- links -----------------------------------------------------------------------------------------------------------
 
 
-def link_to(system: System, index: int) -> Link | None:
+def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link | None:
     """What holds a particle by a rod, or is the origin of its polar coordinates; known and fixed places first."""
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
+    known += [place for place in named if not same(place, end)]
     found = [start for q in moving_in(system, *end.components) if (start := _without(end, q)) is not None]
     starts = sorted(found, key=lambda start: _rank(system, start, known))
     for start in starts:
@@ -186,6 +187,13 @@ def carrier_of(system: System, index: int, track: Track) -> int | None:
     return None
 
 
+def is_rod(system: System, a: Location, b: Location) -> bool:
+    """Whether two places, one of which moves, keep their distance."""
+    square = Add(*(c**2 for c in (b - a).components))
+    moving = moving_in(system, *a.components, *b.components)
+    return bool(moving and square != 0 and not _varies(square, moving) and not moving_in(system, tidied(square)))
+
+
 # --- strings ---------------------------------------------------------------------------------------------------------
 
 
@@ -223,6 +231,18 @@ def kept_length(system: System, length: Expr) -> Expr | None:
             if not moving_in(system, found):
                 return found
     return None
+
+
+def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
+    """The letter of the length of a string that leads from a particle through the start of its link, straight down to
+    another: as the one goes out the other rises.
+    """
+    way = other - link.start
+    *across, height = way.components
+    if link.is_constant or not is_fixed(system, link.start) or any(across) or tidied(diff(height, link.length)) != 1:
+        return None
+    string = tidied(link.length - height)
+    return string if string.is_Symbol and not moving_in(system, string) else None
 
 
 def _way_from_foot(track: Track) -> float:

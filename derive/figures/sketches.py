@@ -7,7 +7,7 @@ as a particle where it is; nothing is drawn that the formulas do not say.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -18,21 +18,24 @@ from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
-from derive.figures.parts import ConnectionMark, ParticleMark, SpringMark
+from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
 from derive.figures.placed_bodies import placed_marks
 from derive.figures.positions import column_of
 from derive.figures.recognition import (
+    Link,
     angle_of_link,
     is_fixed,
+    is_rod,
     is_spring,
     kept_length,
     link_to,
     moving_in,
     same,
+    through_hole,
 )
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
-from derive.figures.surroundings import FixedEnd, GravityMark, WayMark
+from derive.figures.surroundings import FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.turning import downwards, turning_marks
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import Central, System
@@ -40,31 +43,39 @@ from derive.mechanics.systems.system import Central, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
+HANGING = Rational(5, 2)  # a string through a hole, in terms of what of it is on the table
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
 ECCENTRICITY = Rational(1, 2)
 BROADSIDE = Rational(23, 36) * pi  # across the usual way of looking
 
 
-def sketch(key: str, system: System, *more: Marks, values: Mapping[Any, Any] | None = None) -> Drawing:
+def sketch(
+    key: str,
+    system: System,
+    *more: Marks,
+    values: Mapping[Any, Any] | None = None,
+    named: Sequence[Location] = (),
+) -> Drawing:
     """A drawing of a system, made of its places and forces, and put on the record of the problem.
 
     key      its name, for `drawings:` in the problem
     system   its particles, bodies, springs, central forces and weight
     more     further marks
     values   numbers or proportions with which letters are drawn
+    named    further places at which there is something, such as a pivot
     """
-    scene = _Scene(system)
+    scene = _Scene(system, named)
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
 
 
 class _Scene:
     """What is recognised of a system, and the marks for it."""
 
-    def __init__(self, system: System):
-        self.system = system
+    def __init__(self, system: System, named: Sequence[Location] = ()):
+        self.system, self.named = system, tuple(named)
         self.rows = len(system.places[0].components)
         indices = range(len(system.particles))
-        self.links = {i: link for i in indices if (link := link_to(system, i)) is not None}
+        self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
         self.sliding = Sliding(system, self.links) if self.rows == 2 else None
         held = {*self.links, *(self.sliding.tracks if self.sliding else ())}
         self.free = [i for i in indices if i not in held]
@@ -75,7 +86,8 @@ class _Scene:
         for link in self.links.values():
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
-        return {**found, **self._carried_round()}
+        hanging = {string: HANGING * link.length for link, _, string in self.strings.values()}
+        return {**found, **self._carried_round(), **hanging}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
         """What turns about the vertical at a given rate is drawn when its plane is that of the paper."""
@@ -84,6 +96,28 @@ class _Scene:
         angles = {f.args[0] for c in self.system.particles[0].at.components for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
         return {TIME: BROADSIDE / rates[0]} if len(rates) == 1 and not rates[0].has(TIME) else {}
+
+    @cached_property
+    def strings(self) -> Mapping[int, tuple[Link, Location, Symbol]]:
+        """By the number of a particle that hangs: the way of the other one to the hole, its own place, their string."""
+        found = {}
+        for link in self.links.values():
+            for i in self.free if self.rows == 3 else ():
+                string = through_hole(self.system, link, self.system.particles[i].at)
+                if string is not None:
+                    found[i] = link, self.system.particles[i].at, string
+        return found
+
+    @cached_property
+    def tied(self) -> Mapping[int, tuple[Link, ...]]:
+        """In space, what keeps its distance from particles that hang on rods from a place that is known."""
+        held = [link for link in self.links.values() if link.is_constant]
+        found: dict[int, tuple[Link, ...]] = {}
+        for i in self.free if self.rows == 3 and self.named else ():
+            at = self.system.particles[i].at
+            if links := tuple(link for link in held if is_rod(self.system, link.end, at)):
+                found[i] = links
+        return found
 
     @cached_property
     def marks(self) -> list[Mark]:
@@ -96,15 +130,58 @@ class _Scene:
         for placed in getattr(self.system, "bodies", ()):
             yield from placed_marks(self.system, placed)
         for i, link in self.links.items():
-            yield from turning_marks(self.system, link, self.system.particles[i].mass)
-            if not is_fixed(self.system, link.start) and self.rows == 3:
-                yield from self._ways(link.end)
+            yield from turning_marks(self.system, link, self.system.particles[i].mass, self.named)
+            if self.rows == 3:
+                yield from self._round(link)
+        yield from self._rods()
         if self.sliding:
             yield from self.sliding.marks()
+        for link, below, _ in self.strings.values():
+            along = tuple(column_of(place) for place in (link.end, link.start, below))
+            yield RopeMark(along, (ZERO, ZERO, ZERO))
         for i in self.free:
+            if i in self.strings or i in self.tied:
+                yield ParticleMark(column_of(self.system.particles[i].at), label=self.system.particles[i].mass)
+                continue
             yield from self._free(self.system.particles[i].at, self.system.particles[i].mass)
         if self.system.weights:
             yield GravityMark(downwards(self.rows), label=self.system.gravity)
+        yield from self._fields()
+
+    def _round(self, link: Link) -> Iterable[Mark]:
+        """The circle on which a place is seen from above that is at a distance from an axis, and that axis."""
+        *across, height = link.start.components
+        if (
+            link.is_constant
+            or is_fixed(self.system, link.start)
+            and TIME in moving_in(self.system, *link.way.components)
+        ):
+            return
+        if any(across) or height not in {*self.system.coordinates, ZERO}:
+            yield from self._ways(link.end)
+            return
+        for q in moving_in(self.system, *link.way.components):
+            if self.system.coordinates.get(q) == "angle":
+                yield WayMark(column_of(link.end), q, -pi, pi)
+        if height in self.system.coordinates:
+            yield Axis(column_of(link.start) * 0, column_of(Rational(5, 3) * link.start), label=height)
+
+    def _rods(self) -> Iterable[Mark]:
+        """In space, what else keeps its distance from a particle that hangs on a rod."""
+        for i, links in self.tied.items():
+            for link in links:
+                yield BarMark(column_of(link.end), column_of(self.system.particles[i].at))
+
+    def _fields(self) -> Iterable[Mark]:
+        """Uniform fields beside everything else."""
+        beside = 0
+        for each in self.system.charges:
+            for field in (each.electric, each.magnetic):
+                strength = [c for c in field if c != 0] if len(field) == self.rows else []
+                if strength and not moving_in(self.system, *field):
+                    label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
+                    yield FieldMark(ImmutableDenseMatrix(field), beside, label=label)
+                    beside += 1
 
     def _moves(self, place: Location) -> bool:
         """Whether something is drawn there that is no end of a spring or a force."""

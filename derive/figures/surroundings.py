@@ -248,3 +248,26 @@ class GravityMark(Mark):
 
     def in_words(self) -> InWords:
         return "gravity", {"label": self.label}
+
+
+@dataclass(frozen=True)
+class FieldMark(Mark):
+    """The arrow of a uniform field beside everything else, below those that stand `before` it."""
+
+    along: Position
+    before: int = 0
+    layer: ClassVar[int] = LAST
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return (self.along,)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        along = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.along)))
+        right, top = max(x for x, _ in paper.drawn) + FREE, max(y for _, y in paper.drawn)
+        start = right, top - ARROW - self.before * 2.2 * ARROW
+        end = start[0] + ARROW * along[0], start[1] + ARROW * along[1]
+        return [Stroke((start, end), "given", head=True), Tag(self.label, end, along)]
+
+    def in_words(self) -> InWords:
+        return "arrow_of_letters", {"label": self.label}

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME
 from derive.algebra.normal_form import vanishes
-from derive.figures.annotations import AxisOfRotation, PointMark
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import Axis, AxisOfRotation, PointMark
 from derive.figures.elements import CLEAR
 from derive.figures.marks import Mark
 from derive.figures.parts import COIL, BarMark, ConnectionMark, ParticleMark
@@ -22,15 +23,20 @@ from derive.mechanics.systems.system import System
 ZERO = Integer(0)
 
 
-def turning_marks(system: System, link: Link, mass: Any) -> Iterable[Mark]:
-    """A particle on the way that holds it, and how that way lies."""
+def turning_marks(system: System, link: Link, mass: Any, named: Sequence[Location] = ()) -> Iterable[Mark]:
+    """A particle on the way that holds it, and how that way lies; a rod leads from a place that was named, or moves."""
     start, end = column_of(link.start), column_of(link.end)
     rows = len(link.start.components)
     yield ParticleMark(end, label=mass)
     yield from angle_marks(system, link)
     moving = moving_in(system, *link.way.components)
     around = [q for q in system.coordinates if q in moving and system.coordinates[q] == "angle"]
-    if link.is_constant and TIME in moving and around:
+    held = any(same(link.start, place) for place in named) or bool(moving_in(system, *link.start.components))
+    if link.is_constant and TIME in moving and around and held:
+        yield BarMark(start, end, label=link.length)
+        yield PointMark(start)
+        yield from _arm(system, link.start)
+    elif link.is_constant and TIME in moving and around:
         yield WayMark(end, around[0], -pi, pi, "wire")
         yield ConnectionMark(start, end, label=link.length)
     elif link.is_constant:
@@ -38,6 +44,8 @@ def turning_marks(system: System, link: Link, mass: Any) -> Iterable[Mark]:
         if not any(same(link.start, particle.at) for particle in system.particles):
             yield FixedEnd(start, downwards(rows), True)
             yield from _shaken(system, link.start)
+    elif (components := _components(system, link)) and not link.length.is_Symbol:
+        yield from components
     elif _has_spring(system, link):
         up = ImmutableDenseMatrix([-link.way.components[1], link.way.components[0]]) if rows == 2 else None
         yield DistanceMark(start, end, up, COIL + CLEAR, label=link.length)
@@ -69,6 +77,16 @@ def angle_marks(system: System, link: Link) -> Iterable[Mark]:
         yield from _round_the_vertical(system, link)
 
 
+def _components(system: System, link: Link) -> list[Mark]:
+    """The axes along which the components of a way are counted, where these are coordinates."""
+    lengths = [q for q in moving_in(system, link.length) if system.coordinates.get(q) == "length"]
+    ways = {q: ImmutableDenseMatrix([diff(c, q) for c in link.way.components]) for q in lengths}
+    if len(ways) < 2 or any(moving_in(system, *way) - {TIME} for way in ways.values()):
+        return []
+    start = column_of(link.start)
+    return [Axis(start, start + Rational(4, 3) * q * way, label=q) for q, way in sorted(ways.items(), key=str)]
+
+
 def _has_spring(system: System, link: Link) -> bool:
     return any(
         is_spring(each) and same(a, link.start) and same(b, link.end)
@@ -97,12 +115,26 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
             continue
         rate = diff(angle, TIME)
         if rate != 0:
-            yield AxisOfRotation(start, ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)
+            through = column_of(_on_the_axis(link.start))
+            yield AxisOfRotation(through, ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)
         elif moving_in(system, angle):
             yield ConnectionMark(start, start + level)
             yield ConnectionMark(start + level, column_of(link.end))
             yield AngleBetween(start, ImmutableDenseMatrix([1, 0, 0]), level, True, label=angle)
         return
+
+
+def _on_the_axis(carried: Location) -> Location:
+    """Where the axis is round which a place is carried."""
+    return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
+
+
+def _arm(system: System, carried: Location) -> Iterable[Mark]:
+    """What carries a place round an axis."""
+    foot = _on_the_axis(carried)
+    square = tidied(Add(*(c**2 for c in (carried - foot).components)))
+    if square != 0 and not moving_in(system, square):
+        yield BarMark(column_of(foot), column_of(carried), label=sqrt(square))
 
 
 def _terms_without(value: Expr, letters: set[Symbol]) -> Expr:

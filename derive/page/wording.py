@@ -19,7 +19,7 @@ from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.direction import Direction
-from derive.algebra.expressions import AXES, Amount, scalar
+from derive.algebra.expressions import AXES, TIME, Amount, scalar
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
@@ -82,7 +82,7 @@ AFTER = " after "  # between what a phrase is for and what must stand just befor
 
 ASKED = {"point", "axis_letter", "strictly", "comparison"}  # words that a phrase chooses by, and does not print
 
-AXIS_NAMES = {axis: Math(scalar(axis)) for axis in AXES}
+AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
 
 Inline = Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain
 

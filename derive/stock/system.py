@@ -16,6 +16,7 @@ from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean
 from derive.figures import sketch
+from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.parts import (
     CENTRAL,
@@ -98,6 +99,7 @@ class DescribedSystem(Described):
     at_rest: Word | None = None
     results: tuple[Result, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
+    named: tuple[Location, ...] = ()
 
 
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
@@ -106,8 +108,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     known = InLetters({**symbols, **letters})
     places = Places(written.points, written.axes, known)
     parts: list[Part] = []
+    named: dict[str, Location] = {}
     with faults:
-        places.all_named()
+        named = places.all_named()
     sorts: tuple[Sequence[Any], ...] = (
         list(written.particles.values()),
         written.springs,
@@ -149,6 +152,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         at_rest=rest,
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
         place=written.places[""],
+        named=tuple(named.values()),
     )
 
 
@@ -213,7 +217,7 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
     asks = of.asks()
     answers: dict[str, object] = {}
     with told_at(described.place):
-        sketch(SYSTEM, of.system)
+        sketch(SYSTEM, of.system, named=described.named)
     for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
         answers[str(name)] = of.named(name)
     return answers

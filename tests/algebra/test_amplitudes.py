@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from sympy import ImmutableDenseMatrix, Matrix, symbols
+from sympy import ImmutableDenseMatrix, Matrix, cos, sin, symbols
 
-from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
+from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of, expanded_by_rows
 from derive.algebra.encoding import decoded, encoded
 from derive.algebra.expressions import explicit
 from derive.algebra.kinds import dimension_of_kind
@@ -21,6 +21,23 @@ def test_a_determinant_is_that_of_its_matrix() -> None:
     assert explicit(Determinant(MIXED)) == 0
     matrix = ImmutableDenseMatrix([[k, -k, 0], [-k, 2 * k, -k], [x, -k, k]])
     assert (determinant_of(matrix) - matrix.det()).expand() == 0
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        Matrix([[x]]),
+        Matrix([[1, 2], [2, 4]]),
+        Matrix([[0, k, 0], [k, 0, m], [0, m, x]]),
+        Matrix(4, 4, lambda i, j: (x + i) ** j + k * int(i == j)),
+        Matrix(5, 5, lambda i, j: k * (i - j) ** 2 if abs(i - j) < 2 else m * int(i + j == 4)),
+        Matrix([[k / m, cos(x)], [sin(x), l]]),
+        Matrix([[0, k], [0, m]]),
+    ],
+    ids=str,
+)
+def test_a_determinant_expanded_by_rows_is_the_determinant(matrix: Matrix) -> None:
+    assert (expanded_by_rows(matrix) - matrix.det(method="laplace")).expand() == 0
 
 
 def test_a_determinant_has_the_dimension_of_a_product_of_its_rows() -> None:

@@ -5,9 +5,18 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Add, Expr, Rational, cos, expand, sin, symbols
+from sympy import Add, Expr, Mul, Rational, cos, expand, sin, symbols
 
-from derive.algebra.collect import by_accelerations, by_products, by_rates, by_terms, spread, spread_or_by_terms
+from derive.algebra.collect import (
+    by_accelerations,
+    by_products,
+    by_rates,
+    by_terms,
+    spread,
+    spread_or_by_terms,
+    with_constants_together,
+    with_weights_in_front,
+)
 from derive.algebra.equality import equal
 from derive.algebra.expressions import rate
 
@@ -80,3 +89,31 @@ def test_the_shortest_form_or_the_one_that_was_offered_has_the_same_value(value:
     else:
         assert equal(written, value)
         assert written.count_ops() <= value.count_ops()
+
+
+def test_a_kinetic_energy_has_its_mass_in_front() -> None:
+    """Taylor, Classical Mechanics, 8.2: (1/2) m (r_dot^2 + r^2 phi_dot^2)."""
+    m, r, phi = symbols("m r phi", positive=True)
+    v, w = rate(r), rate(phi)
+    found = with_weights_in_front(m * v**2 / 2 + m * r**2 * w**2 / 2, [r, phi], {m})
+    assert found.args == Mul(Rational(1, 2), m, v**2 + r**2 * w**2, evaluate=False).args
+
+
+def test_terms_of_one_constant_stand_together_and_others_stay() -> None:
+    m, n, x, y, z = symbols("m n x y z", positive=True)
+    value = m * rate(x) ** 2 / 2 + m * rate(y) ** 2 / 2 + n * rate(z) ** 2 / 2
+    found = with_weights_in_front(value, [x, y, z], {m, n})
+    assert len(found.args) == 2 and (found - value).expand() == 0
+    assert with_weights_in_front(n * rate(z) ** 2 / 2, [z], {n}) == n * rate(z) ** 2 / 2
+
+
+def test_masses_before_one_function_of_an_angle_are_added_up() -> None:
+    m, n, g, l, q = symbols("m n g l q", positive=True)
+    value = -2 * m * g * l * cos(q) - 2 * n * g * l * cos(q)
+    found = with_constants_together(value, [q])
+    assert found == -2 * g * l * (m + n) * cos(q)
+
+
+def test_terms_with_a_coordinate_below_stand_apart() -> None:
+    l, m, k, r = symbols("l m k r", positive=True)
+    assert by_rates(l**2 / (m * r**3) - k / r**2, [r]) == l**2 / (m * r**3) - k / r**2

@@ -24,6 +24,8 @@ VALUES = [
     exp(-a * q) * log(q**2 + 1),
     a**q,
     cos(cos(q)),
+    3 * (a + q) * sin(q) * (b - q * p),
+    -(a + q - 2) * cos(q - p) * sin(p),
 ]
 
 

@@ -32,6 +32,12 @@ EQUAL = [
     (x / y + y / x, (x**2 + y**2) / (x * y)),
     (cos(12 * x), 2 * cos(6 * x) ** 2 - 1),
     ((a + pi) ** 2, a**2 + 2 * pi * a + pi**2),
+    (cos(pi / 9) + cos(5 * pi / 9), -cos(7 * pi / 9)),
+    (x * cos(pi / 7) - x * cos(2 * pi / 7), x / 2 - x * cos(3 * pi / 7)),
+    (sin(pi / 18) * sin(5 * pi / 18) * sin(7 * pi / 18), Rational(1, 8)),
+    (cos(x + pi / 9), cos(x) * cos(pi / 9) - sin(x) * sin(pi / 9)),
+    ((cos(pi / 7) + I * sin(pi / 7)) ** 7, -S.One),
+    (8 * cos(pi / 9) ** 3 / a, (6 * cos(pi / 9) + 1) / a),
 ]
 INSIDE = [pair for pair in PROVED if all(isinstance(side, Expr) for side in pair)]
 
@@ -97,7 +103,9 @@ def test_what_was_asked_before_does_not_count() -> None:
         sqrt(x),
         abs(x),
         sin(x + 1),
-        cos(x + pi / 5),
+        cos(x + pi / 67),
+        1 / (a + cos(pi / 9)),
+        1 / (cos(pi / 9) + cos(5 * pi / 9) + cos(7 * pi / 9)),
         sin(sqrt(x)),
         sin(x / (a + b)),
         sin(sin(x)),
@@ -115,6 +123,62 @@ def test_what_is_not_for_this_module_is_left_to_others(value: Expr) -> None:
         with pytest.raises(Outside):
             is_zero(value)
     assert not is_identity(value, value + 1)
+
+
+R = sqrt(x**2 + y**2)
+S_1 = sqrt(a**2 + 2 * b**2 - 2 * b**2 * cos(x) - 2 * a * b * sin(x))
+S_2 = sqrt((a - b * sin(x)) ** 2 + (b - b * cos(x)) ** 2)
+ROOTS = [
+    (R**2, x**2 + y**2),
+    (1 / R, R / (x**2 + y**2)),
+    (x / R**3, x * R / (x**2 + y**2) ** 2),
+    ((1 + R) * (1 - R), 1 - x**2 - y**2),
+    (S_1, S_2),
+    (a * (S_1 - a) * sin(x) / S_1, a * sin(x) - a**2 * sin(x) / S_2),
+    (R * S_1 / (R * S_2), S.One),
+    (sqrt(1 + 1 / x**2) ** 3, sqrt(1 + 1 / x**2) * (x**2 + 1) / x**2),
+    (sqrt(2) * sqrt(x + 1) * (sqrt(2) - 1), 2 * sqrt(x + 1) - sqrt(2) * sqrt(x + 1)),
+    (R**-5 * (x**2 + y**2), R**-3),
+]
+
+
+@pytest.mark.parametrize(("left", "right"), ROOTS, ids=str)
+def test_a_square_root_is_known_by_its_square(left: Expr, right: Expr) -> None:
+    assert are_equal(left, right)
+    for other in (right + SMALL, right * (1 + SMALL * a), right + SMALL * R, -right, right / S_1):
+        assert not decided(left, other)
+        assert not vanishes(left - other)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        sqrt((x + y) ** 2) - x - y,
+        sqrt(x**2 + 2 * x * y + y**2) + x + y,
+        sqrt(sqrt(x + 1) + 1) - x,
+        1 / sqrt(sin(x) ** 2 + cos(x) ** 2 - 1),
+        1 / (R - sqrt(x**2 + y**2 + sin(x) ** 2 + cos(x) ** 2 - 1)) - 2 / (R - x),
+    ],
+    ids=str,
+)
+def test_of_roots_that_depend_on_one_another_and_of_what_may_be_nothing_this_module_says_nothing(value: Expr) -> None:
+    assert decided(value, S.One) is None
+
+
+def test_a_root_of_one_is_of_no_lower_order() -> None:
+    """Products of all differences to the other roots are not zero: only the irreducible equation counts."""
+    turn = cos(pi / 9) + I * sin(pi / 9)
+    assert not any(are_equal(turn**n, S.One) for n in range(1, 18))
+    assert are_equal(turn**18, S.One)
+    assert not are_equal(turn**9, S.One)
+    assert not are_equal(cos(pi / 9), cos(2 * pi / 9))
+    assert not are_equal(I * sin(pi / 7), sin(pi / 7))
+
+
+def test_sums_of_parts_of_pi_that_vanish_are_not_divided_by() -> None:
+    nothing = cos(pi / 9) + cos(5 * pi / 9) + cos(7 * pi / 9)
+    assert not vanishes(x / nothing - y / nothing)
+    assert not is_identity(x / nothing, y / nothing)
 
 
 def test_a_quotient_of_nothing_by_nothing_is_not_zero() -> None:

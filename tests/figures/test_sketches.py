@@ -6,15 +6,17 @@ import json
 from math import hypot
 
 import pytest
+from sympy import cos, sin, symbols
 
+from derive.algebra.expressions import TIME, scalar
 from derive.figures import particle, sketch
 from derive.figures.annotations import Axis
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import PLANE, SPACE
-from derive.figures.parts import ConnectionMark, ParticleMark, SpringMark
+from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
 from derive.figures.pieces import Stroke
-from derive.figures.surroundings import GravityMark, WayMark
-from derive.mechanics import point
+from derive.figures.surroundings import FieldMark, GravityMark, WayMark
+from derive.mechanics import Particle, System, Z, charge, coordinate, point, space, weight
 from derive.page.depiction import alternative
 from derive.page.wording import phrases
 from derive.render.drawing.canvas import sheet_of
@@ -86,3 +88,34 @@ def test_further_marks_and_numbers_can_be_added() -> None:
     assert "P" in labels(found, ParticleMark)
     assert dict(found.values)[x] == 0
     assert len(of(found, SpringMark)) == 3
+
+
+def test_a_string_through_a_hole_leads_to_what_hangs_below() -> None:
+    """Goldstein, Poole, Safko, Classical Mechanics, section 1.6, exercise 21."""
+    m, M, l = symbols("m M l", positive=True)
+    with recorded():
+        r, phi = coordinate("r", "length", positive=True), coordinate("phi")
+        puck = Particle(m, point(r * cos(phi), r * sin(phi), 0))
+        found = sketch("table", System(puck, Particle(M, point(0, 0, r - l)), weight(scalar("g", positive=True))))
+    (rope,) = of(found, RopeMark)
+    assert [list(place) for place in rope.along][1:] == [[0, 0, 0], [0, 0, r.symbol - l]]
+    assert len(of(found, ParticleMark)) == 2
+
+
+def test_a_rod_leads_from_a_place_that_is_named_and_a_hoop_is_round_one_that_is_not() -> None:
+    m, l, omega = symbols("m l omega", positive=True)
+    with recorded():
+        theta = coordinate("theta")
+        axes = space.turned(Z, omega * TIME)
+        system = System(Particle(m, axes.place(l * sin(theta), 0, -l * cos(theta))))
+        hoop, rod = sketch("hoop", system), sketch("rod", system, named=[point(0, 0, 0)])
+    assert len(of(hoop, WayMark)) == 1 and not of(hoop, BarMark)
+    assert len(of(rod, BarMark)) == 1 and not of(rod, WayMark)
+
+
+def test_uniform_fields_are_drawn_beside_a_charge() -> None:
+    m, q, E, B = symbols("m q E B", positive=True)
+    with recorded():
+        at = point(coordinate("x", "length"), coordinate("y", "length"), coordinate("z", "length"))
+        found = sketch("ion", System(Particle(m, at), charge(q, at, (0, E, 0), (0, 0, B))))
+    assert labels(found, FieldMark) == ["E", "B"]

@@ -62,3 +62,12 @@ def test_what_looks_alike_is_printed_once() -> None:
     assert [relation for relation, _ in printed_lines(Equations("T", rounded, 1), NOTATION)[0].sides] == [
         "equals", "approx"
     ]  # fmt: skip
+
+
+def test_equations_of_one_left_side_go_on_along_the_line() -> None:
+    x, y, z = symbols("x y z")
+    lines = (ChainLine(x, "equals", y), ChainLine(x, "equals", z))
+    (only,) = printed_lines(Equations("key", lines, 1), Notation())
+    assert only.left == Notation().layout(x) and len(only.sides) == 2
+    others = (ChainLine(x, "equals", y), ChainLine(z, "equals", y))
+    assert len(printed_lines(Equations("key", others, 1), Notation())) == 2

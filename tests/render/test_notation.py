@@ -88,7 +88,7 @@ PINNED = [
     (M * a**2 * omega / (12 * sqrt(14)), r"\frac{Ma^{2}\omega}{12\sqrt{14}}", "M a² ω/(12√14)"),
     (sqrt(42) / 28 * M * a**2 * omega**2, r"\frac{\sqrt{42}}{28}\,Ma^{2}\omega^{2}", "√42/28 M a² ω²"),
     (sqrt(a**2 + b**2), r"\sqrt{a^{2}+b^{2}}", "√(a² + b²)"),
-    (a ** Rational(3, 2), r"a^{\frac{3}{2}}", "a^(3/2)"),
+    (a ** Rational(3, 2), r"a^{3/2}", "a^(3/2)"),
     # signs
     (c**2 - a**2, "c^{2}-a^{2}", "c² - a²"),
     (-a - b, "-a-b", "-a - b"),

@@ -9,9 +9,11 @@ from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import Root, explicit
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.layout import Applied, Digits, Fenced, Fraction, Layout, Name, Operator, Raised, Row
+from derive.render.notation.notation import Notation
 from derive.render.notation.products import (
     between_factors,
     decimal,
+    higher_roots_together,
     number_and_letters,
     positive_first,
     present,
@@ -131,3 +133,12 @@ def test_what_stands_between_two_factors_as_they_are_written(
     before: Layout, after: Layout, mark: Operator | None
 ) -> None:
     assert between_factors(before, after) == mark
+
+
+def test_cube_roots_of_letters_are_one_root_and_keep_their_value() -> None:
+    J, M, g = symbols("J M g", positive=True)
+    value = J ** Rational(2, 3) / (M ** Rational(1, 3) * g ** Rational(1, 3))
+    found = higher_roots_together(value)
+    assert plain(Notation().layout(value)) == "(J²/(M g))^(1/3)"
+    assert explicit(found).equals(value)
+    assert higher_roots_together(sqrt(M) * sqrt(g)) == sqrt(M) * sqrt(g)

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lambdify
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, factor, lambdify, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
+from derive.algebra.collect import by_terms
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar
 from derive.algebra.samples import points
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -237,17 +238,32 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
     Outcomes: generic, zero.
     Source: that of `equilibria`.
     """
+    alone = {s for s in potential.coordinates if explicit(potential.value).has(s)} == {q}
     return establish(
         "equilibria.condition",
         None,
-        lambda U: Relation(Partial(U, q), "=", 0),
+        lambda U: Relation(Slope(U, q, Integer(1)) if alone else Partial(U, q), "=", 0),
         {"potential": potential},
-        lines=Lines(put_in=None, arranged=lambda _: Relation(force, "=", 0)),
+        lines=Lines(put_in=None, arranged=lambda _: Relation(_term_by_term(force, q), "=", 0)),
         routes={"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))},
         outcome="zero" if force == 0 else "generic",
-        telling=Telling(judged_by={"coordinate": q}),
+        telling=Telling(judged_by={"coordinate": q}, formulas=steady_in(potential, [q])),
         key=f"condition_{q.name}",
     )
+
+
+def _term_by_term(force: Expr, q: Symbol) -> Expr:
+    """G M m/r^2 - l^2/(m r^3), not (G M m^2 r - l^2)/(m r^3)."""
+    below = force.as_numer_denom()[1]
+    return by_terms(force.expand()) if below.has(q) and not below.has(sin, cos) else force
+
+
+def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
+    """What stays constant where other coordinates move steadily, by their constant momenta: that is no rest."""
+    seen = potential.fact(SeenWith)
+    if seen is None or not seen.constants or len(sought) != 1:
+        return {}
+    return {"steady": (sought[0], sought[0])}
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
@@ -311,7 +327,7 @@ def _rest(
     values = [state.values[q] for q in held]
     single = len(held) == 1
     symbol: Any = names[held[0]][n] if single else ImmutableDenseMatrix([names[q][n] for q in held])
-    told = {}
+    told = steady_in(potential, sought)
     if state.exists is not None:
         told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.mark, -state.exists.left))
     if len(sought) == 1 and (excluded := _level_where(conditions[0].value.left, sought[0])) is not None:

@@ -116,14 +116,21 @@ def _one(
     terms = [spread(matrix[i, j]) * s for matrix, letters in ordered for j, s in enumerate(letters)]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
+    named = _letters_of(rests)
     counted = {
-        f"counted_{n}": (Relation(q, "=", Terms(*Add.make_args(place[q]), s)), Relation(s, "=", q - place[q]))
+        f"counted_{n}": (
+            Relation(q, "=", Terms(*Add.make_args(named.get(q, place[q])), s)),
+            Relation(s, "=", q - named.get(q, place[q])),
+        )
         for n, (q, s) in enumerate(away, 1)
     }
+    whole = Relation(left, "=", linear.driven[i])
+    if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
+        counted["as_it_is"] = (whole, equations[i].value)
     return establish(
         "linearised.equation",
         None,
-        lambda *_: Relation(left, "=", linear.driven[i]),
+        lambda *_: whole,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
@@ -138,6 +145,16 @@ def _one(
         facts=[linear, OfCoordinate(eta[i])],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
+
+
+def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
+    """What the page calls the coordinates at rest, r_0."""
+    found: dict[Symbol, Expr] = {}
+    for rest in rests:
+        names = [rest.symbol] if isinstance(rest.symbol, Symbol) else list(rest.symbol or ())
+        held = list(rest.needed(Rest).values)
+        found.update(zip(held, names, strict=True) if len(names) == len(held) else ())
+    return found
 
 
 def _is_of_energies_alone(equation: Quantity) -> bool:

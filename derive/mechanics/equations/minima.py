@@ -18,7 +18,13 @@ from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.equilibria import expanded, matter_behind, potential_at_rest, slope_otherwise
+from derive.mechanics.equations.equilibria import (
+    expanded,
+    matter_behind,
+    potential_at_rest,
+    slope_otherwise,
+    steady_in,
+)
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
 from derive.mechanics.equations.stability import Shape, slope
@@ -123,7 +129,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     (q,), potential = place.coordinates, place.potential
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
-    told: dict[str, tuple[Any, Any]] = {}
+    told: dict[str, tuple[Any, Any]] = dict(steady_in(potential, [q]))
     is_short = int(diff(place.energy, q, 2).count_ops()) <= SHORT
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:

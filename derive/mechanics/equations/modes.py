@@ -10,10 +10,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixSymbol, Pow, Symbol, cos, diff, exp, pi, sin, sqrt
+from sympy import (
+    Add,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixSymbol,
+    Pow,
+    Symbol,
+    cos,
+    diff,
+    exp,
+    expand,
+    pi,
+    sin,
+    sqrt,
+)
 from sympy.matrices import MatrixBase
 
-from derive.algebra.amplitudes import Amplitudes, Determinant
+from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import Ratio, Relation, Root, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
@@ -114,9 +129,8 @@ def _characteristic(
         amplitudes = [Symbol(f"a_{n}", real=True) for n in range(len(linear))]
         swing = cos(letter * T)
         left = [_with_motion(each, together, [a * swing for a in amplitudes]) / swing for each in linear]
-        rows = [[diff(value.expand(), a) for a in amplitudes] for value in left]
-        method = "laplace" if len(rows) < 4 else "bareiss"
-        return found, Relation(ImmutableDenseMatrix(rows).det(method=method).expand(), "=", 0)
+        rows = [[diff(value, a) for a in amplitudes] for value in map(expand, left)]
+        return found, Relation(expanded_by_rows(ImmutableDenseMatrix(rows)), "=", 0)
 
     return establish(
         "modes.characteristic",

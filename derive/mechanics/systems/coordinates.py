@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from sympy import Derivative, Expr, Function, Integer, MatrixBase, Symbol, diff, factorial
@@ -156,12 +157,13 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
     if isinstance(expr, MatrixBase):
         return expr.applyfunc(lambda entry: by_functions_of_time(entry, coordinates, order))
     try:
-        return taylor(expr, _series_of(coordinates), order)[order] * factorial(order)
+        return taylor(expr, _series_of(tuple(coordinates)), order)[order] * factorial(order)
     except NoSeries:
         return unchanging(diff(changing(expr, coordinates), T, order), coordinates)
 
 
-def _series_of(coordinates: Iterable[Symbol]) -> dict[Symbol, tuple[Expr, ...]]:
+@lru_cache(maxsize=64)  # all routes of one system have the same coordinates
+def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
     """q + q_dot s + q_ddot s^2/2 + ... about the moment t, as far as the rates have names, and those of the rates."""
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
     for q in coordinates:

@@ -114,6 +114,11 @@ class Matter(Fact):
         """Whether a place depends on the time itself, and not by the coordinates alone."""
         return any(TIME in explicit(x).free_symbols for point in self.points for x in point.place)
 
+    @property
+    def weights(self) -> set[Symbol]:
+        """The letters of its masses."""
+        return {letter for point in self.points for letter in explicit(point.mass).free_symbols}
+
     def kinetic_energy(self) -> Expr:
         """Half the sum of m v.v"""
         return sum((_dot(v, v) * m / 2 for m, _, v in self._moving(1)), Integer(0))

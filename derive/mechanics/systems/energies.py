@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
 
-from derive.algebra.collect import by_rates, by_terms
+from derive.algebra.collect import by_rates, by_terms, spread, with_constants_together, with_weights_in_front
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import (
     TIME,
@@ -145,6 +146,11 @@ class Turning:
         return Add(*(Mul(HALF, moment, Add(*of)) for moment, of in squares.items() if moment != 0), evaluate=False)
 
 
+def weights_of(system: System) -> set[Symbol]:
+    """The letters of its masses."""
+    return {letter for mass, _ in system.masses for letter in explicit(mass).free_symbols}
+
+
 def _factored(component: Expr) -> Expr:
     return min((component, factor(component)), key=lambda form: int(form.count_ops()))
 
@@ -208,6 +214,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
 
     def arranged(value: Expr) -> Expr:
         gathered = by_rates(value.replace(tan, lambda a: sin(a) / cos(a)), moving, halves=True)
+        gathered = with_weights_in_front(gathered, moving, weights_of(system))
         if all(turning.is_plane for turning in turnings):
             return gathered
         moved_on = [HALF * mover.mass * square.value for mover, square in zip(moved, speeds, strict=True)]
@@ -230,9 +237,11 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     )
 
 
-def _terms_together(value: Expr) -> Expr:
-    """Term by term, or multiplied out where terms of several bodies then come together."""
-    return min((by_terms(value), by_terms(value.expand())), key=lambda form: int(form.count_ops()))
+def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Term by term, or multiplied out where terms of several bodies then come together, -(M + m) g l cos(theta)."""
+    forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
+    shortest = min(forms, key=lambda form: int(form.count_ops()))
+    return Add(*(spread(term) for term in Add.make_args(shortest)))
 
 
 def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
@@ -278,7 +287,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
         lines=Lines(
             put_in=Level.BRIEF if named else None,
             result=not named,
-            arranged=explicit if named else _terms_together,
+            arranged=explicit if named else lambda value: _terms_together(value, moving),
         ),
         facts=[replace(matter, points=(), fields=()), *acting_on(system)],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),

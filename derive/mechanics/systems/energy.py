@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Symbol, factor
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
@@ -17,7 +17,7 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
-from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, momenta, part_of_degree
+from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, part_of_degree
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Form, Quantity, is_zero
 
@@ -39,14 +39,14 @@ def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[s
         return {}
     kinetic = of.needed(Energies).kinetic.value
     by_parts = part_of_degree(kinetic, rates, 1) + 2 * part_of_degree(kinetic, rates, 0)
-    return {"excess": (excess, by_parts)}
+    forms = [excess, by_parts, *(factor(each) for each in (excess, by_parts) if not each.has(*rates))]
+    return {"excess": (min(forms, key=lambda form: int(form.count_ops())), by_parts if excess != by_parts else excess)}
 
 
 def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function") -> Quantity:
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
-    The momenta are steps of their own.
     Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
     time), changing (neither).
@@ -57,8 +57,8 @@ def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function
     rates = [q.rate for q in moving]
     energies = of.needed(Energies)
 
-    def law(L: Expr, *p: Expr) -> Expr:
-        return Terms(*(Factors(each, v) for each, v in zip(p, rates, strict=True)), -L)
+    def law(L: Expr) -> Expr:
+        return Terms(*(Factors(Partial(L, v), v) for v in rates), -L)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
         kinetic = energies.kinetic.value
@@ -71,7 +71,7 @@ def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function
         "energy.energy_function",
         scalar(symbol),
         law,
-        {"lagrangian": of, **{f"momentum_{p.key}": p for p in momenta(of)}},
+        {"lagrangian": of},
         lines=Lines(put_in=None, result=False, arranged=lambda _: plain, after=kinetic_first(plain, rates)),
         routes={"by_degree": by_degree},
         outcome=lambda value: outcome_of_energy(value, of),

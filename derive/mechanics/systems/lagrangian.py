@@ -222,7 +222,7 @@ def equation_of_motion(
         moving,
     )
     alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
-    left = _without_common_factor(gathered) if alone else gathered
+    left = _without_common_factor(gathered, moving) if alone else gathered
 
     return establish(
         "lagrangian.equation_of_motion",
@@ -249,16 +249,18 @@ def equation_of_motion(
     )
 
 
-def _without_common_factor(left: Expr) -> Expr:
+def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """l theta_ddot + g sin(theta) of m l^2 theta_ddot + m g l sin(theta): what is positive in all terms is left out.
 
-    Not numbers where there are brackets, in which others stand.
+    Not what holds a coordinate, which would stand with the acceleration, nor what is below; not numbers where there are
+    brackets, in which others stand.
     """
     terms = Add.make_args(left)
     bracketed = any(f.is_Add for term in terms for f in Mul.make_args(term))
     factors = Mul.make_args(common_factor(list(terms)))
-    common = Mul(*(f for f in factors if f.is_positive and not (bracketed and f.is_number)))
-    divided = Add(*(_divided(term, common) for term in terms), evaluate=False)
+    constant = [f for f in factors if f.is_positive and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
+    common = Mul(*(f for f in constant if not (bracketed and f.is_number)))
+    divided = Add(*(part for term in terms for part in Add.make_args(_divided(term, common))), evaluate=False)
     return min((divided, left), key=lambda form: int(form.count_ops()))
 
 

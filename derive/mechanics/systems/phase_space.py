@@ -29,7 +29,7 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6
 
-from derive.algebra.collect import by_rates, spread
+from derive.algebra.collect import by_rates, spread, with_weights_in_front
 from derive.algebra.expressions import Partial, Terms, bound, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
@@ -320,6 +320,7 @@ def beside_potential(
     potential = explicit(of.needed(Energies).potential.value)
     at_rest = bound(value, {rate(q): ZERO for q in moving})
     kinetic = by_one_square(by_rates(tidied(value - at_rest), list(moving), halves=True)) if moving else ZERO
+    kinetic = with_weights_in_front(kinetic, list(moving), of.needed(Matter).weights)
     return Add(kinetic, sign * (by_letters(sign * at_rest - potential, letters) + potential))
 
 

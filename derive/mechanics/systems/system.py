@@ -65,26 +65,20 @@ class Central:
     @cached_property
     def length(self) -> Expr:
         """Of a way along one line, its component there, where that is positive at rest and then taken to stay so."""
-        square = tidied(Add(*(c**2 for c in (self.end - self.start).components)))
-        length = sqrt(factor(square))
+        components = [c for c in (self.end - self.start).components if c != 0]
+        if len(components) == 1 and _is_sum_of_letters(components[0]):
+            (way,) = components
+            return _of_one_sign(way) or Abs(way)
+        length = sqrt(factor(tidied(Add(*(c**2 for c in components)))))
         along = next(iter(length.atoms(Abs)), ZERO)
         if length != along or not isinstance(along, Abs):
             return length
-        (way,) = along.args
-        at_rest = way.xreplace(dict.fromkeys(coordinates_in(way), ZERO))
-        if way == at_rest or not at_rest.is_nonzero:
-            return length
-        length = way if at_rest.is_positive else -way
-        stays = Relation(length, ">", ZERO)
-        if not _is_so(stays, coordinates_in(way)):
-            raise Unverified(Complaint("unverified", f"a distance of {stays} would be negative at rest"))
-        assume(stays)
-        return length
+        return _of_one_sign(along.args[0]) or length
 
     def pulls(self) -> tuple[Load, Load]:
         """The forces at its two ends, towards each other where the energy grows with the distance."""
         way = (self.end - self.start).components
-        size = self.pull.subs(self.distance, self.length)
+        size = self.pull.xreplace({self.distance: self.length})
         pull = tuple(size * c / self.length for c in way)
         return Load(pull, self.start.components), Load(tuple(-c for c in pull), self.end.components)
 
@@ -298,6 +292,25 @@ def mass_points(placed: PlacedBody) -> list[MassPoint]:
         pairs = [j for j in axes if j > i and spread[i, j] != 0]
         points += [MassPoint(spread[i, j], placed.seen_in_space(arms[i] + arms[j]).components) for j in pairs]
     return [point for point in points if point.mass != 0]
+
+
+def _of_one_sign(way: Expr) -> Expr | None:
+    """The way as a length that is taken to stay positive, where it has a sign at rest."""
+    moving = coordinates_in(way)
+    at_rest = way.xreplace(dict.fromkeys(moving, ZERO))
+    if not moving or not at_rest.is_nonzero:
+        return None
+    length = way if at_rest.is_positive else -way
+    stays = Relation(length, ">", ZERO)
+    if not _is_so(stays, moving):
+        raise Unverified(Complaint("unverified", f"a distance of {stays} would be negative at rest"))
+    assume(stays)
+    return length
+
+
+def _is_sum_of_letters(way: Expr) -> bool:
+    """Whether it is a sum of letters, each with its sign and nothing else: such a sum is in no factors."""
+    return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)
 
 
 def _is_so(condition: Relation, coordinates: Mapping[Symbol, str]) -> bool:

@@ -80,6 +80,8 @@ class _Printer:
                 return self._row(items)
             case Fraction(above, below):
                 return self._fraction(above, below)
+            case Raised(base, Fraction(Digits(above), Digits(below))):
+                return f"{self.show(base)}^{{{above}/{below}}}"
             case Raised(base, power):
                 return f"{self.show(base)}^{{{self.show(power)}}}"
             case Lowered(base, word):

@@ -74,6 +74,7 @@ from derive.render.notation.order import holds_rates, ordered_terms, rank_of_fac
 from derive.render.notation.products import (
     between_factors,
     decimal,
+    higher_roots_together,
     number_and_letters,
     present,
     root_cancelled,
@@ -131,7 +132,8 @@ class Notation:
     def _sum(self, expr: Any) -> Layout:
         if isinstance(expr, Add):
             content, rest = expr.primitive()
-            if content != 1 and content.q == 1 and not holds_rates(expr):
+            in_sums = any(f.is_Add for term in rest.args for f in Mul.make_args(term))
+            if content != 1 and content.q == 1 and not holds_rates(expr) and not in_sums:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
@@ -148,7 +150,7 @@ class Notation:
         return row(*items)
 
     def _product(self, expr: Expr) -> Layout:
-        above, below = fraction(roots_together(expr), exact=expr.has(exp))  # e^(-t) stays above
+        above, below = fraction(roots_together(higher_roots_together(expr)), exact=expr.has(exp))  # e^(-t) stays above
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)
@@ -363,7 +365,10 @@ class Notation:
         return Fraction(*(self.layout(arg) for arg in expr.args))
 
     def _root(self, expr: ex.Root) -> Layout:
-        return RootSign(self.layout(expr.args[0]))
+        inner = self.layout(expr.args[0])
+        if expr.index == 2:
+            return RootSign(inner)
+        return Raised(within(inner, Binding.ATOM), self.layout(Rational(1, expr.index)))
 
     def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
         number, unit, _ = expr.args

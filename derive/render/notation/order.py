@@ -7,15 +7,15 @@ Factors: masses, accelerations of gravity, lengths, sums, numbers, roots, rates,
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
 from sympy import Add, Expr, Function, Mul, Pow, Rational, Symbol, exp, fraction
 
 from derive.algebra import expressions as ex
-from derive.algebra.dimensions import Dimension
-from derive.render.notation.products import positive_first, rank_of_dimension, roots_last
+from derive.algebra.dimensions import Dimension, power, product
+from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
-SUMS, ROOTS, RATES = 3, 6, 7  # ranks among factors: sums behind lengths, before angles; then roots, and rates last
 RATE_ENDS = ("_ddot", "_dot")  # in the names of accelerations and of rates
 
 
@@ -74,15 +74,26 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
     if is_root and not base.has(Function):
-        return 0, ROOTS, 0, str(factor)
+        return 0, Place.ROOT, 0, str(factor)
     if isinstance(base, Symbol | ex.Amount):
         if isinstance(base, Symbol) and (base.name.endswith(RATE_ENDS) or base == ex.TIME):
-            return 0, RATES, 0, str(base)
+            return 0, Place.CHANGING, 0, str(base)
         return 0, rank_of_dimension(dimension_of(base)), -1, str(base)
     if isinstance(base, exp):
-        return 0, SUMS, 1, str(factor)
+        return 0, Place.SUM, 1, str(factor)
     if isinstance(base, Add | ex.Terms):
-        ranks = {rank_of_dimension(dimension_of(letter)) for letter in base.free_symbols}
+        place = rank_of_sum(_place_of_term(term, dimension_of) for term in base.args)
+        if place is Place.ACCELERATION and not all(term.as_coeff_Mul()[1].is_Symbol for term in base.args):
+            place = Place.SUM  # m (g + a) l, but l (l omega^2 + g)
         swings = base.has(Function, ex.TIME)  # e^(-t/T) (cos w t + ...), but (a + b) e^(-t/T)
-        return 0, 0 if ranks == {0} else SUMS, 2 if swings else 0, str(factor)
+        return 0, place, 2 if swings else 0, str(factor)
     return 2 if isinstance(base, ex.Group) else 1, 0, 0, str(factor)
+
+
+def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
+    """The place of a product of letters by its dimension; angles, and what else is no letter, do not count."""
+    found = [factor.as_base_exp() for factor in Mul.make_args(term)]
+    powers = [(letter, n) for letter, n in found if isinstance(letter, Symbol | ex.Amount) and n.is_Rational]
+    dimensions = [(dimension_of(letter), n) for letter, n in powers]
+    whole = product(power(dimension, Fraction(int(n.p), int(n.q))) for dimension, n in dimensions)
+    return rank_of_dimension(whole)

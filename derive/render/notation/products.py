@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from decimal import Decimal
+from enum import IntEnum, auto
 from typing import Any
 
-from sympy import Add, Expr, MatrixBase, Mul, Pow, Rational, factorint, gcd
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, factorint, gcd, ilcm
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
@@ -30,6 +32,7 @@ from derive.render.notation.layout import (
     begins_with_number,
     ends_in_differential,
     first_of,
+    is_differential,
     is_enclosed,
     is_number,
     last_of,
@@ -146,26 +149,62 @@ def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rat
     return Rational(1, shared), inside / shared**2
 
 
+def higher_roots_together(expr: Expr) -> Expr:
+    """J^(2/3)/(M^(1/3) g^(1/3)) as (J^2/(M g))^(1/3), and M^(4/3) g^(1/3) as M (M g)^(1/3); a single root stays."""
+    factors = Mul.make_args(expr)
+    roots = [f for f in factors if isinstance(f, Pow) and f.exp.is_Rational and not f.exp.is_Integer]
+    index = ilcm(*(root.exp.q for root in roots)) if len(roots) > 1 else 2
+    if not any(root.free_symbols and root.exp.q > 2 for root in roots):
+        return expr
+    wholes = [int(root.exp) if root.exp > 0 else 0 for root in roots]
+    inside = [Pow(root.base, index * (root.exp - n)) for root, n in zip(roots, wholes, strict=True)]
+    outside = [Pow(root.base, n) for root, n in zip(roots, wholes, strict=True)]
+    return Mul(*(f for f in factors if f not in roots), *outside, ex.Root(Mul(*inside), Integer(index)))
+
+
 def _is_fourth_root(factor: Pow) -> bool:
     """2^(1/4), which under a square root is sqrt(2)."""
     return bool(factor.base.is_Integer and factor.exp.is_Rational and factor.exp.q == 4)
 
 
-def rank_of_dimension(dimension: Dimension | None) -> int:
-    """The place of a letter among factors: per mass, masses, accelerations, lengths, (sums,) densities, rates."""
+class Place(IntEnum):
+    """The places of letters among the factors of a product."""
+
+    PER_MASS = auto()  # the gravitational constant stands before the masses
+    MASS = auto()  # also a moment of inertia, a spring constant, a charge
+    SUM_OF_MASSES = auto()
+    COUPLING = auto()  # an energy, an angular momentum, a constant of a law of force
+    ACCELERATION = auto()  # also a speed; a field stands behind the charge that is in it
+    LENGTH = auto()
+    SUM = auto()
+    OTHER = auto()  # numbers, densities, momenta
+    RATE = auto()
+    ROOT = auto()
+    CHANGING = auto()  # rates of coordinates and the time: r r_dot, not r_dot r
+
+
+def rank_of_dimension(dimension: Dimension | None) -> Place:
+    """The place of a letter among factors."""
     if dimension is None or dimension.is_number:
-        return 4
+        return Place.OTHER
     if dimension.current:
-        return 1 if dimension.mass else 0  # a field stands behind the charge that is in it
+        return Place.ACCELERATION if dimension.mass else Place.MASS
     if dimension.mass < 0:
-        return -1  # the gravitational constant stands before the masses
+        return Place.PER_MASS
     if dimension.mass and dimension.length >= 0 and not (dimension.length and dimension.time):
-        return 0  # a mass, a moment of inertia, a spring constant
+        return Place.MASS
     if dimension.mass:
-        return 4
+        return Place.COUPLING if dimension.length >= 2 else Place.OTHER
     if dimension.length and dimension.time:
-        return 1
-    return 2 if dimension.length else 5
+        return Place.ACCELERATION
+    return Place.LENGTH if dimension.length else Place.RATE
+
+
+def rank_of_sum(places: Iterable[Place]) -> Place:
+    """(M + m) r_dot^2, m (g + a) l: a sum of masses or of accelerations stands with these."""
+    return {frozenset({Place.MASS}): Place.SUM_OF_MASSES, frozenset({Place.ACCELERATION}): Place.ACCELERATION}.get(
+        frozenset(places), Place.SUM
+    )
 
 
 def side_by_side(items: list[Layout]) -> Layout:
@@ -197,6 +236,8 @@ def between_factors(before: Layout, after: Layout) -> Layout | None:
     if isinstance(first_of(after), Applied):
         return THIN_SPACE
     last = last_of(before)
+    if isinstance(last, Fraction) and is_differential(first_of(last.above)) and _is_letter(after):
+        return THIN_SPACE
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or ends_in_differential(before):
         return THIN_SPACE
     if _is_letter(before) and _is_letter(after):

@@ -32,20 +32,24 @@ class Printed:
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> list[Printed]:
     """The lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
+    begun: Layout | None = None  # the left side of the equation that goes on
     for line in equations.lines:
         side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
         last = packed[-1] if packed else None
-        if line.left is not None and packed:
-            packed.append(Printed(notation.side(line.left), (side,), line.reason))
+        left = notation.side(line.left) if line.left is not None else None
+        goes_on = left is None or left == begun and line.relation == "equals"
+        begun = begun if left is None else left
+        if last and not goes_on:
+            packed.append(Printed(left, (side,), line.reason))
             continue
-        if last and _alike(last.sides[-1][1], side[1]) and line.relation == "equals":
-            continue  # what is laid out alike is one line to the reader
+        if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
+            packed[-1] = replace(last, sides=(*last.sides[:-1], side))  # what is laid out alike is one to the reader
+            continue
         room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit
         if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
             packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
         else:
-            left = notation.side(line.left) if line.left is not None else None
-            packed.append(Printed(left, (side,), line.reason))
+            packed.append(Printed(None if last else left, (side,), line.reason))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     lines[-1] = replace(lines[-1], number=equations.number)
     return lines

@@ -153,8 +153,6 @@ class Answers:
 
     @cached_property
     def effective_potential(self) -> Quantity:
-        for momentum in self.cyclic.values():
-            assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
         return effective_potential(self.lagrangian, *self.cyclic.values())
 
     @cached_property
@@ -185,6 +183,8 @@ class Answers:
         """The effective potential where something turns or a momentum is constant, else the potential energy."""
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
+        for momentum in self.cyclic.values():
+            assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
         if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
             return self.effective_potential
         return self.lagrangian if is_driven else self.potential_energy
