@@ -51,7 +51,7 @@ def steps(folder: Path, name: str) -> dict[str, Quantity]:
     [
         ("pendulum-end-moment", "wrong-point", "`moment_of_inertia` is about the end"),
         ("rate-with-time", "changes", "`spin` depends on the time t"),
-        ("top-centre-moments", "wrong-point", "`across` is about the centre"),
+        ("top-centre-moments", "wrong-point", "`across` is about the centre of mass"),
         ("torque-of-changing-omega", "changes", "depends on omega_x"),
     ],
 )

@@ -23,5 +23,11 @@ def test_no_changed_result_passes_its_second_routes(found: list[Established]) ->
 
 def test_values_relations_and_numbers_are_all_tried(found: list[Established]) -> None:
     rules = {each.rule for each in found}
-    assert {"numbers.value", "numbers.comparison", "bodies.density", "rotation.torque", "tops.turning_rate"} <= rules
+    assert {
+        "numbers.value",
+        "numbers.comparison",
+        "bodies.density",
+        "rotation.torque",
+        "rigid.angular_velocity",
+    } <= rules
     assert {"principal.axis"} <= rules & {rule for rule, _ in EXCEPTIONS}

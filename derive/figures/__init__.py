@@ -2,6 +2,5 @@
 
 from derive.figures.bodies import *
 from derive.figures.elements import *
-from derive.figures.machines import *
 from derive.figures.scenes import *
 from derive.figures.sketches import *

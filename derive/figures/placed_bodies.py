@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any, ClassVar
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Rational, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, sin, sqrt
 
 from derive.algebra.expressions import TIME, column
 from derive.algebra.tidy import tidied
@@ -18,13 +19,15 @@ from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, moving_in, track_of
 from derive.figures.space import Vector, hull
-from derive.figures.surfaces import Polyhedron
+from derive.figures.surfaces import Polyhedron, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
-from derive.figures.turning import angle_marks, downwards
+from derive.figures.turning import angle_marks, downwards, turns_about_axes
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
-from derive.mechanics.systems.places import Location
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
+from derive.steps.step import is_zero
 
 FAR = Rational(8, 5)  # how much of a line is drawn, in terms of the coordinate
 
@@ -53,6 +56,7 @@ class ThickBar(BarMark):
 
 def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     """The outline of a body of a system, what it is held by or rolls on, the angle by which it is turned."""
+    placed = with_its_shape(placed)
     outline = placed_outline(placed)
     yield from outline
     centre: Location = placed.centre
@@ -66,6 +70,8 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield _holder(system, placed)
     if square != 0 and not moving_in(system, square):
         yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+        if in_space:
+            yield from turns_about_axes(system, placed.turned, placed.at, _far_end(placed))
     elif not in_space and getattr(placed.turned, "is_Symbol", False):
         yield from _own_angle(system, outline)
     for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
@@ -88,6 +94,83 @@ def _holder(system: System, placed: Any) -> Mark:
     if TIME in moving_in(system, *way):
         return PointMark(at)
     return Support(at) if _in_units(way[-1]) > 0 else FixedEnd(at, downwards(3), True)
+
+
+def with_its_shape(placed: Any) -> Any:
+    """A body that is known by letters is drawn as the one that they are those of."""
+    known = getattr(placed.body, "shape", None)
+    if known is None:
+        return placed
+    body, about = known
+    return replace(placed, body=body, point=body.point(about))
+
+
+def _far_end(placed: Any) -> Location:
+    """Where the axis of a body ends, away from the point at which it is held; its centre where that is not known."""
+    parts = getattr(placed.body, "parts", ()) or (placed.body,)
+    ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
+    held = placed.point.position
+    far = max(ends, key=lambda z: _in_units(z - held[2]), default=None)
+    if far is None or _in_units(far - held[2]) <= 0:
+        far = placed.body.middle.position[2]
+    end: Location = placed.at + placed.seen_in_space(column(0, 0, far - held[2]))
+    return end
+
+
+def _ends_on_axis(part: Any) -> list[Expr]:
+    """The heights between which a round part on the z axis of the whole lies."""
+    body = getattr(part, "body", part)
+    if not isinstance(body, RoundBody):
+        return []
+    places = [column(0, 0, z) for z in body.ends]
+    seen = [part.seen(place) for place in places] if body is not part else places
+    return [place[2] for place in seen if place[0] == place[1] == 0]
+
+
+def _of_parts(placed: Any) -> list[Mark]:
+    """Each part of a body where it is; what is cut out is not drawn. In space a rod is in pieces, so that the bodies on
+    it hide what is behind them."""
+    marks: list[Mark] = []
+    for part in placed.body.parts:
+        if part.sign < 0 or not (isinstance(part.body, RoundBody | EdgedBody) or hasattr(part.body, "parts")):
+            continue
+        there = _placed_part(placed, part)
+        if there is None:
+            continue
+        if is_line(part.body) and not placed.is_plane:
+            marks += _in_pieces(there, [other.centre for other in placed.body.parts if not is_line(other.body)], part)
+        else:
+            marks += placed_outline(there)
+    return marks
+
+
+def _placed_part(placed: Any, part: Any) -> Any:
+    """A part of a body as a body at a place; in a plane none that is turned in the whole."""
+    own = ImmutableDenseMatrix(part.position - placed.point.position)
+    at = placed.at + placed.seen_in_space(own)
+    point = part.body.point(part.of)
+    if isinstance(placed.turned, Axes):
+        turned = Axes(ImmutableDenseMatrix(placed.turned.in_space * part.turn))
+        return PlacedBody(part.body, turned, point, at)
+    return replace(placed, body=part.body, point=point, at=at) if part.turn.is_Identity else None
+
+
+def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
+    """A rod in space, cut where the centres of other parts are on it."""
+    held = there.point.position
+
+    def at(z: Expr) -> ImmutableDenseMatrix:
+        return column_of(there.at + there.seen_in_space(ImmutableDenseMatrix(column(0, 0, z) - held)))
+
+    lower, upper = there.body.ends
+    along = part.turn * column(0, 0, 1)
+    ways = [centre - part.seen(column(0, 0, 0)) for centre in centres]
+    heights = [(along.T * way)[0] for way in ways if is_zero(ImmutableDenseMatrix(along.cross(way)))]
+    cuts = sorted((z for z in heights if _in_units(lower) < _in_units(z) < _in_units(upper)), key=_in_units)
+    surface = round_outline(there.body, at(Integer(0)), at(Integer(1)) - at(Integer(0)))
+    assert isinstance(surface, ThinRod)
+    pieces = pairwise([lower, *cuts, upper])
+    return [replace(surface, start=at(a), end=at(b), name=surface.name if a == lower else "") for a, b in pieces]
 
 
 def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
@@ -126,6 +209,8 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
 def placed_outline(placed: Any) -> list[Mark]:
     """What is seen of a body at its place; nothing of one of which only the mass and the moments are known."""
     body = getattr(placed.body, "look", None) or placed.body
+    if hasattr(body, "parts"):
+        return _of_parts(placed)
     words: dict[str, Any] = {
         "name": getattr(body, "seen_as", "") or getattr(body, "name", ""),
         "measures": _measures(body) if body is placed.body else (),

@@ -15,11 +15,11 @@ from sympy import ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi
 
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Axis
+from derive.figures.annotations import Arrow, Axis
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
-from derive.figures.placed_bodies import placed_marks
+from derive.figures.placed_bodies import placed_marks, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.recognition import (
     Link,
@@ -36,7 +36,7 @@ from derive.figures.recognition import (
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FieldMark, FixedEnd, GravityMark, WayMark
-from derive.figures.turning import downwards, turning_marks
+from derive.figures.turning import downwards, leaning_to_the_right, turning_marks
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import Central, System
 
@@ -45,7 +45,7 @@ __all__ = ["sketch"]
 ZERO = Integer(0)
 HANGING = Rational(5, 2)  # a string through a hole, in terms of what of it is on the table
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
-ECCENTRICITY = Rational(1, 2)
+HALF = ECCENTRICITY = Rational(1, 2)
 BROADSIDE = Rational(23, 36) * pi  # across the usual way of looking
 
 
@@ -55,6 +55,7 @@ def sketch(
     *more: Marks,
     values: Mapping[Any, Any] | None = None,
     named: Sequence[Location] = (),
+    weights: bool = False,
 ) -> Drawing:
     """A drawing of a system, made of its places and forces, and put on the record of the problem.
 
@@ -63,16 +64,17 @@ def sketch(
     more     further marks
     values   numbers or proportions with which letters are drawn
     named    further places at which there is something, such as a pivot
+    weights  whether the weight of each particle and body is drawn where it acts, and not the gravity beside them
     """
-    scene = _Scene(system, named)
+    scene = _Scene(system, named, weights)
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
 
 
 class _Scene:
     """What is recognised of a system, and the marks for it."""
 
-    def __init__(self, system: System, named: Sequence[Location] = ()):
-        self.system, self.named = system, tuple(named)
+    def __init__(self, system: System, named: Sequence[Location] = (), weights: bool = False):
+        self.system, self.named, self.weights = system, tuple(named), weights
         self.rows = len(system.places[0].components)
         indices = range(len(system.particles))
         self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
@@ -82,7 +84,7 @@ class _Scene:
 
     @property
     def values(self) -> Mapping[Symbol, Any]:
-        found = dict(self.sliding.values) if self.sliding else {}
+        found = dict(self.sliding.values) if self.sliding else leaning_to_the_right(self.system)
         for link in self.links.values():
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
@@ -144,7 +146,9 @@ class _Scene:
                 yield ParticleMark(column_of(self.system.particles[i].at), label=self.system.particles[i].mass)
                 continue
             yield from self._free(self.system.particles[i].at, self.system.particles[i].mass)
-        if self.system.weights:
+        if self.weights and self.system.weights:
+            yield from self._weights()
+        elif self.system.weights:
             yield GravityMark(downwards(self.rows), label=self.system.gravity)
         yield from self._fields()
 
@@ -182,6 +186,16 @@ class _Scene:
                     label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
                     yield FieldMark(ImmutableDenseMatrix(field), beside, label=label)
                     beside += 1
+
+    def _weights(self) -> Iterable[Mark]:
+        down, gravity = downwards(self.rows), self.system.gravity
+        for particle in self.system.particles:
+            yield Arrow(column_of(particle.at), down, HALF, False, label=particle.mass * gravity)
+        for placed in self.system.bodies:
+            known = {placed.body.mass, *getattr(placed.body, "centre", ())}
+            keys = tuple(each.key for each in getattr(placed.body, "values", ()) if each.symbol in known)
+            centre = column_of(with_its_shape(placed).centre)
+            yield Arrow(centre, down, HALF, False, label=placed.body.mass * gravity, keys=keys)
 
     def _moves(self, place: Location) -> bool:
         """Whether something is drawn there that is no end of a spring or a force."""

@@ -34,13 +34,14 @@ from derive.mechanics.equations.roots import *
 from derive.mechanics.equations.solving import *
 from derive.mechanics.equations.special_cases import *
 from derive.mechanics.equations.stability import *
+from derive.mechanics.equations.stable_where import *
 from derive.mechanics.equations.steady import *
 from derive.mechanics.equations.substitution import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
 from derive.mechanics.equations.wobble import *
+from derive.mechanics.rotation.added_moments import *
 from derive.mechanics.rotation.assembly import *
-from derive.mechanics.rotation.composite import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.steady import *
@@ -50,12 +51,13 @@ from derive.mechanics.systems.brackets import *
 from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraint import *
 from derive.mechanics.systems.coordinates import *
-from derive.mechanics.systems.cyclic import *
 from derive.mechanics.systems.effective import *
 from derive.mechanics.systems.energies import *
 from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
+from derive.mechanics.systems.in_letters import *
+from derive.mechanics.systems.kept_momentum import *
 from derive.mechanics.systems.lagrangian import *
 from derive.mechanics.systems.located import *
 from derive.mechanics.systems.no_slip import *
@@ -65,9 +67,6 @@ from derive.mechanics.systems.reactions import *
 from derive.mechanics.systems.rigid import *
 from derive.mechanics.systems.symmetry import *
 from derive.mechanics.systems.system import *
-from derive.mechanics.tops.precession import *
-from derive.mechanics.tops.sleeping import *
-from derive.mechanics.tops.top import *
 
 for _name, _verb in list(globals().items()):
     if isfunction(_verb) and _verb is not checked:

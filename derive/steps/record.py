@@ -72,6 +72,12 @@ def assumed() -> list[Relation]:
     return list(run.assumed) if run is not None else []
 
 
+def established() -> list[Quantity]:
+    """What this run has established so far."""
+    run = current_run.get()
+    return list(run.established) if run is not None else []
+
+
 def coordinates_in(result: Any) -> dict[Symbol, str]:
     """The coordinates of the run that a result contains, themselves or by a rate."""
     run = current_run.get()

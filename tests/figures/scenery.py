@@ -9,32 +9,35 @@ from typing import Any
 from sympy import Symbol, symbols
 
 from derive.algebra.expressions import column
-from derive.figures import arc, arrow, axis_of_rotation, drawing, leaning_top, outline, point_mark, sketch
+from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, point_mark, sketch
 from derive.figures.marks import Drawing, Mark
 from derive.figures.pieces import Piece, Stroke
 from derive.mechanics import (
-    Composed,
+    Composite,
     Cone,
     Cuboid,
     Disc,
-    Part,
     Plate,
     RigidBody,
     Rod,
     System,
+    X,
+    Z,
     coordinate,
+    in_letters,
     no_slip,
     point,
+    space,
     weight,
 )
 from derive.render.drawing.camera import Numbers
 from derive.render.drawing.picture import picture
-from derive.steps.record import recorded
+from derive.steps.record import Run, recorded
 from tests.mechanics.block import M, a, known_block, omega
 
-R, h = symbols("R h", positive=True)
+R, h, g = symbols("R h g", positive=True)
 theta = Symbol("theta", real=True)
-NUMBERS = {a: 1.0, R: 1.0, h: 1.5, theta: 0.6}
+NUMBERS = {a: 1.0, R: 1.0, h: 1.5, theta: 0.6, Symbol("phi", real=True): 3.6, Symbol("psi", real=True): 0.0}
 
 
 def vectors_of_block(sides: Any = (a, 2 * a, 3 * a), axis: Any = "diagonal", **variant: Any) -> Drawing:
@@ -52,9 +55,17 @@ def vectors_of_block(sides: Any = (a, 2 * a, 3 * a), axis: Any = "diagonal", **v
 CONE = Cone(R, h, M)
 
 
-def leaning(tilt: Any = theta, **names: Any) -> list[Mark]:
-    """A disc of radius a/2 in the middle of a rod of length 2a, leaning on its lower end."""
-    return leaning_top(Composed(Part("disc", Disc(a / 2, M), at=a), Part("rod", Rod(2 * a, M), at=a)), tilt, **names)
+def leaning(tilt: Any = theta, **names: Any) -> Drawing:
+    """A disc of radius a/2 in the middle of a rod of length 2a, which turns about its lower end."""
+    whole = Composite(Disc(a / 2, M).at(0, 0, a), Rod(2 * a, M).at(0, 0, a), points={"pivot": (0, 0, 0)})
+    with recorded(Run()):
+        return _leaning(whole, tilt, **names)
+
+
+def _leaning(whole: Any, tilt: Any, **names: Any) -> Drawing:
+    phi, psi = coordinate("phi"), coordinate("psi")
+    axes = space.turned(Z, phi).turned(X, tilt).turned(Z, psi)
+    return sketch("top", System(in_letters(whole).held(axes, at="pivot"), weight(g)), **names)
 
 
 def slab(inertia: Any = None) -> Drawing:
@@ -75,7 +86,7 @@ SCENES = [
     drawing("axes", outline(Cuboid((a, 2 * a, 3 * a), M)), axis_of_rotation(column(1, 2, 3), rate=omega)),
     drawing("cone", outline(CONE)),
     drawing("cone_above", outline(CONE, "base"), point_mark(column(0, 0, h / 4), Symbol("C"))),
-    drawing("top", leaning(precession=Symbol("phi_dot"), spin=Symbol("S"), weight=M)),
+    leaning(weights=True),
     SLAB,
 ]
 

@@ -14,12 +14,28 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
 from derive.errors import Rejected
-from derive.figures import drawing, leaning_top, outline
+from derive.figures import drawing, outline, sketch
 from derive.figures.annotations import LengthMark, Line
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
 from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
-from derive.mechanics import Ball, Composed, Cone, Cuboid, Cylinder, Disc, Hoop, Part, Plate, Rod, inertia_tensor
+from derive.mechanics import (
+    Ball,
+    Composite,
+    Cone,
+    Cuboid,
+    Cylinder,
+    Disc,
+    Hoop,
+    Plate,
+    Rod,
+    System,
+    X,
+    Z,
+    coordinate,
+    inertia_tensor,
+    space,
+)
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.equimomental import Particles
 from derive.mechanics.bodies.regions import Point, Region
@@ -29,6 +45,7 @@ from derive.page.wording import phrases
 from derive.render.drawing.camera import USUAL
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
+from derive.steps.record import Run, recorded
 from tests.courses import ROOT
 from tests.figures.scenery import CONE, M, R, a, h, pieces_of, strokes, theta
 
@@ -171,8 +188,10 @@ def test_the_measures_of_a_body_of_ones_own_are_written_beside_it() -> None:
 
 
 def test_a_body_of_ones_own_is_drawn_anywhere_and_kept() -> None:
-    spinning = Composed(Part("rod", Rod(2 * h, M), at=h), Part("wheel", SPHEROID, at=h))
-    top = drawing("top", leaning_top(spinning, theta))
+    spinning = Composite(Rod(2 * h, M).at(0, 0, h), SPHEROID.at(0, 0, h), points={"pivot": (0, 0, 0)})
+    with recorded(Run()):
+        phi = coordinate("phi")
+        top = sketch("top", System(spinning.held(space.turned(Z, phi).turned(X, theta), at="pivot")))
     solids = [drawing("solid", outline(PYRAMID)), top]
     assert list(drawings_from_data(drawings_to_data(solids))) == solids
     assert [mark.name for mark in top.marks if isinstance(mark, Surface)] == ["a thin rod", "", "a spheroid"]
@@ -203,8 +222,8 @@ def test_the_radius_of_a_ball_is_drawn_from_its_centre() -> None:
 
 
 def test_what_is_no_body_has_no_outline() -> None:
-    with pytest.raises(Rejected, match="no outline of a Composed"):
-        outline(Composed(Part("rod", Rod(2 * h, M), at=h)))
+    with pytest.raises(Rejected, match="no outline of a Composite"):
+        outline(Composite(Rod(2 * h, M)))
 
 
 def test_an_outline_has_the_sides_of_the_body() -> None:

@@ -11,7 +11,7 @@ from derive.figures import drawing, outline, plot, point_mark
 from derive.figures.annotations import PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Drawing
-from tests.figures.scenery import CONE, SLAB, M, a, h, leaning, theta, vectors_of_block
+from tests.figures.scenery import CONE, SLAB, a, h, leaning, vectors_of_block
 from tests.mechanics.block import known_block
 
 
@@ -19,7 +19,7 @@ def test_drawings_go_to_json_and_back_unchanged() -> None:
     scenes = [
         vectors_of_block(),
         drawing("cone", outline(CONE), point_mark(column(0, 0, h / 4), "C")),
-        drawing("top", leaning(precession=theta, spin=theta, weight=M)),
+        leaning(weights=True),
         SLAB,
         plot("torque", known_block()["magnitude"], a, (1, 2), of="length"),
     ]

@@ -1,16 +1,16 @@
-"""A leaning top: places, directions and names, before they are drawn."""
+"""A top on its pivot: places, directions and names, before they are drawn."""
 
 from __future__ import annotations
 
 from sympy import Matrix, cos, sin
 
-from derive.figures.annotations import Arrow
+from derive.figures.annotations import Arrow, Turn
 from derive.figures.surfaces import Revolved, ThinRod
-from tests.figures.scenery import M, a, leaning, theta
+from tests.figures.scenery import a, leaning, theta
 
 
 def test_the_rod_of_a_top_leans_by_the_tilt_and_has_its_length() -> None:
-    rods = [mark for mark in leaning() if isinstance(mark, ThinRod)]
+    rods = [mark for mark in leaning().marks if isinstance(mark, ThinRod)]
     end = Matrix(rods[-1].end)
     assert end[2] == 2 * a * cos(theta)
     assert (end.dot(end) - 4 * a**2).simplify() == 0
@@ -18,14 +18,21 @@ def test_the_rod_of_a_top_leans_by_the_tilt_and_has_its_length() -> None:
 
 
 def test_the_weight_of_a_top_acts_in_the_middle_of_its_disc_and_downwards() -> None:
-    weight = next(mark for mark in leaning(weight=M) if isinstance(mark, Arrow))
+    weight = next(mark for mark in leaning(weights=True).marks if isinstance(mark, Arrow))
     assert Matrix(weight.start)[2] == a * cos(theta)
     assert list(weight.value) == [0, 0, -1]
+    assert weight.keys == ("total_mass", "centre_distance")
+
+
+def test_a_body_that_turns_about_the_vertical_and_about_itself_has_an_arrow_round_each() -> None:
+    turns = [mark for mark in leaning().marks if isinstance(mark, Turn)]
+    assert [str(turn.label) for turn in turns] == ["phi", "psi"]
+    assert list(turns[0].along)[:2] == [0, 0] and Matrix(turns[1].along)[2] == 2 * a * cos(theta)
 
 
 def test_a_rod_in_pieces_is_told_once_and_a_disc_without_its_thickness() -> None:
-    rods = [mark for mark in leaning() if isinstance(mark, ThinRod)]
+    rods = [mark for mark in leaning().marks if isinstance(mark, ThinRod)]
     assert [rod.name for rod in rods] == ["a thin rod", ""]
     assert rods[0].measures == (("length", 2 * a),)
     assert list(rods[0].end) == list(rods[1].start)
-    assert [mark.measures for mark in leaning() if isinstance(mark, Revolved)] == [(("radius", a / 2),)]
+    assert [mark.measures for mark in leaning().marks if isinstance(mark, Revolved)] == [(("radius", a / 2),)]

@@ -7,49 +7,47 @@ from typing import Any
 
 from sympy import Symbol
 
+from derive.algebra.expressions import scalar
+from derive.steps.record import Run, recorded
+
 Verbs = SimpleNamespace
 a, g, m, S = (Symbol(name, positive=True) for name in "agmS")
 
 
-def top_of(verbs: Verbs) -> Any:
+def motion_of(verbs: Verbs, spin: Any = S) -> SimpleNamespace:
     """A disc in the middle of a rod of half its mass and of the length of its radius."""
-    disc, rod = verbs.Disc(a, m), verbs.Rod(a, m / 2)
-    body = verbs.Composed(verbs.Part("disc", disc, at=a / 2), verbs.Part("rod", rod, at=a / 2))
-    mass = verbs.total_mass(body)
-    return verbs.Top(mass, verbs.centre_distance(body, mass), verbs.transverse_moment(body), verbs.axial_moment(body))
+    with recorded(Run()):
+        disc, rod = verbs.Disc(a, m).at(0, 0, a / 2), verbs.Rod(a, m / 2).at(0, 0, a / 2)
+        top = verbs.in_letters(verbs.Composite(disc, rod, points={"pivot": (0, 0, 0)}))
+        phi, theta, psi = (verbs.coordinate(name) for name in ("phi", "theta", "psi"))
+        axes = verbs.space.turned(verbs.Z, phi).turned(verbs.X, theta).turned(verbs.Z, psi)
+        L = verbs.lagrangian(verbs.System(top.held(axes, at="pivot"), verbs.weight(g)))
+        kept = verbs.conserved(L, psi, value=top.moments[2] * spin, key="constant_spin")
+        tilting = verbs.put_in(verbs.equation_of_motion(L, theta), kept, key="tilt_equation")
+        steady = verbs.steady_motion(tilting, key="steady_precession")
+        return SimpleNamespace(top=top, L=L, phi=phi, theta=theta, psi=psi, kept=kept, tilting=tilting, steady=steady)
 
 
-def lagrangian_of(verbs: Verbs) -> SimpleNamespace:
-    top, angles = top_of(verbs), verbs.euler_angles()
-    omega = verbs.turning_rate(angles)
-    T = verbs.top_kinetic_energy(top, omega)
-    U = verbs.weight_energy(top.in_letters().mass, g, [verbs.centre_height(top, angles)])
-    return SimpleNamespace(top=top, angles=angles, omega=omega, T=T, U=U, L=verbs.lagrangian(T, U))
+def rates_of(verbs: Verbs, motion: SimpleNamespace, tilt: Any, numbers: Any = None) -> SimpleNamespace:
+    """Both rates of steady precession at a tilt in one formula, each by itself, and when they are real."""
+    with recorded(Run(numbers=numbers or {})):
+        here = verbs.let("tilt", lambda: tilt, symbol="theta", kind="angle")
+        keys = ("slow_precession", "fast_precession")
+        slow, fast = verbs.roots(
+            motion.steady, scalar("phi_dot"), here, *motion.top.values, together="precession_rates", keys=keys
+        )
+        together = next(q for q in (slow, *slow.parents) if q.key == "precession_rates")
+        condition = verbs.real_where(slow, S, key="precession_condition")
+        return SimpleNamespace(together=together, slow=slow, fast=fast, condition=condition)
 
 
-def motion_of(verbs: Verbs) -> SimpleNamespace:
-    all_of = lagrangian_of(verbs)
-    turning = verbs.conserved_momentum(all_of.L, all_of.angles.psi)
-    spin = verbs.constant_spin(all_of.omega, S, turning, all_of.top)
-    equation = verbs.equation_of_motion(all_of.L, all_of.angles.theta)
-    all_of.tilt = verbs.tilt_equation(equation, spin, all_of.top, g)
-    return all_of
-
-
-def potential_of(verbs: Verbs) -> tuple[Any, Any]:
+def sleeping(verbs: Verbs) -> SimpleNamespace:
     all_of = motion_of(verbs)
-    rate = verbs.upright_rate(verbs.conserved_momentum(all_of.L, all_of.angles.phi), all_of.tilt)
-    return all_of, verbs.tilt_potential(rate, all_of.T, all_of.U)
-
-
-def curvature_here(verbs: Verbs) -> Any:
-    all_of, V = potential_of(verbs)
-    curvature = verbs.curvature_at(verbs.slope(V, 2))
-    return all_of, V, verbs.with_values(curvature, *all_of.top.values, key="curvature_here")
-
-
-def sleeping(verbs: Verbs) -> Any:
-    all_of, V, here = curvature_here(verbs)
-    stable = verbs.positive_where(here, S)
-    potential = verbs.with_values(V, *all_of.top.values, key="potential_here")
-    return verbs.sleeping_spin(stable, verbs.leading_order(potential, where=verbs.boundary_case(stable)), V)
+    with recorded(Run(coordinates={q.symbol: "angle" for q in (all_of.phi, all_of.theta, all_of.psi)})):
+        p_phi, p_psi = verbs.conserved(all_of.L, all_of.phi), verbs.conserved(all_of.L, all_of.psi)
+        upright = verbs.put_in(p_phi, all_of.kept, {all_of.theta: 0}, key="upright_momentum")
+        V = verbs.put_in(verbs.effective_potential(all_of.L, p_phi, p_psi), upright, all_of.kept, symbol="V")
+        stable = verbs.stability(V, {all_of.theta: 0}, S)
+        condition = verbs.stable_where(stable)
+        here = verbs.put_in(condition, *all_of.top.values, key="sleeping_spin")
+        return SimpleNamespace(upright=upright, V=V, stable=stable, condition=condition, here=here)

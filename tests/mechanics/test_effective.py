@@ -33,7 +33,7 @@ from derive.mechanics import (
 )
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
-from tests.mechanics.spinning_top import lagrangian_of
+from tests.mechanics.spinning_top import motion_of
 from tests.mechanics.verbs import verbs_as_imported
 
 m, M, g, l, k, R, w, K = symbols("m M g l k R omega K", positive=True)
@@ -161,9 +161,9 @@ def test_the_equations_of_a_routhian_are_those_of_the_other_coordinates_alone() 
 
 def test_a_heavy_top_has_two_cyclic_angles() -> None:
     """Goldstein, section 5.7: V' = (a - b cos theta)^2/(2 I_x sin^2 theta) + M g l cos theta, but for a constant."""
-    top: SimpleNamespace = lagrangian_of(verbs_as_imported())
-    phi, theta, psi = (getattr(top.angles, name) for name in ("phi", "theta", "psi"))
-    I_x, I_z, mass, arm = (each.symbol for each in (top.top.across, top.top.along, top.top.mass, top.top.distance))
+    top: SimpleNamespace = motion_of(verbs_as_imported())
+    phi, theta, psi = top.phi, top.theta, top.psi
+    mass, arm, I_x, I_z = (each.symbol for each in top.top.values)
     constants = conserved(top.L, phi), conserved(top.L, psi)
     p, s = letters("p_phi p_psi")
     q = theta.symbol

@@ -1,4 +1,4 @@
-"""Round, thin and composed bodies, against what the textbooks tabulate and by scaling."""
+"""Round and thin bodies, and those made of them, against what the textbooks tabulate and by scaling."""
 
 from __future__ import annotations
 
@@ -12,24 +12,22 @@ from derive.algebra.equality import Grade
 from derive.errors import Rejected
 from derive.mechanics import (
     Ball,
-    Composed,
+    Composite,
     Cone,
     Cuboid,
     Cylinder,
     Disc,
     Hoop,
-    Part,
     Plate,
     Rod,
     agreement,
-    axial_moment,
-    centre_distance,
     centre_of_mass,
+    in_letters,
     inertia_tensor,
+    minus,
+    moment_of_inertia,
     moved_from_centre,
     moved_to,
-    total_mass,
-    transverse_moment,
 )
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity, is_zero
@@ -195,17 +193,7 @@ def test_a_radius_of_unknown_sign_is_refused_in_cartesian_coordinates() -> None:
         inertia_tensor(Cone(R - h, h, M), "apex", "cartesian")
 
 
-def test_a_part_that_is_not_round_is_refused() -> None:
-    with pytest.raises(Rejected, match="`block` is a cuboid, which is not round"):
-        Composed(Part("block", Cuboid((a, a, a), M), at=a))
-
-
-def test_two_parts_of_one_name_are_refused() -> None:
-    with pytest.raises(Rejected, match="parts of different names"):
-        Composed(Part("disc", Disc(a, M), at=a), Part("disc", Disc(a, m), at=a))
-
-
-# --- composed bodies ---
+# --- bodies of parts ---
 
 
 def test_the_top_of_disc_and_rod_has_the_moments_that_one_adds_up() -> None:
@@ -223,22 +211,27 @@ def test_a_part_is_a_step_of_its_own() -> None:
     assert top()["disc_moment_x"].step.outcome == "flat"
 
 
-def test_a_rod_alone_has_a_third_about_its_end() -> None:
-    rod = Composed(Part("rod", Rod(a, m), at=a / 2))
-    assert transverse_moment(rod).value == m * a**2 / 3
-    assert axial_moment(rod).value == 0
-
-
 def test_two_halves_of_a_cylinder_are_the_cylinder() -> None:
-    halves = Composed(
-        Part("lower", Cylinder(R, h / 2, M / 2), at=h / 4), Part("upper", Cylinder(R, h / 2, M / 2), at=3 * h / 4)
+    halves = Composite(
+        Cylinder(R, h / 2, M / 2).named("lower").at(0, 0, h / 4),
+        Cylinder(R, h / 2, M / 2).named("upper").at(0, 0, 3 * h / 4),
+        points={"pivot": (0, 0, 0)},
     )
     whole = inertia_tensor(Cylinder(R, h, M), about="base").value
-    assert (axial_moment(halves).value - whole[2, 2]).expand() == 0
-    assert (transverse_moment(halves).value - whole[0, 0]).expand() == 0
-    mass = total_mass(halves)
+    mass, distance, across, along = in_letters(halves).values
+    assert (along.value - whole[2, 2]).expand() == 0
+    assert (across.value - whole[0, 0]).expand() == 0
     assert mass.symbol.name == "M_0"  # M is given
-    assert centre_distance(halves, mass).value == h / 2
+    assert distance.value == h / 2
+
+
+def test_a_hole_is_taken_off_and_a_turned_part_counted_about_its_own_axis() -> None:
+    ring = Composite(Disc(2 * R, 4 * M), minus(Disc(R, M).named("hole")))
+    assert (moment_of_inertia(ring, "z", "origin").value - M * (16 - 1) * R**2 / 2).expand() == 0
+    wheel = Composite(Disc(R, M).turned("x", pi / 2), Rod(h, M).at(0, 0, h))
+    found = moment_of_inertia(wheel, "y", "origin", key="about_y")
+    assert (found.value - M * R**2 / 2 - M * h**2 / 12 - M * h**2).expand() == 0
+    assert found.step.rule == "assembly.moment_of_inertia"
 
 
 def test_centre_of_mass_of_a_hoop_is_its_middle() -> None:

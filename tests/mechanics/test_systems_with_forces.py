@@ -23,7 +23,7 @@ from derive.mechanics import (
     accelerations,
     applied_force,
     charge,
-    conserved_momentum,
+    conserved,
     constraint,
     constraint_rate,
     coordinate,
@@ -252,7 +252,7 @@ def test_a_momentum_is_not_conserved_where_a_force_acts_along_its_coordinate() -
     at = point(x, y)
     L = lagrangian(System(Particle(m, at), weight(g), damping(c, x)))
     with pytest.raises(Rejected, match="acts along x"):
-        conserved_momentum(L, x)
+        conserved(L, x)
 
 
 def two() -> System:

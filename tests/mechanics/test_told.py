@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -24,9 +23,7 @@ KEPT = Relation(rate(q), "=", R)
 FROM_CENTRE: dict[str, Any] = {
     "symbol": scalar("r_z"), "words": {"start": "centre"}, "subject": Subject(point=SimpleNamespace(name="centre"))
 }  # fmt: skip
-TILT = Judged(q, {"given": q, "tilt": theta}, symbol=theta)
-UPRIGHT = Judged(R / cos(theta), {"sine": sin(theta), "carried": R, "cyclic": q}, symbol=rate(q))
-SPINNING = {"omega": zeros(3, 1), "spin": R, "along": a}
+KEEPING = {"momentum": a * rate(q) + R, "value": g, "coordinate": q}
 
 
 class Cone:
@@ -79,35 +76,27 @@ def test_a_strict_condition_is_said_to_be_strict(mark: str, strictly: str, right
         assert told_rightly("conditions.positive_where", "conditional", facts) is right
 
 
-def test_of_the_parts_of_an_energy_one_moves_and_one_is_constant() -> None:
-    told = {"moving": rate(q) ** 2 * a, "constant": a}
-    assert told_rightly("sleeping.effective_potential", "generic", Judged(cos(q), told))
-    exchanged = {"moving": told["constant"], "constant": told["moving"]}
-    assert not told_rightly("sleeping.effective_potential", "generic", Judged(cos(q), exchanged))
-
-
 @pytest.mark.parametrize(
     ("rule", "right", "wrong"),
     [
-        ("precession.no_steady_precession", Judged(Relation(R, "<", a)), Judged(Relation(R, "<=", a))),
-        ("precession.fixed_tilt", TILT, Judged(2 * q, {"given": q, "tilt": theta}, symbol=theta)),
-        ("precession.fixed_tilt", TILT, Judged(q, {"given": q, "tilt": theta}, symbol=x)),
-        ("sleeping.upright_rate", UPRIGHT, replace(UPRIGHT, symbol=rate(theta))),
+        (
+            "effective.value_kept",
+            Judged(Relation(rate(q), "=", (g - R) / a), KEEPING),
+            Judged(Relation(rate(q), "=", (g - R) / a), KEEPING | {"value": R}),
+        ),
         ("equations.at", Judged(R, {"vector": zeros(3, 1)}), Judged(R, {"vector": R})),
         (
             "inertia.moment_of_inertia",
             Judged(R, subject=Subject(axis="z"), words={"axis": "z"}),
             Judged(R, subject=Subject(axis="z"), words={"axis": "corner"}),
         ),
-        ("tops.constant_spin", Judged(KEPT, SPINNING), Judged(KEPT, SPINNING | {"omega": R})),
-        ("tops.constant_spin", Judged(KEPT, SPINNING), Judged(KEPT, SPINNING | {"spin": a, "along": R})),
         (
-            "quadratics.roots_of",
+            "roots.together",
             Judged(R, {"equation": KEPT, "unknown": rate(q)}),
             Judged(R, {"equation": q, "unknown": KEPT}),
         ),
         (
-            "quadratics.roots_of",
+            "roots.together",
             Judged(R, {"equation": KEPT, "unknown": rate(q)}),
             Judged(R, {"equation": KEPT, "unknown": x}),
         ),
@@ -121,26 +110,17 @@ def test_of_the_parts_of_an_energy_one_moves_and_one_is_constant() -> None:
             Judged(R, **FROM_CENTRE),
             Judged(R, **(FROM_CENTRE | {"words": {"start": "corner"}})),
         ),
-        (
-            "composed.part_moment",
-            Judged(R, symbol=scalar("I_z_rod"), subject=Subject(axis="z"), words={"axis_letter": "z", "name": "rod"}),
-            Judged(R, symbol=scalar("I_z_rod"), subject=Subject(axis="z"), words={"axis_letter": "x", "name": "rod"}),
-        ),
-        (
-            "composed.part_moment",
-            Judged(R, symbol=scalar("I_z_rod"), words={"name": "rod"}),
-            Judged(R, symbol=scalar("I_z_rod"), words={"name": "disc"}),
-        ),
-        (
-            "cyclic.conserved_momentum",
-            Judged(R, {"momentum": R, "coordinate": q}, {"momentum": MOMENTUM}),
-            Judged(R, {"momentum": q, "coordinate": R * q}, {"coordinate": MOMENTUM}),
-        ),
     ],
 )
 def test_what_is_told_is_what_it_is_called(rule: str, right: Judged, wrong: Judged) -> None:
     assert told_rightly(rule, "generic", right)
     assert not told_rightly(rule, "generic", wrong)
+
+
+@pytest.mark.parametrize("wrong", [Relation(R, "<=", 0), Relation(R, "<", a)])
+def test_that_no_root_is_real_is_said_of_what_is_below_zero(wrong: Relation) -> None:
+    assert told_rightly("roots.one_of_two", "none", Judged(Relation(R, "<", 0)))
+    assert not told_rightly("roots.one_of_two", "none", Judged(wrong))
 
 
 def test_a_long_diagonal_is_called_so() -> None:

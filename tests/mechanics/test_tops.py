@@ -8,22 +8,28 @@ from typing import Any
 import pytest
 from sympy import Integer, Rational, Symbol, cos, pi, sin, sqrt
 
-from derive.algebra.equality import Grade
+from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit, rate, scalar
-from derive.errors import Rejected
+from derive.errors import Rejected, Unverified
 from derive.mechanics import (
-    precession_condition,
-    precession_rates,
-    roots_of,
-    steady_precession,
-    steady_rates,
-    turning_rate,
+    Composite,
+    Cuboid,
+    Disc,
+    Rod,
+    in_letters,
+    let,
+    moment_of_inertia,
+    put_in,
+    roots,
+    stability,
+    stable_where,
 )
-from derive.steps.establish import Lines, establish
+from derive.mechanics.equations import quadratics
+from derive.mechanics.equations import stable_where as border
+from derive.mechanics.systems import kept_momentum
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import Run, recorded
-from derive.steps.step import Quantity
-from tests.mechanics.spinning_top import S, a, g, m, motion_of, sleeping
+from tests.mechanics.spinning_top import S, a, g, m, motion_of, rates_of, sleeping
 from tests.mechanics.verbs import verbs_as_imported
 
 DISC_ON_ROD = {a: Rational(1, 10), g: Rational(49, 5), S: 30 * pi}
@@ -36,14 +42,12 @@ def top() -> SimpleNamespace:
 
 
 @pytest.fixture(scope="module")
-def steady(top: SimpleNamespace) -> Quantity:
-    return steady_precession(top.tilt)
+def upright() -> SimpleNamespace:
+    return sleeping(verbs_as_imported())
 
 
-def at(steady: Quantity, tilt: Any, numbers: dict[Symbol, Any] | None = None) -> tuple[Quantity, Quantity, Quantity]:
-    with recorded(Run(numbers=numbers or {})):
-        rates = precession_rates(steady, tilt)
-        return rates, *steady_rates(rates, precession_condition(rates, S))
+def at(top: SimpleNamespace, tilt: Any, numbers: dict[Symbol, Any] | None = None) -> SimpleNamespace:
+    return rates_of(verbs_as_imported(), top, tilt, numbers)
 
 
 def test_the_disc_on_the_rod_has_the_moments_of_the_book(top: SimpleNamespace) -> None:
@@ -52,138 +56,211 @@ def test_the_disc_on_the_rod_has_the_moments_of_the_book(top: SimpleNamespace) -
     assert (along, across) == (m * a**2 / 2, 2 * m * a**2 / 3)
 
 
+def test_a_body_by_its_letters_needs_principal_axes_through_the_point() -> None:
+    with recorded(Run()), pytest.raises(Rejected, match="are not principal"):
+        in_letters(Cuboid((a, a, 2 * a), m), about="corner")
+    with recorded(Run()):
+        rod = in_letters(Rod(a, m), about="end")
+    assert [q.value for q in rod.values] == [a / 2, m * a**2 / 3] and rod.mass == m and rod.moments[2] == 0
+
+
+def test_the_spin_is_what_the_momentum_of_the_last_angle_keeps(top: SimpleNamespace) -> None:
+    assert equal(top.kept.value, Relation(scalar("psi_dot") + phi_dot * cos(theta), "=", S))
+
+
 def test_the_tilt_obeys_the_equation_of_fowles_and_cassiday(top: SimpleNamespace) -> None:
     M, l, I_x, I_z = (q.symbol for q in top.top.values)
-    theta_ddot = rate(theta, 2)
     expected = (
-        I_x * theta_ddot
+        I_x * rate(theta, 2)
         + I_z * S * phi_dot * sin(theta)
         - I_x * phi_dot**2 * sin(theta) * cos(theta)
         - M * g * l * sin(theta)
     )
-    assert (top.tilt.value.left - expected).expand() == 0
+    assert (top.tilting.value.left - expected).expand() == 0
 
 
-def test_steady_precession_is_a_quadratic_in_its_rate(top: SimpleNamespace, steady: Quantity) -> None:
+def test_steady_precession_is_a_quadratic_in_its_rate(top: SimpleNamespace) -> None:
     M, l, I_x, I_z = (q.symbol for q in top.top.values)
-    assert (steady.value.left - (I_x * cos(theta) * phi_dot**2 - I_z * S * phi_dot + M * g * l)).expand() == 0
+    expected = (I_x * cos(theta) * phi_dot**2 - I_z * S * phi_dot + M * g * l) * sin(theta)
+    assert top.steady.step.outcome == "of_equation"
+    assert (top.steady.value.left - expected).expand() == 0
 
 
-def test_at_45_degrees_there_are_two_rates_and_their_numbers_are_these(steady: Quantity) -> None:
-    rates, slow, fast = at(steady, pi / 4, DISC_ON_ROD)
-    assert rates.step.outcome == "two"
+def test_at_45_degrees_there_are_two_rates_and_their_numbers_are_these(top: SimpleNamespace) -> None:
+    found = at(top, pi / 4, DISC_ON_ROD)
+    assert found.together.step.outcome == "two"
     both = 3 * sqrt(2) / 8 * (S + PLUS_MINUS * sqrt(S**2 - 4 * sqrt(2) * g / a))
-    assert (explicit(rates.value) - both).expand() == 0
-    numbers = [float(explicit(rate.value).subs(DISC_ON_ROD)) for rate in (slow, fast)]
+    assert (explicit(found.together.value) - both).expand() == 0
+    numbers = [float(explicit(each.value).subs(DISC_ON_ROD)) for each in (found.slow, found.fast)]
     assert numbers == pytest.approx([1.5848446, 98.3800215], abs=1e-6)
     assert [each * 30 / float(pi) for each in numbers] == pytest.approx([15.134, 939.460], abs=1e-3)
 
 
-def test_the_condition_for_two_rates_is_solved_for_the_spin(steady: Quantity) -> None:
-    condition = precession_condition(precession_rates(steady, pi / 4), S)
+@pytest.mark.parametrize("numbers", [None, DISC_ON_ROD])
+def test_the_condition_for_two_rates_is_solved_for_the_spin(top: SimpleNamespace, numbers: Any) -> None:
+    condition = at(top, pi / 4, numbers).condition
     assert condition.value.left == S and condition.value.mark == ">="
     assert (condition.value.right**2 - 4 * sqrt(2) * g / a).expand() == 0
 
 
-def test_a_spin_below_the_threshold_has_no_steady_precession(steady: Quantity) -> None:
-    rates, slow, fast = at(steady, pi / 4, {**DISC_ON_ROD, S: 20 * pi / 3})
-    assert rates.step.outcome == "none"
-    assert slow is fast
-    assert slow.step.stands_for == ("slow_precession", "fast_precession")
-    assert isinstance(slow.value, Relation) and slow.value.mark == "<"
+def test_a_spin_below_the_threshold_has_no_steady_precession(top: SimpleNamespace) -> None:
+    found = at(top, pi / 4, {**DISC_ON_ROD, S: 20 * pi / 3})
+    assert found.together.step.outcome == "none"
+    assert found.slow is found.fast
+    assert found.slow.step.stands_for == ("slow_precession", "fast_precession")
+    assert isinstance(found.slow.value, Relation) and found.slow.value.mark == "<"
 
 
-def test_at_the_threshold_the_two_rates_coincide(steady: Quantity) -> None:
-    rates, slow, fast = at(steady, pi / 3, {a: Rational(1, 10), g: Integer(10), S: Integer(20)})
-    assert rates.step.outcome == "double"
-    assert slow is fast and slow.step.outcome == "coinciding"
-    assert explicit(slow.value).subs({a: Rational(1, 10), g: 10, S: 20}) == 15
+def test_at_the_threshold_the_two_rates_coincide(top: SimpleNamespace) -> None:
+    found = at(top, pi / 3, {a: Rational(1, 10), g: Integer(10), S: Integer(20)})
+    assert found.together.step.outcome == "double"
+    assert found.slow is found.fast and found.slow.step.outcome == "coinciding"
+    assert explicit(found.slow.value).subs({a: Rational(1, 10), g: 10, S: 20}) == 15
 
 
-def test_a_horizontal_axis_has_one_rate(steady: Quantity) -> None:
-    rates, slow, fast = at(steady, pi / 2)
-    assert rates.step.outcome == "linear"
-    assert rates is slow is fast
-    assert rates.value == 3 * g / (2 * a * S)
+def test_a_horizontal_axis_has_one_rate(top: SimpleNamespace) -> None:
+    found = at(top, pi / 2)
+    assert found.together.step.outcome == "linear"
+    assert found.together is found.slow is found.fast
+    assert found.slow.value == 3 * g / (2 * a * S)
+    assert found.condition.step.outcome == "always"
 
 
-def test_below_the_horizontal_one_rate_goes_forward_and_one_backward_at_any_spin(steady: Quantity) -> None:
-    rates, slow, fast = at(steady, 2 * pi / 3)
-    assert (rates.step.outcome, slow.step.outcome, fast.step.outcome) == ("opposite", "forward", "backward")
+def test_below_the_horizontal_one_rate_goes_forward_and_one_backward_at_any_spin(top: SimpleNamespace) -> None:
+    found = at(top, 2 * pi / 3)
+    outcomes = [each.step.outcome for each in (found.together, found.slow, found.fast)]
+    assert outcomes == ["opposite", "nearer", "farther"]
     numbers = {a: 1, g: 1, S: Rational(1, 100)}
-    assert explicit(slow.value).subs(numbers) > 0 > explicit(fast.value).subs(numbers)
-    assert precession_condition(rates, S).step.outcome == "always"
+    assert explicit(found.slow.value).subs(numbers) > 0 > explicit(found.fast.value).subs(numbers)
+    assert found.condition.step.outcome == "always"
 
 
-def test_a_reversed_spin_reverses_both_rates(top: SimpleNamespace, steady: Quantity) -> None:
-    verbs = verbs_as_imported()
-    turning = verbs.conserved_momentum(top.L, top.angles.psi)
-    spin = verbs.constant_spin(top.omega, -S, turning, top.top)
-    tilt = verbs.tilt_equation(verbs.equation_of_motion(top.L, top.angles.theta), spin, top.top, g)
-    _, slow, fast = at(steady_precession(tilt), pi / 4, DISC_ON_ROD)
-    _, slow_before, fast_before = at(steady, pi / 4, DISC_ON_ROD)
-    assert (explicit(slow.value) + explicit(slow_before.value)).expand() == 0
-    assert (explicit(fast.value) + explicit(fast_before.value)).expand() == 0
+def test_a_reversed_spin_reverses_both_rates(top: SimpleNamespace) -> None:
+    reversed_top = at(motion_of(verbs_as_imported(), -S), pi / 4, DISC_ON_ROD)
+    before = at(top, pi / 4, DISC_ON_ROD)
+    assert (explicit(reversed_top.slow.value) + explicit(before.slow.value)).expand() == 0
+    assert (explicit(reversed_top.fast.value) + explicit(before.fast.value)).expand() == 0
 
 
-def test_a_tilt_in_letters_leaves_the_square_of_the_spin(steady: Quantity) -> None:
-    rates, slow, fast = at(steady, theta)
-    condition = precession_condition(rates, S)
-    assert rates.step.outcome == "conditional"
-    assert (slow.step.outcome, fast.step.outcome) == ("slow_where_real", "fast_where_real")
-    assert condition.step.outcome == "squared"
-    assert condition.value == Relation(S**2, ">=", 8 * g * cos(theta) / a)
+def test_a_tilt_in_letters_leaves_the_square_of_the_spin(top: SimpleNamespace) -> None:
+    alpha = scalar("alpha")
+    found = at(top, alpha)
+    assert found.together.step.outcome == "conditional"
+    assert (found.slow.step.outcome, found.fast.step.outcome) == ("smaller_where_real", "larger_where_real")
+    assert found.condition.step.outcome == "squared"
+    assert found.condition.value == Relation(S**2, ">=", 8 * g * cos(alpha) / a)
 
 
 @pytest.mark.parametrize("tilt", [Integer(0), pi])
-def test_a_vertical_axis_has_no_rate_of_precession(steady: Quantity, tilt: Any) -> None:
-    with pytest.raises(Rejected, match="the axis is vertical"):
-        precession_rates(steady, tilt)
+def test_a_vertical_axis_has_no_rate_of_precession(top: SimpleNamespace, tilt: Any) -> None:
+    with pytest.raises(Rejected, match="does not depend on phi_dot here"):
+        at(top, tilt)
 
 
-def test_every_line_of_precession_is_proved(steady: Quantity) -> None:
-    for quantity in at(steady, pi / 6, DISC_ON_ROD):
+def test_every_line_of_precession_is_proved(top: SimpleNamespace) -> None:
+    found = at(top, pi / 6, DISC_ON_ROD)
+    for quantity in (found.together, found.slow, found.fast):
         assert {evidence.grade for evidence in quantity.step.evidence} == {Grade.PROVED}
 
 
-def test_the_top_sleeps_at_the_border_too() -> None:
-    found = sleeping(verbs_as_imported())
-    assert found.step.outcome == "with_border"
-    assert found.value.mark == ">="
-    assert found.value.right.subs(DISC_ON_ROD) == 28
-
-
-def test_a_tilt_that_is_given_is_a_definition(steady: Quantity) -> None:
-    held = next(parent for parent in precession_rates(steady, pi / 4).parents if parent.key == "tilt")
-    assert (held.symbol, held.value) == (theta, pi / 4)
-    assert [evidence.grade for evidence in held.step.evidence] == [Grade.DEFINITION]
-
-
-def test_the_energy_wants_an_angular_velocity_in_eulers_angles(top: SimpleNamespace) -> None:
-    verbs = verbs_as_imported()
-    with pytest.raises(Rejected, match="Euler's angles"):
-        verbs.top_kinetic_energy(top.top, verbs.any_angular_velocity())
-
-
-def test_turning_about_the_axis_alone_is_along_it(top: SimpleNamespace) -> None:
-    still = turning_rate(top.angles).value.subs({rate(theta): 0, phi_dot: 0})
-    assert list(still) == [0, 0, rate(scalar("psi"))]
-
-
-def test_only_quadratic_equations_have_these_roots() -> None:
+def test_only_a_quadratic_equation_has_two_roots_together() -> None:
     x = scalar("x")
-    cubic = establish(
-        "equations.let",
-        None,
-        lambda: Relation(x**3 - 1, "=", 0),
-        {},
-        outcome="equation",
-        key="cubic",
-        definition=True,
-        lines=Lines(arranged=explicit),
-    )
-    with pytest.raises(Rejected, match="not a linear or quadratic equation in x"):
-        roots_of(cubic, x)
+    with recorded(Run()):
+        from sympy import Eq
+
+        cubic = let("cubic", lambda: Eq(x**3, 1))
+        with pytest.raises(Rejected, match="not a linear or quadratic equation in x"):
+            roots(cubic, x, together="both")
+
+
+def test_a_factor_that_may_vanish_is_told_beside_the_roots() -> None:
+    x, alpha = scalar("x"), scalar("alpha")
+    with recorded(Run()):
+        from sympy import Eq
+
+        apart = let("apart", lambda: Eq((x**2 - a * x - g) * sin(alpha), 0))
+        (first, second) = roots(apart, x, together="both")
+    assert dict(first.parents[0].step.roles)["excluded"] == Relation(sin(alpha), "!=", 0)
+    assert (first.value + second.value - a).expand() == 0
+
+
+# --- the upright top ---
+
+
+def test_upright_the_momentum_of_precession_is_that_of_the_spin(upright: SimpleNamespace) -> None:
+    assert upright.upright.value == Symbol("I_z", positive=True) * S
+
+
+def test_the_tilt_sees_this_potential_energy(upright: SimpleNamespace) -> None:
+    """Goldstein, section 5.7, with both momenta I_z S."""
+    M, l, I_x, I_z = (Symbol(name, positive=True) for name in ("M", "l", "I_x", "I_z"))
+    c = cos(theta)
+    expected = I_z * S**2 / 2 + M * g * l * c + (I_z * S) ** 2 * (1 - c) / (2 * I_x * (1 + c))
+    assert equal(upright.V.value, expected)
+    assert not upright.V.value.has(sin)
+
+
+def test_the_top_sleeps_at_the_border_too(upright: SimpleNamespace) -> None:
+    M, l, I_x, I_z = (Symbol(name, positive=True) for name in ("M", "l", "I_x", "I_z"))
+    assert upright.condition.step.outcome == "with_border" and upright.condition.value.mark == ">="
+    assert equal(upright.condition.value.right, 2 * sqrt(I_x * M * g * l) / I_z)
+    assert upright.here.value.right.subs(DISC_ON_ROD) == 28
+
+
+def test_where_the_border_is_unstable_it_does_not_belong_to_the_condition() -> None:
+    """A soft spring, U = (1/2) k x^2 - c x^4: at k = 0 there is a maximum."""
+    k, x = Symbol("k", positive=True), scalar("x")
+    with recorded(Run(coordinates={x: "length"})):
+        U = let("energy", lambda: (k - g) * x**2 / 2 - m * x**4, symbol="U", kind="energy")
+        found = stable_where(stability(U, {x: 0}, k))
+        assert found.step.outcome == "without_border" and found.value == Relation(k, ">", g)
+        stiff = stability(let("other", lambda: k * x**2 / 2, symbol="W", kind="energy"), {x: 0}, key="stiff")
+        with pytest.raises(Rejected, match="depends on no condition"):
+            stable_where(stiff)
+
+
+# --- wrong laws ---
+
+
+def test_a_border_that_is_not_the_one_of_the_energy_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    k, x = Symbol("k", positive=True), scalar("x")
+    with recorded(Run(coordinates={x: "length"})):
+        U = let("energy", lambda: (k - g) * x**2 / 2 + m * x**4, symbol="U", kind="energy")
+        stable = stability(U, {x: 0}, k)
+        monkeypatch.setattr(border, "sqrt", lambda e: 2 * sqrt(e))
+        fact = stable.needed(border.StableWhere)
+        object.__setattr__(fact, "condition", Relation(k, ">", 2 * g))
+        with pytest.raises(Unverified):
+            stable_where(stable)
+
+
+def test_a_momentum_that_keeps_another_value_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept_momentum, "Relation", lambda left, mark, right: Relation(left, mark, 2 * right))
+    with pytest.raises(Unverified):
+        motion_of(verbs_as_imported())
+
+
+def test_a_wrong_formula_for_the_roots_is_refused(top: SimpleNamespace, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(quadratics, "FOUR", Integer(3))
+    with pytest.raises(Unverified):
+        at(top, pi / 4, DISC_ON_ROD)
+
+
+def test_a_moment_without_a_part_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    from derive.mechanics.rotation import added_moments
+
+    monkeypatch.setattr(added_moments, "_squares_beside", lambda way, k: Integer(0))
+    body = Composite(Disc(a, m).at(0, 0, a), Rod(a, m).at(0, 0, a / 2))
+    with recorded(Run()), pytest.raises(Unverified):
+        moment_of_inertia(body, "x", about="origin")
+
+
+def test_what_is_constant_is_put_in_at_all_times(upright: SimpleNamespace) -> None:
+    from derive.mechanics.systems.coordinates import AtOneMoment
+
+    assert upright.V.fact(AtOneMoment) is None
+    with recorded(Run()):
+        assert put_in(upright.V, {theta: 0}, key="there").fact(AtOneMoment) is not None
 
 
 def test_the_sign_of_an_expression_is_told_by_its_letters_or_else_by_their_numbers() -> None:

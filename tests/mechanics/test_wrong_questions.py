@@ -11,25 +11,18 @@ from sympy import Integer, Matrix, Rational, cos, sin, symbols
 from derive.algebra.expressions import TIME, Relation
 from derive.errors import DeriveError
 from derive.mechanics import (
-    Composed,
-    Cone,
     Cuboid,
     Cylinder,
     Direction,
-    Disc,
-    Part,
     Particle,
     Plate,
     RigidBody,
     Rod,
     System,
-    Top,
     angle_between,
     angular_momentum,
     any_angular_velocity,
     at,
-    axial_moment,
-    centre_distance,
     changing_angular_velocity,
     components,
     coordinate,
@@ -52,8 +45,6 @@ from derive.mechanics import (
     rate_of,
     spin,
     torque,
-    total_mass,
-    transverse_moment,
     weight,
     with_values,
 )
@@ -82,16 +73,6 @@ def slab(radius: Any = R, mass: Any = M, inertia: Any = k) -> Any:
         rolled = body.placed(-theta, point(-way, radius + a / 2).turned(-theta))
         centre = components(rolled, no_slip(rolled, at=point(0, radius).turned(-theta), fixes=way))
         return lagrangian(System(body.placed(-theta, point(*centre)), weight(g)))
-
-
-def composed(parts: int = 1) -> Composed:
-    return Composed(*(Part(f"disc {n}", Disc(R, M), at=n * a) for n in range(1, parts + 1)))
-
-
-def top_of(body: Composed, **instead: Any) -> Top:
-    mass = total_mass(body)
-    made = {"distance": centre_distance(body, mass), "across": transverse_moment(body), "along": axial_moment(body)}
-    return Top(mass, **{**made, **instead})
 
 
 def grown() -> Any:
@@ -178,24 +159,6 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         "needs 2 names, not 3",
     ),
     "a way in space that is turned in a plane": (lambda: point(l, b, a).turned(k), "turns a way in a plane"),
-    "moments of a top that are exchanged": (
-        lambda: top_of(body := composed(), across=axial_moment(body), along=transverse_moment(body)),
-        "needs a moment about x or y",
-    ),
-    "the distance of another top": (
-        lambda: top_of(composed(), distance=centre_distance(other := composed(2), total_mass(other, symbol="m_2"))),
-        "must belong to one body",
-    ),
-    "moments of a top about its centre": (
-        lambda: Top(
-            let("mass", lambda: M, symbol="m", kind="mass"),
-            let("distance", lambda: 3 * h / 4, symbol="l", kind="length"),
-            moment_of_inertia(Cone(R, h, M), axis="x", symbol="I_x", key="across"),
-            moment_of_inertia(Cone(R, h, M), axis="z", symbol="I_z", key="along"),
-        ),
-        "about the centre, which is not the distance",
-    ),
-    "a top without steps": (lambda: Top(M, l, a, b), "needs a step as its `mass`"),
     "a border that is none": (
         lambda: leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a)),
         "not its border",

@@ -132,11 +132,11 @@ RATES = Run(  # the top without its last part, in a third of the time
     "top-rates",
     (
         (TOP[TOP.index("  - ask: >\n      Set going upright") : TOP.index("wording:")], ""),
-        (TOP[TOP.index("  force_phi: >-") : TOP.index("show:")], ""),
-        ("show: {potential_here: result}", ""),
+        (TOP[TOP.index("  conserved_phi: >-") : TOP.index("  constant_spin: >-")], ""),
+        (TOP[TOP.index("  upright_momentum: ") :], ""),
         ("points: 10", "points: 7"),
     ),
-    (("    upright = upright_rate(", "    return rates, condition, slow, fast\n    upright = upright_rate("),),
+    (("    p_phi, p_psi =", "    return slow, fast, condition\n    p_phi, p_psi ="),),
 )
 # one problem for each verb of systems: constraints, rolling, modes, canonical equations, central motion, turning axes
 LIBRARY = (

@@ -260,10 +260,9 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     sign = sign_known(above)
     if sign is None:
         return at_place, Integer(0)
-    says = _truth(found.mark, 1)
-    return _matrix(at_place, above, Integer(says)), _matrix(
-        Integer(0), sign * Abs(above), Integer(int(sign in ALLOWED[mark]))
-    )
+    says = [Integer(_truth(found.mark, side)) for side in (1, 0, -1)]
+    is_so = [Integer(_truth(mark, side * sign)) for side in (1, 0, -1)]  # it changes its sign at the bound
+    return _matrix(at_place, above, *says), _matrix(Integer(0), sign * Abs(above), *is_so)
 
 
 def _nth(value: Expr, power: int) -> Expr:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff, nan, zoo
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
@@ -28,10 +28,12 @@ from derive.mechanics.equations.equilibria import (
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
 from derive.mechanics.equations.stability import Shape, slope
+from derive.mechanics.equations.stable_where import StableWhere
+from derive.mechanics.equations.unknowns import without_sine_below
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Form, Level, Quantity, is_zero, require_kind
+from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
 
 __all__ = ["stability"]
 
@@ -171,8 +173,18 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         ),
         key=key,
         parents=[*level, potential],
-        facts=[Shape(potential, q, place.values[q], border)],
+        facts=[Shape(potential, q, place.values[q], border), *_decided_where(place, q, condition, border, outcome)],
     )
+
+
+def _decided_where(
+    place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
+) -> list[Fact]:
+    """What `stable_where` makes a condition of."""
+    if condition is None:
+        return []
+    there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
+    return [StableWhere(place.energy, q, place.values[q], condition, border, there)]
 
 
 def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
@@ -223,7 +235,11 @@ def _small_force(place: Place, q: Symbol) -> Expr:
     if matter_behind(place.potential) is not None:
         u = Symbol("u_small", real=True)
         moved = {s: at + (u if s == q else 0) for s, at in place.values.items()}
-        return diff(slope_otherwise(place.potential, q).subs(moved, simultaneous=True), u).subs(u, 0)
+        force = slope_otherwise(place.potential, q)
+        added = diff(force.subs(moved, simultaneous=True), u).subs(u, 0)
+        if added.has(nan, zoo):  # where an axis is vertical, the rates about it are quotients of what vanishes there
+            added = diff(without_sine_below(tidied(force)).subs(moved, simultaneous=True), u).subs(u, 0)
+        return added
     return _coefficient(place.energy, q, place.values[q], 2)
 
 

@@ -1,4 +1,4 @@
-"""Quadratic equations of motion at rest: their discriminant, the roots as one formula, and each of them.
+"""The two roots of a quadratic equation in one formula, the condition under which they are real, and each by itself.
 
 An equation a x^2 + b x + c = 0 may be a general one in letters; the values that the letters have here are put in
 after the formula, so that the page shows both. Where a is zero the equation is linear and has one root.
@@ -12,16 +12,20 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, Mul, Symbol, resultant, sqrt
 
-from derive.algebra.expressions import PLUS_MINUS, Factors, Ratio, Relation, Root, Terms, bound, scalar
+from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relation, Root, Terms, bound, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.steps.establish import Lines, Telling, establish
-from derive.steps.known_numbers import sign_known
-from derive.steps.step import Fact, Quantity
+from derive.mechanics.equations.conditions import where
+from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, may_vanish
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.step import Fact, Quantity, compared_with, is_zero
+from derive.steps.subject import EVERYTHING
 
-__all__ = ["discriminant", "roots_of"]
+__all__ = ["discriminant", "real_where", "roots_together"]
 
-FOUR = Integer(4)
+FOUR, ZERO = Integer(4), Integer(0)
+SIGNS = {1: "positive", -1: "negative", 0: "vanishing", None: "conditional"}
 
 
 @dataclass(frozen=True)
@@ -46,102 +50,98 @@ class Quadratic:
     def discriminant(self) -> Expr:
         return self.b**2 - FOUR * self.a * self.c
 
-
-def coefficients_of(equation: Quantity, x: Symbol) -> Quadratic:
-    """Those of a relation that is quadratic in x, or linear; the first without a minus sign."""
-    polynomial = equation.value.residual.as_poly(x) if isinstance(equation.value, Relation) else None
-    if polynomial is None or polynomial.degree() not in (1, 2):
-        message = f"`{equation.key}` is not a linear or quadratic equation in {x.name}"
-        raise Rejected(Complaint("not-quadratic", message))
-    turn = -1 if polynomial.LC().could_extract_minus_sign() else 1
-    missing = [Integer(0)] * (2 - polynomial.degree())
-    return Quadratic(*(turn * each for each in (*missing, *polynomial.all_coeffs())))
+    @property
+    def of_terms(self) -> Expr:
+        return Terms(self.b**2, -FOUR * self.a * self.c)
 
 
 @dataclass(frozen=True)
 class Roots(Fact):
     """The quadratic equation that roots are those of: in letters, with values put in, its unknown, these values."""
 
-    missing = "is not the roots of a quadratic equation"
+    missing = "is not the root of a quadratic equation, as `roots` yields it with `together`"
     general: Quadratic
     quadratic: Quadratic
     unknown: Symbol
     values: tuple[Quantity, ...]
 
+    @property
+    def roles(self) -> dict[str, Quantity]:
+        return {q.key: q for q in self.values}
 
-def _put_in(values: Sequence[Quantity]) -> dict[Any, Any]:
-    return {q.symbol: q.value for q in values}
+    def with_those(self, expr: Expr, those: Sequence[Any]) -> Expr:
+        """The formula with names or with values for the letters of some quantities."""
+        return bound(expr, dict(zip((q.symbol for q in self.values), those, strict=True)))
 
 
-def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
-    """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
+def roots_together(
+    equation: Quantity, x: Symbol, values: Sequence[Quantity], key: str, keys: Sequence[str], symbols: Sequence[str]
+) -> tuple[Quantity, ...]:
+    """Both roots of a quadratic equation in one formula, then each by itself, the smaller in size first.
 
-    roots   as `roots_of` yields them
-    Second route: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
-    Outcomes: positive, negative, vanishing, conditional (not known from the letters).
-    Errors: the equation is linear.
+    equation   a x^2 + b x + c = 0, perhaps times what does not hold x
+    x          the unknown
+    values     what letters of the coefficients stand for here
+    key        of the step that has both; `keys` and `symbols` are those of each by itself
+    As many are yielded as there are keys: what is the only one, or says that there is none, stands for all of them.
+    Second route: put back into the equation; their sum; the product of the two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
-    of = roots.needed(Roots)
-    general, here, values, x = of.general, of.quadratic, of.values, of.unknown
-    if here.is_linear:
-        raise Rejected(Complaint("not-quadratic", f"`{roots.key}` has the root of a linear equation"))
-
-    def by_resultant(found: Expr) -> tuple[Expr, Expr]:
-        return -here.a * found, resultant(here.at(x), 2 * here.a * x + here.b, x)
-
-    return establish(
-        "quadratics.discriminant",
-        scalar(symbol),
-        lambda *those: _with_those(_of_terms(general), values, those),
-        {q.key: q for q in values},
-        routes={"resultant": by_resultant},
-        outcome=lambda found: _SIGNS[sign_known(found)],
-        key=key,
-        parents=[roots],
+    of, apart = _coefficients(equation, x, values)
+    both = _together(equation, of, apart, key, keys)
+    if of.quadratic.is_linear:
+        return (both,) * max(1, len(keys))
+    names = keys or [f"{key}_{i}" for i in (1, 2)]
+    real, larger = sign_known(of.quadratic.discriminant), -1 if sign_known(of.quadratic.b) == 1 else 1
+    if real == -1:
+        return (_none_real(both, names),) * len(names)
+    if real == 0:
+        return (_one_of_two(both, larger, "coinciding", names[0], None, names[1:]),) * len(names)
+    if len(names) != 2:
+        raise Rejected(Complaint("wrong-argument", f"`roots`: `{equation.key}` has 2 roots here, not {len(names)}"))
+    letters = symbols or ("", "")
+    words = _by_size(of.quadratic, real)
+    return tuple(
+        _one_of_two(both, sign, word, name, letter)
+        for sign, word, name, letter in zip((-larger, larger), words, names, letters, strict=True)
     )
 
 
-def _with_those(expr: Expr, values: Sequence[Quantity], those: Sequence[Any]) -> Expr:
-    """The formula with names or with values for the letters of some quantities."""
-    return bound(expr, dict(zip((q.symbol for q in values), those, strict=True)))
+def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
+    """Those of an equation that is quadratic in x, or linear, the first without a minus sign; and what else is a factor
+    of its left side, with the values put in."""
+    factors = Mul.make_args(lecture_form(equation.value.residual)) if isinstance(equation.value, Relation) else ()
+    apart = Mul(*(f for f in factors if x not in f.free_symbols))
+    polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
+    if polynomial is None or polynomial.degree() not in (1, 2):
+        message = f"`{equation.key}` is not a linear or quadratic equation in {x.name}"
+        raise Rejected(Complaint("not-quadratic", message))
+    turn = -1 if polynomial.LC().could_extract_minus_sign() else 1
+    missing = [ZERO] * (2 - polynomial.degree())
+    general = Quadratic(*(turn * each for each in (*missing, *polynomial.all_coeffs())))
+    known = {q.symbol: q.value for q in values}
+    here, beside = general.with_values(known), tidied(bound(apart, known))
+    if is_zero(beside) or (here.a == 0 and here.b == 0):
+        message = f"`roots`: `{equation.key}` does not depend on {x.name} here"
+        help_line = f"{apart} = 0 there" if is_zero(beside) else None
+        raise Rejected(Complaint("no-roots", message, help=help_line))
+    return Roots(general, here, x, tuple(values)), beside
 
 
-_SIGNS = {1: "positive", -1: "negative", 0: "vanishing", None: "conditional"}
-
-
-def _of_terms(of: Quadratic) -> Expr:
-    return Terms(of.b**2, -FOUR * of.a * of.c)
-
-
-def roots_of(
-    equation: Quantity,
-    x: Symbol,
-    *values: Quantity,
-    key: str = "roots",
-    kind: str | None = None,
-    one_stands_for: Sequence[str] = (),
-) -> Quantity:
+def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequence[str]) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
 
     equation   a x^2 + b x + c = 0
-    x          the unknown
-    values     what letters of the coefficients stand for here
-    kind       what kind of quantity x is
-    one_stands_for   keys of answers that this step gives where there is only one root
+    of         its coefficients, and what letters of them stand for here
+    apart      what else the left side has as a factor
+    keys       answers that this step gives where there is only one root
     Second route: put back into the equation; the sum of the two is -b/a.
     Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
-    Errors: the equation is not quadratic in x, or a and b both vanish.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
-    general = coefficients_of(equation, x)
-    here = general.with_values(_put_in(values))
-    if here.a == 0 and here.b == 0:
-        raise Rejected(Complaint("no-roots", f"`{equation.key}` does not depend on {x.name} here"))
-    linear = here.is_linear
-    excluded = _may_vanish(here.a)
-    formula = _linear_formula(general) if linear else _formula(general)
-    outcome = "linear" if linear else character(here)
+    here, x, linear = of.quadratic, of.unknown, of.quadratic.is_linear
+    excluded = may_vanish(apart * (here.b if linear else here.a))
+    formula = _linear_formula(of.general) if linear else _formula(of.general)
 
     def sum_of_both(found: Expr) -> tuple[Expr, Expr]:
         if linear:
@@ -149,29 +149,23 @@ def roots_of(
         return found + found.xreplace({PLUS_MINUS: -PLUS_MINUS}), -here.b / here.a
 
     return establish(
-        "quadratics.roots_of",
+        "roots.together",
         x,
-        lambda _, __, *those: _with_those(formula, values, those),
-        {"equation": equation, "unknown": x, **{q.key: q for q in values}},
-        routes={"put_back": lambda found: (here.at(found), Integer(0)), "sum": sum_of_both},
-        outcome=outcome,
+        lambda _, __, *those: of.with_those(formula, those),
+        {"equation": equation, "unknown": x, **of.roles},
+        routes={"put_back": lambda found: (here.at(found), ZERO), "sum": sum_of_both},
+        outcome="linear" if linear else character(here),
         telling=Telling(
             judged_by={"quadratic": here},
             formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
-            stands_for=one_stands_for if linear else (),
+            stands_for=keys if linear else (),
         ),
         lines=Lines(arranged=lambda found: tidied(found) if linear else _arranged(here, found)),
         key=key,
-        facts=[Roots(general, here, x, values)],
-        kind=kind,
+        facts=[of],
+        kind=kind_of_unknown(x, coordinates_of(equation)),
+        scope=Scope(differ=EVERYTHING),
     )
-
-
-def _may_vanish(leading: Expr) -> Relation | None:
-    """What must not vanish for the equation to be quadratic: factors of a that nothing decides."""
-    unsure = [f.as_base_exp()[0] for f in Mul.make_args(leading) if sign_known(f) is None]
-    unsure = [f for f in unsure if not f.is_nonzero]
-    return Relation(Mul(*unsure), "!=", 0) if unsure else None
 
 
 def character(of: Quadratic) -> str:
@@ -188,7 +182,7 @@ def _linear_formula(of: Quadratic) -> Expr:
 
 
 def _formula(of: Quadratic) -> Expr:
-    return Ratio(Terms(-of.b, Factors(PLUS_MINUS, Root(_of_terms(of)))), 2 * of.a)
+    return Ratio(Terms(-of.b, Factors(PLUS_MINUS, Root(of.of_terms))), 2 * of.a)
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
@@ -208,3 +202,131 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
     inside = Add(*(tidied(term) for term in (u**2, -FOUR * of.a * of.c / outside**2)))
     both = Add(u, PLUS_MINUS * sqrt(inside), evaluate=False)
     return Mul(*Mul.make_args(k), both, evaluate=False) if k != 1 else both
+
+
+def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
+    """The words for the two roots: of one sign or of opposite ones, where they are known to be real."""
+    if real is None:
+        return "smaller_where_real", "larger_where_real"
+    return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
+
+
+def _one_of_two(
+    both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
+) -> Quantity:
+    """One of the two roots of a quadratic equation, that with the sign before the square root.
+
+    Second route: put back into the equation; 2 c/(-b -+ sqrt(b^2 - 4 a c)), in which the smaller root is the one with
+    the larger denominator.
+    Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (of opposite signs), coinciding.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of = both.needed(Roots)
+    quadratic = of.quadratic
+
+    def other_form() -> Expr:
+        return 2 * quadratic.c / (-quadratic.b - sign * sqrt(quadratic.discriminant))
+
+    return establish(
+        "roots.one_of_two",
+        scalar(letter or _indexed(of.unknown.name, key)),
+        lambda _: _of_sign(both.value, sign),
+        {"roots": both},
+        lines=Lines(put_in=None, arranged=lambda _: _of_sign(both.value, sign)),
+        routes={"put_back": lambda found: (quadratic.at(found), ZERO), "other_form": compared_with(other_form)},
+        outcome=outcome,
+        telling=Telling(judged_by={"quadratic": quadratic}, stands_for=stands_for),
+        key=key,
+        kind=both.step.kind,
+        facts=[of],
+    )
+
+
+def _indexed(name: str, key: str) -> str:
+    """phi_slow_dot of slow_precession, phi_1_dot of roots_1."""
+    index = key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0]
+    order = next((suffix for suffix in RATES[:0:-1] if name.endswith(suffix)), "")
+    return f"{name.removesuffix(order)}_{index}{order}"
+
+
+def _of_sign(both: Expr, sign: int) -> Expr:
+    """The formula with one of the two signs, still one product."""
+    factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
+    return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
+
+
+def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
+    """That there is no real root with the numbers that are given, b^2 - 4 a c < 0.
+
+    Outcomes: none.
+    Second route: the numbers put into the discriminant as the resultant has it.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of = both.needed(Roots)
+
+    def by_resultant(found: Relation) -> tuple[Any, Any]:
+        other = with_numbers(_by_resultant(of))
+        return found, Relation(_by_resultant(of), "<" if sign_known(other) == -1 else ">=", 0)
+
+    return establish(
+        "roots.one_of_two",
+        None,
+        lambda *those: Relation(of.with_those(of.general.of_terms, those[1:]), "<", 0),
+        {"roots": both, **of.roles},
+        lines=Lines(arranged=lambda _: Relation(tidied(of.quadratic.discriminant), "<", 0)),
+        routes={"resultant": by_resultant},
+        outcome="none",
+        key=keys[0],
+        telling=Telling(judged_by={"quadratic": of.quadratic}, stands_for=keys),
+        scope=Scope(differ=EVERYTHING),
+        facts=[of],
+    )
+
+
+def _by_resultant(of: Roots) -> Expr:
+    """The discriminant by the resultant of the polynomial and its derivative, which is -a Delta."""
+    here, x = of.quadratic, of.unknown
+    return tidied(-resultant(here.at(x), 2 * here.a * x + here.b, x) / here.a)
+
+
+def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
+    """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
+
+    roots   one of them, as `roots` yields them with `together`
+    Second route: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
+    Outcomes: positive, negative, vanishing, conditional (not known from the letters); linear (b^2, a being zero).
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    of = roots.needed(Roots)
+    here, x = of.quadratic, of.unknown
+
+    def otherwise(found: Expr) -> tuple[Expr, Expr]:
+        if here.is_linear:
+            return found, (here.at(Integer(1)) - here.at(ZERO)) ** 2
+        return -here.a * found, resultant(here.at(x), 2 * here.a * x + here.b, x)
+
+    return establish(
+        "roots.discriminant",
+        scalar(symbol),
+        lambda *those: of.with_those(of.general.of_terms, those),
+        of.roles,
+        routes={"resultant": otherwise},
+        outcome="linear" if here.is_linear else lambda found: SIGNS[sign_known(found)],
+        key=key,
+        parents=[next((q for q in (roots, *roots.parents) if q.step.rule == "roots.together"), roots)],
+        telling=Telling(judged_by={"quadratic": here}),
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def real_where(roots: Quantity, letter: Any, key: str = "real_where") -> Quantity:
+    """Condition under which the roots of a quadratic equation are real, b^2 - 4 a c >= 0, solved for a letter.
+
+    roots    one of them, as `roots` yields them with `together`
+    letter   what stands alone in the end
+    The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish.
+    Second route: as `where`.
+    Outcomes: those of `where`.
+    Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
+    """
+    return where(discriminant(roots), ">=", 0, letter, key)

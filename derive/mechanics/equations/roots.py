@@ -33,6 +33,7 @@ from sympy.polys.polyerrors import PolynomialError
 from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.quadratics import roots_together
 from derive.mechanics.equations.unknowns import (
     coordinates_of,
     kind_of_unknown,
@@ -89,23 +90,35 @@ class RootOf(Fact):
 
 
 def roots(
-    equation: Quantity, letter: Any, keys: Sequence[str] | None = None, symbols: Sequence[str] | None = None
+    equation: Quantity,
+    letter: Any,
+    *values: Quantity,
+    keys: Sequence[str] | None = None,
+    symbols: Sequence[str] | None = None,
+    together: str | None = None,
 ) -> tuple[Quantity, ...]:
     """Roots of an equation in one letter, x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic factor, x = -b/a
     for each linear one; only the positive ones where the letter is that of a positive number, in ascending order.
 
     equation   a polynomial in the letter
     letter     the unknown: a letter, a coordinate, a rate, or such as `cos(theta)`
+    values     what letters of the coefficients stand for here, put in after the formula: with `together`
+    together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a); then
+               each by itself, the smaller in size first. What is the only root, or says that there is none, then
+               stands for all of the keys
     keys       what the steps are called; else by the letter, with _1, _2 where there are several
     symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
     Second route: put back into the equation; by Vieta the sum and the product of all roots are those that the
     coefficients give.
     Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),
-    none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1).
+    none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1); of
+    the two together: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (one of each sign), linear.
     Errors: it is no polynomial in the letter, or has a factor of a degree above two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
     unknown = unknown_of("roots", letter)
+    if together is not None or values:
+        return roots_together(equation, letter_of(unknown), values, together or "roots", keys or (), symbols or ())
     left, (x,) = polynomial_in("roots", equation, [unknown])
     polynomial = _polynomial(equation, left, x, unknown)
     every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]

@@ -21,6 +21,7 @@ from derive.mechanics.equations.equilibria import RestOf, matter_behind
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.oscillations import SquareOf
+from derive.mechanics.equations.substitution import WithMomenta
 from derive.mechanics.equations.unknowns import lecture_form
 from derive.mechanics.equations.zeros import sign_where
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
@@ -58,17 +59,20 @@ def steady_motion(
     """Condition of a steady motion, dL/dq = 0 with q_dot = 0 for each coordinate that is not cyclic, the cyclic ones
     turning at constant rates; one for each coordinate that is not cyclic.
 
-    of      the Lagrangian, J, which does not contain the time
+    of      the Lagrangian, J, which does not contain the time; or the equation of motion of one coordinate, into which
+            the values of conserved momenta were put: they tell the rates of their coordinates
     rates   of the cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its own letter
     at      where the others stay, `{theta: alpha}`; one that is not given keeps its own letter
     key     what the keys begin with; with the name of the coordinate where there are several
     Second route: the mass points carried along by this very motion, their accelerations as functions of the time:
     sum of (m a - F) . dr/dq = 0.
-    Outcomes: generic, always (it holds whatever the rates are).
+    Outcomes: generic, always (it holds whatever the rates are), of_equation.
     Errors: L contains the time, has no cyclic coordinate or no other; a force without a potential energy acts; a rate
     is given of a coordinate that is not cyclic; it can never hold.
     Source: Landau, Lifshitz, *Mechanics*, section 14; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.7.
     """
+    known = of.fact(WithMomenta)
+    equation, of = (of, known.lagrangian) if known is not None else (None, of)
     require_kind("steady_motion", "of", of, "energy")
     L = explicit(of.value)
     if L.has(TIME) or of.fact(ActedOn) is not None:
@@ -81,15 +85,52 @@ def steady_motion(
         missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so nothing turns steadily"
         raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
     given_rates, values = _given("rate", rates, turning, turning), _given("value", at, still, turning)
+    given_rates |= {k.coordinate: bound(k.turning, values) for k in (known.kept if known is not None else ())}
     steady_rates = {q.symbol: given_rates.get(q.symbol, q.rate) for q in turning}
     places = {q.symbol: values.get(q.symbol, q.symbol) for q in still}
     motion = {letter: ZERO for q in every for letter in (q.rate, q.acceleration)}
     motion |= {rate(q): value for q, value in steady_rates.items()} | values
     conditions = tuple(lecture_form(bound(diff(L, q.symbol), motion)) for q in still)
     steady = Steady(of, places, steady_rates, conditions)
+    if equation is not None:
+        return _of_equation(equation, steady, equation.needed(OfCoordinate).coordinate, motion, key)
     single = len(still) == 1
     found = tuple(_condition(steady, q, motion, key if single else f"{key}_{q.symbol.name}") for q in still)
     return found[0] if single else found
+
+
+def _of_equation(
+    equation: Quantity, steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key: str
+) -> Quantity:
+    """What is left of an equation of motion where its own coordinate stays and the cyclic ones turn at constant rates.
+
+    Outcomes: of_equation.
+    Source: that of `steady_motion`.
+    """
+    turning = set(steady.rates)
+    still = {letter: value for letter, value in motion.items() if letter not in {rate(s) for s in turning}}
+    matter = steady.lagrangian.needed(Matter)
+    left = _rates_first(lecture_form(bound(equation.value.left, still)), steady)
+    core = _without_positive(left)
+    if core.is_nonzero:
+        raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
+    told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
+    kept = {s: v for s, v in steady.rates.items() if rate(s) != v}
+    return establish(
+        "steady.motion",
+        None,
+        lambda *_: Relation(bound(equation.value.left, still), "=", 0),
+        {"equation": equation, "coordinate": q.symbol},
+        lines=Lines(put_in=None, arranged=lambda _: Relation(core, "=", 0)),
+        routes={"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))},
+        outcome="of_equation",
+        telling=Telling(
+            formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
+            judged_by={"lagrangian": steady.lagrangian.value, "constant": tuple(kept)},
+        ),
+        key=key,
+        facts=[steady, OfCoordinate(q)],
+    )
 
 
 def _given(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
@@ -20,8 +21,11 @@ from derive.mechanics.equations.unknowns import (
     with_unknown,
 )
 from derive.mechanics.systems.coordinates import AtOneMoment, Coordinate, OfCoordinate
+from derive.mechanics.systems.effective import Constant, SeenWith
+from derive.mechanics.systems.kept_momentum import KeptMomentum
+from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Level, Quantity, compared_with, is_zero
+from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
 __all__ = ["put_in"]
@@ -60,7 +64,7 @@ def put_in(
     there = _values(of, given, values, value)
     for pair in there:
         value = _all_put(value, [pair], str(pair[0]), of, told)
-    result = _of_motion(value, coordinates_of(of, *rests)) or _arranged(value)
+    result = _arranged(value, list(coordinates_of(of, *rests)))
     _check_holds(of, result)
     name = _name(of, symbol)
     return establish(
@@ -93,7 +97,7 @@ def put_in(
             points_to={"found": again} if again is not None else {},
         ),
         parents=[again] if again is not None else [],
-        facts=[*(f for f in of.facts if isinstance(f, OfCoordinate)), *_at_one_moment(of, rests, there)],
+        facts=[*_kept_facts(of, rests, there, told), *_at_one_moment(of, rests, there, result)],
         scope=Scope(differ=EVERYTHING, case_of=of),
     )
 
@@ -102,18 +106,38 @@ def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
     return "identity" if _is_identity(result) else "results" if rests else "values"
 
 
-def _of_motion(value: Any, moving: Mapping[Symbol, str]) -> Relation | None:
-    """An equation with accelerations on both of its sides, gathered on one."""
-    fast = [rate(q, 2) for q in moving]
-    if not isinstance(value, Relation) or not all(side.has(*fast) for side in value.sides):
-        return None
-    return Relation(by_accelerations(value.residual, list(moving)), value.mark, Integer(0))
+@dataclass(frozen=True)
+class WithMomenta(Fact):
+    """An equation of motion in which momenta have the values that they keep: the Lagrangian, and these values."""
+
+    missing = "is not an equation of motion with the values of conserved momenta put in"
+    lagrangian: Quantity
+    kept: tuple[KeptMomentum, ...]
 
 
-def _at_one_moment(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> list[AtOneMoment]:
+def _kept_facts(
+    of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], told: Sequence[Replacement]
+) -> list[Fact]:
+    """What is still true with these results put in."""
+    found: list[Fact] = [f for f in of.facts if isinstance(f, OfCoordinate)]
+    kept = [fact for rest in rests if (fact := rest.fact(KeptMomentum)) is not None]
+    source = of.fact(FromLagrangian)
+    if source is not None and isinstance(of.value, Relation) and kept and len(kept) == len(rests) and not there:
+        found.append(WithMomenta(source.lagrangian, tuple(kept)))
+    seen = of.fact(SeenWith)
+    if seen is not None and (fitting := seen.with_values(_final(told))) is not None:
+        found.append(fitting)
+    return found
+
+
+def _at_one_moment(
+    of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], result: Any
+) -> list[AtOneMoment]:
     """That a coordinate or a rate was given a constant value, here or in what was put in."""
     moving = coordinates_of(of, *rests)
     every = {rate(q, n) if n else q: q for q in moving for n in range(len(RATES))}
+    if of.fact(Constant) is not None and not result.free_symbols & {*every, TIME}:
+        return []  # what is constant is at all times what it is at one
     fixed = [
         every[letter_of(s)] for s, value in there if letter_of(s) in every and not value.free_symbols & {*every, TIME}
     ]
@@ -136,7 +160,12 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """What a result replaces: its letter, and the rates of a coordinate that it gives for the whole motion."""
+    """What a result replaces: its letter, and the rates of a coordinate that it gives for the whole motion; of a
+    momentum that keeps its value the rate of its coordinate too."""
+    kept = quantity.fact(KeptMomentum)
+    if kept is not None:
+        target, value = rate(kept.coordinate), kept.turning
+        return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value), (kept.momentum, kept.value)]
     if isinstance(quantity.value, Relation):
         target, value = quantity.value.sides
         if quantity.value.mark != "=" or is_zero(quantity.value.residual):
@@ -221,24 +250,36 @@ def _mapped(value: Any, target: Expr, at: Expr) -> Any:
     return with_unknown(value, target, at)
 
 
-def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
-    """The original with each letter replaced by what it is once all later values are put into it."""
+def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
+    """What each letter is once all later values are put into it."""
     final: dict[Symbol, Expr] = {}
     for target, at in reversed(told):
         final = {**final, **{letter: bound(v, final) for letter, v in meaning(target, at).items()}}
+    return final
+
+
+def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
+    """The original with each letter replaced by what it finally is."""
+    final = _final(told)
     if isinstance(value, Relation):
         return Relation(bound(value.left, final), value.mark, bound(value.right, final))
     return bound(value, final)
 
 
-def _arranged(value: Any) -> Any:
-    """Tidy; of a relation to zero what is positive in all terms is left out."""
+def _arranged(value: Any, moving: Sequence[Symbol]) -> Any:
+    """Tidy; an equation of motion by its accelerations; of another relation to zero what is positive in all terms is
+    left out."""
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(lecture_form))
     if not isinstance(value, Relation):
         return lecture_form(value)
+    fast = {rate(q, 2) for q in moving}
+    if not is_zero(value.right) and all(side.free_symbols & fast for side in value.sides):
+        return Relation(by_accelerations(value.residual, moving), value.mark, Integer(0))
     if not is_zero(value.right):
         return Relation(lecture_form(value.left), value.mark, lecture_form(value.right))
+    if value.free_symbols & fast:
+        return Relation(by_accelerations(value.left, moving), value.mark, Integer(0))
     left = lecture_form(value.left)
     kept = [f for f in Mul.make_args(left) if not f.is_positive]
     core = Mul(*kept) if kept else left

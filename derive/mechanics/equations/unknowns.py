@@ -7,9 +7,28 @@ where its letter stands in any other way, it cannot be taken for an unknown.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
-from sympy import Add, Dummy, Expr, Function, Integer, Matrix, Mul, Pow, Symbol, acos, asin, atan, cos, factor, sin, tan
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Function,
+    Integer,
+    Matrix,
+    Mul,
+    Pow,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cancel,
+    cos,
+    factor,
+    sin,
+    tan,
+)
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6, TR8
 
@@ -184,7 +203,33 @@ def lecture_form(value: Expr) -> Expr:
             forms.append(by_terms(forms[0].expand()))
         if forms[0].count_ops() <= SHORT and not below.has(sin, cos):
             forms.append(tidied(TR8(forms[0].expand())))
+        if below.has(sin):
+            forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
     return min(forms, key=lambda form: (int(form.count_ops()), str(form)))
+
+
+def without_sine_below(value: Expr) -> Expr:
+    """(1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a; sin a/(1 + cos a), not (1 - cos a)/sin a."""
+    above, below = factor(value).as_numer_denom()
+    for sine in sorted(below.atoms(sin), key=str):
+        c, mark = cos(sine.args[0]), Dummy("c", real=True)
+        odd = sine if below.as_powers_dict()[sine] % 2 else Integer(1)
+        ups, downs = (
+            (part * odd).replace(partial(_is_power_of, sine), partial(_by_cosine, c)).xreplace({c: mark})
+            for part in (above, below)
+        )
+        if not downs.has(sine):
+            above, below = (part.xreplace({mark: c}) for part in cancel(ups / downs).as_numer_denom())
+    return _factored(above) / _factored(below)
+
+
+def _is_power_of(sine: Expr, e: Expr) -> bool:
+    return isinstance(e, Pow) and e.base == sine and e.exp.is_Integer and e.exp > 1
+
+
+def _by_cosine(c: Expr, power: Expr) -> Expr:
+    """sin^2 as 1 - c^2, one sine left over of an odd power."""
+    return (1 - c**2) ** (power.exp // 2) * power.base ** (power.exp % 2)
 
 
 def _factored(value: Expr) -> Expr:

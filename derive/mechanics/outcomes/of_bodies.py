@@ -10,7 +10,7 @@ from sympy import diag as diagonal
 
 from derive.algebra.expressions import AXES, explicit
 from derive.algebra.tidy import tidied
-from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.mechanics.outcomes.signs import lasts
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import Quantity, is_zero
 
@@ -168,12 +168,6 @@ def _moments_compared(wanted: str) -> Predicate:
     return is_so
 
 
-def _is_flat(facts: Judged) -> bool:
-    """Whether all particles of the part are in one plane across its axis."""
-    heights = [r[2] for _, r in facts.subject.body.particles()]
-    return all(is_zero(z - heights[0]) for z in heights)
-
-
 _HALF_TURN_ABOUT_X = ImmutableDenseMatrix(diagonal(1, -1, -1))
 
 _TABLE: dict[str, dict[str, Predicate]] = {
@@ -232,7 +226,6 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "distinct": _axis_of(3),
     },
     "principal.isotropic_where": {word: _moments_compared(word) for word in ("special", "always", "never")},
-    "composed.part_moment": {"moment": lasts, "none": vanishes, "flat": _is_flat},
     "free_rotation.principal_tensor": {"generic": _tensor(3), "two_equal": _tensor(2), "isotropic": _tensor(1)},
 }
 

@@ -44,10 +44,10 @@ def _roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
     return is_so
 
 
-_SLOW = _roots_fit(lambda this, other, b: abs(this) < abs(other) and this * other > 0)
+_SMALLER = _roots_fit(lambda this, other, b: abs(this) < abs(other) and this * other > 0)
 
 
-_FAST = _roots_fit(lambda this, other, b: abs(this) > abs(other) and this * other > 0)
+_LARGER = _roots_fit(lambda this, other, b: abs(this) > abs(other) and this * other > 0)
 
 
 def _whether(real: bool, predicate: Predicate) -> Predicate:
@@ -87,10 +87,6 @@ def _of_known_sign(sign: int) -> Predicate:
     return always_sign(sign, lambda facts: facts.inputs["quantity"])
 
 
-def _border(with_border: bool) -> Predicate:
-    return lambda facts: (facts.result.mark == ">=") == with_border
-
-
 def _numbers_fulfil(wanted: bool) -> Predicate:
     """The condition with the numbers put in, decided in 30 digits."""
     truths = {
@@ -121,17 +117,17 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "never": _of_known_sign(-1),
         "vanishing": _of_known_sign(0),
     },
-    "precession.steady_rate": {
-        "slow": _whether(True, _SLOW),
-        "fast": _whether(True, _FAST),
-        "slow_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) < abs(other))),
-        "fast_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) > abs(other))),
-        "forward": _roots_fit(lambda this, other, b: this * other < 0 and this * b < 0 and abs(this) < abs(other)),
-        "backward": _roots_fit(lambda this, other, b: this * other < 0 and this * b > 0 and abs(this) > abs(other)),
+    "roots.one_of_two": {
+        "smaller": _whether(True, _SMALLER),
+        "larger": _whether(True, _LARGER),
+        "smaller_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) < abs(other))),
+        "larger_where_real": _whether(False, _roots_fit(lambda this, other, b: abs(this) > abs(other))),
+        "nearer": _roots_fit(lambda this, other, b: this * other < 0 and abs(this) < abs(other)),
+        "farther": _roots_fit(lambda this, other, b: this * other < 0 and abs(this) > abs(other)),
         "coinciding": lambda facts: sign_known(facts.inputs["quadratic"].discriminant) == 0,
+        "none": lambda facts: sign_known(facts.inputs["quadratic"].discriminant) == -1,
     },
-    "sleeping.sleeping_spin": {"with_border": _border(True), "without_border": _border(False)},
-    "quadratics.roots_of": {
+    "roots.together": {
         "two": _roots(1),
         "opposite": _roots(1, product=-1),
         "none": _roots(-1),
@@ -139,11 +135,12 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "conditional": _roots(None),
         "linear": _linear,
     },
-    "quadratics.discriminant": {
+    "roots.discriminant": {
         "positive": sign_is(1),
         "negative": sign_is(-1),
         "vanishing": sign_is(0),
         "conditional": sign_is(None),
+        "linear": _linear,
     },
     "numbers.value": {"exact": _of_numbers("exact"), "measured": _of_numbers("measured")},
     "numbers.comparison": {"fulfilled": _numbers_fulfil(True), "not_fulfilled": _numbers_fulfil(False)},

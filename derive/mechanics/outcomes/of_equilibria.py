@@ -180,6 +180,19 @@ def _depends(border: str | None) -> Predicate:
     return is_so
 
 
+def _bordered(border: str | None) -> Predicate:
+    """Whether the border belongs to it, by the order that decides there."""
+
+    def is_so(facts: Judged) -> bool:
+        where = facts.inputs.get("at_border")
+        if where is None or border is None:
+            return where is None and border is None and facts.result.mark in (">", "<")
+        there = facts.inputs["potential_here"].subs(where.left, where.right)
+        return kind_of_order(there, facts) == border and facts.result.mark.endswith("=") == (border == "stable")
+
+    return is_so
+
+
 def _is_what_the_lagrangian_has(facts: Judged) -> bool:
     """Whether nothing of it comes from elsewhere: V + L is of the rates alone, and vanishes with them."""
     moving = facts.inputs["moving"]
@@ -210,6 +223,11 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "depends": _depends(None),
         "depends_stable_on_border": _depends("stable"),
         "depends_unstable_on_border": _depends("unstable"),
+    },
+    "minima.stable_where": {
+        "with_border": _bordered("stable"),
+        "without_border": _bordered("unstable"),
+        "open": _bordered(None),
     },
     "minima.stability_of_several": {
         "stable": _always(1),

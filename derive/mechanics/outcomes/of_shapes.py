@@ -44,6 +44,31 @@ def _moved(moved: bool, turned: bool) -> Predicate:
     return is_so
 
 
+def _beside_the_axis(facts: Judged) -> bool:
+    """Whether the mean place of the particles of some part is beside the axis."""
+    about, k = facts.subject.point, "xyz".index(str(facts.subject.axis))
+    for part in facts.subject.body.parts:
+        mean = sum((m * about.seen(r) for m, r in part.particles), start=about.position * 0) / part.mass
+        if not is_zero(sum(x**2 for i, x in enumerate(mean) if i != k)):
+            return True
+    return False
+
+
+def _with_moments(facts: Judged) -> int:
+    return sum(role.startswith("part_") for role in facts.inputs)
+
+
+def _is_flat(facts: Judged) -> bool:
+    """No particle is off the plane that is spoken of, and the moment is about an axis in it."""
+    body = facts.subject.body
+    return all(is_zero(place[2]) for _, place in body.particles()) and facts.subject.axis in ("x", "y")
+
+
+def _on_its_axis(facts: Judged) -> bool:
+    places = [place for _, place in facts.subject.body.particles()]
+    return facts.subject.axis == "z" and all(is_zero(place[0]) and is_zero(place[1]) for place in places)
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "general.cell_of": {"curve": _with_variables(1), "surface": _with_variables(2), "solid": _with_variables(3)},
     "general.size_by_integration": {word: _of_filling(word) for word in ("length", "area", "volume")},
@@ -58,6 +83,12 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "turned_there": _moved(False, True),
         "moved": _moved(True, False),
         "turned_moved": _moved(True, True),
+    },
+    "assembly.own_moment": {"none": _on_its_axis, "flat": _is_flat},
+    "assembly.moment_of_inertia": {
+        "moved": _beside_the_axis,
+        "on_axis": lambda facts: not _beside_the_axis(facts) and _with_moments(facts) != 1,
+        "alone": lambda facts: not _beside_the_axis(facts) and _with_moments(facts) == 1,
     },
     "tensors.tensor_entry": {
         "moment": lambda facts: len(set(facts.words["entry"])) == 1,

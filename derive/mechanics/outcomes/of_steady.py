@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sympy import Expr, Integer, Rational, Symbol, prime
 
+from derive.algebra.expressions import rate
 from derive.algebra.ranges import range_of
 from derive.steps.known_numbers import with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -35,10 +36,18 @@ def _always(sign: int) -> Predicate:
     return lambda facts: not is_zero(facts.result) and _signs(facts) == {sign}
 
 
+def _nothing_else_moves(facts: Judged) -> bool:
+    """Of an equation of motion is left what holds no acceleration, and not the rate of its own coordinate."""
+    q = facts.inputs["coordinate"]
+    moving = {s for s in facts.result.free_symbols if s.name.endswith("_ddot")} | {rate(q)}
+    return not is_zero(facts.result.residual) and not moving & facts.result.free_symbols
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "steady.motion": {
         "generic": lambda facts: not is_zero(facts.result.residual),
         "always": lambda facts: is_zero(facts.result.residual),
+        "of_equation": _nothing_else_moves,
     },
     "steady.frequency_squared": {
         "stable": _always(1),

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Expr, Integer, Symbol, cos, diff, integrate, pi, sin
+from sympy import Expr, Integer, Symbol, diff, integrate, pi
 
-from derive.algebra.expressions import Relation, column, explicit, rate
+from derive.algebra.expressions import Relation, explicit, rate
 from derive.steps.outcomes import Judged, told_by
 from derive.steps.step import is_zero
 
@@ -39,59 +39,12 @@ def _cylindrical(facts: Judged, outcome: str) -> bool:
     return from_start and is_zero(area - facts.inputs["element"]) and is_zero(sections - explicit(facts.result))
 
 
-def _of_three_angles(facts: Judged, outcome: str) -> bool:
-    phi, theta, psi, sine, cosine = (facts.inputs[role] for role in ("precession", "tilt", "turning", "sine", "cosine"))
-    by_angles = column(rate(theta), rate(phi) * sin(theta), rate(psi) + rate(phi) * cos(theta))
-    return is_zero(facts.result - by_angles) and is_zero(sine - sin(theta)) and is_zero(cosine - cos(theta))
-
-
 def _letters_of(value: Any) -> set[Any]:
     return set(explicit(value).free_symbols)
 
 
-def _one_angle_left(facts: Judged, outcome: str) -> bool:
-    """The equation is one for the tilt, and the turning, a rate, has gone from it."""
-    present, turning = _letters_of(facts.result), facts.inputs["turning"]
-    return rate(facts.inputs["tilt"], 2) in present and isinstance(turning, Symbol) and turning not in present
-
-
-def _steady(facts: Judged, outcome: str) -> bool:
-    tilt, rate_of_it, sine = (facts.inputs[role] for role in ("tilt", "rate", "sine"))
-    return rate_of_it in _letters_of(facts.result) and is_zero(sine - sin(tilt)) and rate(tilt) != rate_of_it
-
-
-def _sine_of_the_tilt(facts: Judged, outcome: str) -> bool:
-    """What vanishes with the tilt is the sine of the angle that the rate depends on; the rate is the cyclic one."""
-    sine = facts.inputs["sine"]
-    of_the_tilt = isinstance(sine, sin) and sine.args[0] in _letters_of(facts.result)
-    return of_the_tilt and facts.inputs["carried"] != sine and facts.symbol == rate(facts.inputs["cyclic"])
-
-
-def _one_part_moves(facts: Judged, outcome: str) -> bool:
-    """Of the other two parts of the energy one holds the rate of the coordinate, and one does not."""
-    rates = {rate(q) for q in _letters_of(facts.result)}
-    moving, constant = (bool(rates & _letters_of(facts.inputs[role])) for role in ("moving", "constant"))
-    return moving and not constant
-
-
-def _as_given(facts: Judged, outcome: str) -> bool:
-    return is_zero(facts.result - facts.inputs["given"]) and facts.symbol == facts.inputs["tilt"]
-
-
 def _for_a_vector(facts: Judged, outcome: str) -> bool:
     return getattr(facts.inputs["vector"], "shape", None) == (3, 1)
-
-
-def _strict(facts: Judged, outcome: str) -> bool:
-    """At the bound itself there is still a steady precession, so only what is beyond it has none."""
-    return facts.result.mark in {"<", ">"}
-
-
-def _component_that_is_kept(facts: Judged, outcome: str) -> bool:
-    """The component of the vector keeps the value called the spin, and its moment of inertia has no part in that."""
-    spin, moment = facts.inputs["spin"], facts.inputs["along"]
-    is_vector = getattr(facts.inputs["omega"], "shape", None) == (3, 1)
-    return is_vector and is_zero(facts.result.right - spin) and moment not in _letters_of(facts.result)
 
 
 def _equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
@@ -109,13 +62,25 @@ def _from_its_point_along_the_axis(facts: Judged, outcome: str) -> bool:
     return _counted_from_its_point(facts, outcome) and along
 
 
-def _named_as_its_moment(facts: Judged, outcome: str) -> bool:
-    """The part is called as the letter of its moment says."""
-    return str(facts.symbol.name).endswith("_" + facts.words["name"])
+def _says_its_bound(facts: Judged, outcome: str) -> bool:
+    """At the bound itself there still is a root, so that only what is beyond it has none."""
+    return outcome != "none" or (facts.result.mark == "<" and is_zero(facts.result.right))
 
 
-def _momentum_of_a_coordinate(facts: Judged, outcome: str) -> bool:
-    return isinstance(facts.inputs["coordinate"], Symbol) and "momentum" in facts.quantities
+def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
+    """The value that is told is what the momentum is, and the equation holds the rate of its coordinate."""
+    moving = rate(facts.inputs["coordinate"]) in _letters_of(facts.result)
+    return (
+        moving
+        and facts.result.mark == "="
+        and is_zero(
+            (facts.result.left - facts.result.right)
+            * diff(explicit(facts.inputs["momentum"]), rate(facts.inputs["coordinate"]))
+            / diff(facts.result.left, rate(facts.inputs["coordinate"]))
+            - explicit(facts.inputs["momentum"])
+            + explicit(facts.inputs["value"])
+        )
+    )
 
 
 def _axis_as_named(facts: Judged, outcome: str) -> bool:
@@ -165,22 +130,14 @@ _TABLE: dict[str, Told] = {
     "rotation.torque": _of_their_kinds,
     "free_rotation.rate_in_body": _of_their_kinds,
     "bodies.volume": _cylindrical,
-    "tops.turning_rate": _of_three_angles,
-    "tops.constant_spin": _component_that_is_kept,
-    "composed.part_moment": _named_as_its_moment,
-    "cyclic.conserved_momentum": _momentum_of_a_coordinate,
-    "quadratics.roots_of": _equation_in_its_unknown,
+    "roots.together": _equation_in_its_unknown,
+    "roots.one_of_two": _says_its_bound,
+    "effective.value_kept": _of_its_coordinate,
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
     "bodies.centre_of_mass": _counted_from_its_point,
     "bodies.section_radius": _counted_from_its_point,
-    "precession.no_steady_precession": _strict,
-    "precession.fixed_tilt": _as_given,
     "equations.at": _for_a_vector,
-    "tops.tilt_equation": _one_angle_left,
-    "precession.steady_precession": _steady,
-    "sleeping.upright_rate": _sine_of_the_tilt,
-    "sleeping.effective_potential": _one_part_moves,
     "conditions.positive_where": _as_strictly,
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,

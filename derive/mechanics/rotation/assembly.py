@@ -36,6 +36,7 @@ from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
 from derive.mechanics.bodies.regions import Point, Region
+from derive.mechanics.rotation.added_moments import moment_of_parts
 from derive.mechanics.rotation.inertia import inertia_tensor
 from derive.mechanics.rotation.tensors import seen_particles, shape_of, tensor_entry
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -158,8 +159,8 @@ class Composite(Body):
         return _tensor_of_parts(self, point, symbol, key)
 
     def derived_moment(self, axis: str, point: Point, symbol: str, key: str) -> Quantity:
-        whole = _tensor_of_parts(self, point, "K", f"{key}_tensor")
-        return tensor_entry(whole, axis + axis, symbol, key)
+        added = moment_of_parts(self, axis, point, symbol, key)
+        return added or tensor_entry(_tensor_of_parts(self, point, "K", f"{key}_tensor"), axis + axis, symbol, key)
 
 
 def PointMasses(*masses: tuple[Expr, Sequence[Any]]) -> Composite:

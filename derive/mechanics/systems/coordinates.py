@@ -22,7 +22,7 @@ from derive.steps.establish import Lines, establish
 from derive.steps.record import coordinate_named
 from derive.steps.step import Fact, Level, Quantity, compared_with
 
-__all__ = ["Coordinate", "coordinate", "rate_of"]
+__all__ = ["Coordinate", "coordinate", "euler_angles", "rate_of"]
 
 T = TIME  # coordinates are functions of it where a second route makes them so
 
@@ -110,6 +110,11 @@ def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordi
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
+
+
+def euler_angles() -> tuple[Coordinate, Coordinate, Coordinate]:
+    """Precession phi, tilt theta and spin psi. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4."""
+    return coordinate("phi"), coordinate("theta"), coordinate("psi")
 
 
 def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:

@@ -27,6 +27,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.kept_momentum import value_kept
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
 from derive.mechanics.systems.phase_space import (
     beside_potential,
@@ -98,13 +99,21 @@ class SeenWith(Fact):
     constants: tuple[Quantity, ...]
     matter: Matter
 
+    def with_values(self, values: Mapping[Symbol, Expr]) -> SeenWith | None:
+        """The same where the letters of some momenta have values; nothing where other letters have."""
+        if not isinstance(self.matter, ReducedMatter) or not set(values) <= {p.symbol for p in self.constants}:
+            return None
+        rates = tuple((v, tidied(bound(found, values))) for v, found in self.matter.rates)
+        return replace(self, matter=replace(self.matter, rates=rates))
 
-def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, key: str | None = None) -> Quantity:
+
+def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key: str | None = None) -> Quantity:
     """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; it is known by its letter from then on.
 
     of      the Lagrangian, J
     q       a coordinate that it does not contain
-    value   the letter of the constant; p_q unless it is given
+    value   the letter of the constant, p_q unless it is given; or what it is at the start, I_z*S: then an equation of
+            the rates is yielded, p_q = I_z*S, which `put_in` puts into others
     Second route: the sum of m v . dr/dq over the mass points; and its rate by functions of time is the sum of
     (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
@@ -119,7 +128,8 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
     if not L.has(q.rate):
         message = f"`conserved`: `{of.key}` does not contain the rate of {q.symbol.name}, which has no momentum"
         raise Rejected(Complaint("not-cyclic", message))
-    letter = letter_of_momentum(q) if value is None else scalar(value) if isinstance(value, str) else value
+    known = value if isinstance(value, Expr) and not isinstance(value, Symbol) else None
+    letter = scalar(value) if isinstance(value, str) else value if isinstance(value, Symbol) else letter_of_momentum(q)
     matter = of.needed(Matter)
     if _pushed(matter, q) != 0:
         message = f"`conserved`: a force that is not in `{of.key}` acts along {q.symbol.name}"
@@ -129,7 +139,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
     def by_virtual_work(found: Expr) -> tuple[Expr, Expr]:
         return by_functions_of_time(found, moving), matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
 
-    return establish(
+    momentum = establish(
         "effective.conserved",
         letter,
         lambda L, _: Partial(L, q.rate),
@@ -140,10 +150,11 @@ def conserved(of: Quantity, q: Coordinate, value: str | Symbol | None = None, ke
             "virtual_work": by_virtual_work,
         },
         outcome={"angle": "angular", "length": "linear"}.get(q.kind, "other"),
-        key=key or f"conserved_{q.symbol.name}",
+        key=f"conserved_{q.symbol.name}" if key is None or known is not None else key,
         kind=kind_of_momentum(q.kind),
         facts=[FromLagrangian(of), OfCoordinate(q), Constant(q)],
     )
+    return momentum if known is None else value_kept(momentum, known, matter, key or f"constant_{q.symbol.name}")
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:

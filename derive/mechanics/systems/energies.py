@@ -38,7 +38,7 @@ from derive.mechanics.systems.rigid import (
 )
 from derive.mechanics.systems.system import HALF, ZERO, Eliminated, System
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Level, Quantity, compared_with, value_behind
+from derive.steps.step import Level, Quantity, compared_with, lettered, value_behind
 from derive.steps.subject import EVERYTHING, Subject
 
 __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
@@ -229,12 +229,17 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
         inputs,
         key=key,
         kind="energy",
-        parents=system.put_in,
+        parents=[*system.put_in, *_behind(system)],
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
         facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
+
+
+def _behind(system: System) -> list[Quantity]:
+    """What the letters stand for by which bodies are known; what rests on them keeps the letters."""
+    return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:

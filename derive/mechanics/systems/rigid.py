@@ -16,7 +16,7 @@ from derive.mechanics.rotation.inertia import inertia_tensor, moment_of_inertia
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.places import Axes, space
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import coordinates_in
+from derive.steps.record import coordinates_in, established
 from derive.steps.step import Quantity, compared_with, is_zero
 from derive.steps.subject import NOTHING, Subject
 
@@ -69,8 +69,8 @@ def angular_velocity(
     return establish(
         "rigid.angular_velocity",
         vector(symbol),
-        lambda: MatAdd(*whole) if len(whole) > 1 else whole[0],
-        {},
+        lambda *_: MatAdd(*whole) if len(whole) > 1 else whole[0],
+        {f"turn_{n}": angle for n, (_, angle) in enumerate(axes.turns, 1)},
         lines=Lines(put_in=None, arranged=lambda value: ImmutableDenseMatrix(explicit(value).applyfunc(by_squares))),
         routes={"rotation_matrix": compared_with(by_rotation_matrix)},
         outcome="space" if count == 0 else "body" if count == len(axes.turns) else "following",
@@ -174,3 +174,11 @@ def _check_moments(placed: PlacedBody) -> None:
         message = f"the moments of {body.name} are about its pivot, but it {where}"
         help_line = 'give the moments about the centre of mass, with `about="centre_of_mass"`'
         raise Rejected(Complaint("wrong-point", message, help=help_line))
+    if body.about == "fixed_point" and any(body.centre):
+        for found in established():
+            at = getattr(found.subject.point, "name", None)
+            if found.symbol in body.moments and at in ("centre", "centre_of_mass"):
+                message = (
+                    f"`{found.key}` is about the centre of mass, but {body.name} has it as a moment about its pivot"
+                )
+                raise Rejected(Complaint("wrong-point", message, help="find the moments about the pivot"))

@@ -1,0 +1,148 @@
+"""The moment of inertia of a body of parts about one axis: that of each part, with its parallel axis, added up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from sympy import Add, Expr, Integer, Pow, Rational
+from sympy.matrices import ImmutableMatrix
+
+from derive.algebra.expressions import AXES, Factors, Terms, scalar
+from derive.mechanics.bodies.parts import PlacedPart
+from derive.mechanics.bodies.regions import Point
+from derive.mechanics.rotation.inertia import moment_of_inertia
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Level, Quantity, compared_with, is_zero
+from derive.steps.subject import Subject
+
+__all__ = ["moment_of_parts"]
+
+OF_PARTS = ("body", "point", "mass", "axis")
+
+
+def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
+    """Moment of inertia of a body of parts about an axis through a point, I = sum of I_part + m d^2 over its parts.
+
+    body    its parts; what is cut out is subtracted
+    axis    "x", "y" or "z"
+    point   through which the axis goes
+    The moment of each part about its own centre is a step of its own. Nothing is yielded where a part is turned so
+    that the axis is none of its own.
+    Second route: mass times distance squared, summed over the equimomental particles of all parts; the integral of
+    the squared distance over the whole body.
+    Outcomes: moved (some centre is beside the axis), on_axis, alone (of all parts one has a moment).
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
+    """
+    k = AXES.index(axis)
+    own_axes = [None if _is_particle(part) else _own_axis(part, point, k) for part in body.parts]
+    if any(own is None and not _is_particle(part) for part, own in zip(body.parts, own_axes, strict=True)):
+        return None
+    own = {
+        f"part_{i}": _own_moment(part.body, each, symbol.partition("_")[0], axis)
+        for i, (part, each) in enumerate(zip(body.parts, own_axes, strict=True))
+        if each is not None
+    }
+    held = {role: moment for role, moment in own.items() if moment.value != 0}
+    away = [_squares_beside(point.seen(part.centre), k) for part in body.parts]
+
+    def law(*found: Any) -> Any:
+        moments = dict(zip(held, found, strict=True))
+        terms: list[Expr] = []
+        for i, part in enumerate(body.parts):
+            terms += [part.sign * moment for role, moment in moments.items() if role == f"part_{i}"]
+            terms += [part.sign * Factors(part.body.mass, away[i])] if away[i] != 0 else []
+        return Terms(*terms) if len(terms) > 1 else Add(*terms)
+
+    return establish(
+        "assembly.moment_of_inertia",
+        scalar(symbol, positive=True) if _from_particles(body, point, k).expand().is_positive else scalar(symbol),
+        law,
+        held,
+        routes={
+            "particles": compared_with(lambda: _from_particles(body, point, k)),
+            "integration": compared_with(lambda: body.over_mass(lambda r: _squared_distance(r, k), point)),
+        },
+        outcome="moved" if any(square != 0 for square in away) else "alone" if len(held) == 1 else "on_axis",
+        kind="moment of inertia",
+        key=key,
+        parents=[*own.values(), *body.shares],
+        telling=Telling(words={"about": point.name, "axis": axis}),
+        scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis), differ=OF_PARTS),
+    )
+
+
+def _own_moment(body: Any, axis: str, letter: str, called: str) -> Quantity:
+    """Moment of inertia of a part about an axis through its centre; of a flat round one across its own axis half of
+    that about it, because I_x + I_y = I_z.
+
+    body     the part
+    axis     which of its own axes; `called` is that of the whole to which it is parallel
+    Second route: mass times distance squared, summed over its equimomental particles; the integral.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    """
+    symbol, key = f"{letter}_{called}", f"moment_{called}"
+    if body.filling == "length" and axis == "z" and _all_on_axis(body):
+        return _by_shape(body, axis, symbol, key, "none", lambda: Integer(0), {})
+    if not (body.is_round and body.filling == "area" and axis != "z" and _is_flat(body)):
+        return moment_of_inertia(body, axis, symbol=symbol, key=key)
+    axial = _own_moment(body, "z", letter, "xyz".replace(called, "")[-1])
+    return _by_shape(body, axis, symbol, key, "flat", lambda I: Factors(Rational(1, 2), I), {"axial": axial})
+
+
+def _by_shape(
+    body: Any, axis: str, symbol: str, key: str, outcome: str, law: Callable[..., Expr], inputs: Mapping[str, Quantity]
+) -> Quantity:
+    """A moment about an axis through the centre of a part that is told without an integral.
+
+    Outcomes: none (all of the mass is on the axis), flat.
+    Source: that of `own_moment`.
+    """
+    k, centre = AXES.index(axis), body.middle
+    return establish(
+        "assembly.own_moment",
+        scalar(symbol),
+        law,
+        inputs,
+        routes={
+            "particles": compared_with(lambda: _from_particles(body, centre, k)),
+            "integration": compared_with(lambda: body.over_mass(lambda r: _squared_distance(r, k), centre)),
+        },
+        outcome=outcome,
+        lines=Lines(put_in=Level.FULL),
+        kind="moment of inertia",
+        key=key,
+        scope=Scope(about=Subject(body=body, mass=body.mass, point=centre, axis=axis), differ={"axis"}),
+    )
+
+
+def _all_on_axis(body: Any) -> bool:
+    return all(is_zero(place[0]) and is_zero(place[1]) for _, place in body.particles())
+
+
+def _is_particle(part: PlacedPart) -> bool:
+    return not getattr(part.body, "filling", "") and not hasattr(part.body, "parts")
+
+
+def _is_flat(body: Any) -> bool:
+    return all(is_zero(place[2]) for _, place in body.particles())
+
+
+def _own_axis(part: PlacedPart, point: Point, k: int) -> str | None:
+    """Which axis of the part is parallel to that of the whole, if one is."""
+    seen = part.turn.T * point.axes[:, k]
+    return next((AXES[j] for j in range(3) if is_zero(seen[j] ** 2 - 1)), None)
+
+
+def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:
+    """The squared distance from an axis, as a sum of squares."""
+    squares = [Pow(x, 2, evaluate=not x.is_Mul) for i, x in enumerate(way) if i != k and x != 0]
+    return squares[0] if len(squares) == 1 else Terms(*squares) if squares else Integer(0)
+
+
+def _squared_distance(r: ImmutableMatrix, k: int) -> Expr:
+    return sum((x**2 for i, x in enumerate(r) if i != k), Integer(0))
+
+
+def _from_particles(body: Any, point: Point, k: int) -> Expr:
+    return sum((mass * _squared_distance(point.seen(place), k) for mass, place in body.particles()), Integer(0))

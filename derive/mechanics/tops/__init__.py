@@ -1,1 +1,0 @@
-"""The heavy symmetric top: Euler's angles, steady precession, the sleeping top."""
