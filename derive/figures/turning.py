@@ -112,7 +112,7 @@ def leaning_to_the_right(system: System) -> dict[Symbol, Expr]:
     """With which angle of precession a body is drawn that is inclined after it: so that its axis leans to the right."""
     found: dict[Symbol, Expr] = {}
     for placed in system.bodies:
-        turns = getattr(placed.turned, "turns", ())
+        turns: Any = getattr(placed.turned, "turns", ())
         if len(turns) > 1 and turns[0][0] == 2 and turns[0][1].is_Symbol and turns[1][0] < 2:
             found[turns[0][1]] = TO_THE_RIGHT + (pi / 2 if turns[1][0] == 0 else 0)
     return found
