@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from sympy import Expr, Integer, Symbol, diff, integrate, pi
+from sympy import Integer, Symbol, diff, integrate, pi
 
 from derive.algebra.expressions import Relation, explicit, rate
 from derive.steps.outcomes import Judged, told_by
@@ -109,16 +109,6 @@ def _difference(facts: Judged, outcome: str) -> bool:
     return is_zero(explicit(facts.result) - kinetic + potential - magnetic)
 
 
-def _product_of(*roles: str) -> Told:
-    def is_so(facts: Judged, outcome: str) -> bool:
-        product: Expr = Integer(1)
-        for role in roles:
-            product *= explicit(facts.inputs[role])
-        return is_zero(explicit(facts.result) - product)
-
-    return is_so
-
-
 def _at_a_place(facts: Judged, outcome: str) -> bool:
     place = facts.inputs["place"]
     return isinstance(place, Relation) and isinstance(place.left, Symbol)
@@ -142,7 +132,6 @@ _TABLE: dict[str, Told] = {
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
     "lagrangian.lagrangian": _difference,
-    "lagrangian.weight_energy": _product_of("mass", "gravity", "height"),
     "potentials.curvature_at": _at_a_place,
 }
 

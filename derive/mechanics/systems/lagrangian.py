@@ -8,25 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Symbol, diff
+from sympy import Add, Expr, Integer, Mul, Symbol
 
 from derive.algebra.collect import by_accelerations, by_rates
-from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
-from derive.mechanics.systems.dalembert import Load, Matter
+from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
 from derive.mechanics.systems.system import System
-from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import changes, require_constant
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind, value_behind
-from derive.steps.subject import Subject
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import changes
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 
 __all__ = [
     "equation_of_motion",
@@ -35,7 +33,6 @@ __all__ = [
     "generalized_momentum",
     "lagrangian",
     "momentum_rate",
-    "weight_energy",
 ]
 
 ZERO = Integer(0)
@@ -63,60 +60,6 @@ class Energies(Fact):
         return explicit(self.kinetic.value + self.potential.value)
 
 
-def weight_energy(
-    mass: Expr | Quantity, gravity: Expr, place: Sequence[Quantity], symbol: str = "U", key: str = "potential_energy"
-) -> Quantity:
-    """Potential energy of the weight, U = M g y, with y the last component of the place, upwards from the origin.
-
-    mass      M, kg
-    gravity   g, m/s^2
-    place     of the centre of mass, components in m, the last one upwards
-    Second route: the weight does the work -dU along any motion, for each coordinate -dU/dq = F . dr/dq.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 5.3.
-    """
-    height = place[-1]
-    coordinates = list({q: None for part in place for q in part.coordinates})
-    at = tuple(part.value for part in place)
-    require_constant("weight_energy", "mass", mass)
-    require_constant("weight_energy", "gravity", gravity)
-    down = (*(Integer(0) for _ in at[:-1]), -value_behind(mass) * gravity)
-    matter = Matter((), (Load(down, at),), tuple(coordinates))
-
-    def work_of_weight(potential: Expr) -> tuple[Expr, Expr]:
-        """Each coordinate with a factor of its own, so that no two terms can make up for one another."""
-        moving = [*coordinates, TIME]
-        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
-        lost = [-diff(potential, q) * mark for q, mark in zip(moving, marks, strict=True)]
-        done = [matter.force_along(q) * mark for q, mark in zip(moving, marks, strict=True)]
-        return Add(*lost), Add(*done)
-
-    def zero_at_origin(potential: Expr) -> tuple[Expr, Expr]:
-        """Forces leave a constant open: it is zero at the height of the origin."""
-        weight = value_behind(mass) * gravity
-        return potential - weight * at[-1], ZERO
-
-    return establish(
-        "lagrangian.weight_energy",
-        scalar(symbol),
-        lambda m, g, y: Factors(m, g, y),
-        {"mass": mass, "gravity": gravity, "height": height},
-        lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
-        routes={"work": work_of_weight, "origin": zero_at_origin},
-        key=key,
-        kind="energy",
-        parents=list(place),
-        facts=[matter],
-        scope=Scope(about=_about_weight(mass, at)),
-    )
-
-
-def _about_weight(mass: Any, at: tuple[Any, ...]) -> Subject:
-    """A mass with a body of its own needs no other sign of what it belongs to."""
-    if isinstance(mass, Quantity) and mass.subject.body is not None:
-        return mass.subject
-    return Subject(mass=value_behind(mass), place=at)
-
-
 def lagrangian(
     kinetic: Quantity | System, potential: Quantity | None = None, symbol: str = "L", key: str = "lagrangian"
 ) -> Quantity:
@@ -129,17 +72,13 @@ def lagrangian(
     Errors: T and U belong to different bodies, masses or motions.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
-    magnetic = None
+    index = symbol.partition("_")[2]
     if isinstance(kinetic, System):
         system = kinetic
-        index = symbol.partition("_")[2]
         letters = [f"{letter}_{index}" if index else letter for letter in "TU"]
         keys = [f"{name}_{index}" if index else name for name in ("kinetic_energy", "potential_energy")]
         kinetic = kinetic_energy_of(system, letters[0], keys[0])
         potential = potential_energy_of(system, letters[1], keys[1])
-        if system.fields:
-            own = f"_{index}" if index else ""
-            magnetic = magnetic_term_of(system, f"L_B{own}", f"magnetic_term{own}")
     require_kind("lagrangian", "kinetic", kinetic, "energy")
     if potential is None:
         raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a potential energy, or a system alone"))
@@ -147,9 +86,12 @@ def lagrangian(
     moving = {**kinetic.coordinates, **potential.coordinates}
 
     matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
-    beside = {"magnetic": magnetic} if magnetic is not None else {}
-    if magnetic is not None:
+    whole, magnetic = kinetic.subject.body, None
+    if isinstance(whole, System) and whole.fields:
+        own = f"_{index}" if index else ""
+        magnetic = magnetic_term_of(whole, f"L_B{own}", f"magnetic_term{own}")
         matter += magnetic.needed(Matter)
+    beside = {"magnetic": magnetic} if magnetic is not None else {}
 
     def energy(found: Expr) -> tuple[Expr, Expr]:
         carried = Add(*(rate(q) * slope(found, rate(q)) for q in moving))
