@@ -43,6 +43,7 @@ DEEPEST_FORMULA = 40
 MAX_TOKENS = 1500
 
 _PIECE = re.compile(r"(?P<number>\d+(?:\.\d+)?|\.\d+)|(?P<letter>[A-Za-z])|(?P<space>[\s~]+)|(?P<mark>.)", re.DOTALL)
+_LENGTH = re.compile(r"\[\s*-?(\d+\.?\d*|\.\d+)\s*(pt|em|ex|mm|cm|in)\s*\]")
 _MARKS = {
     **dict.fromkeys("+-*/=<>,.'", "mark"),
     **dict.fromkeys("^_", "script"),
@@ -80,7 +81,7 @@ class Argument:
 @cache
 def _known_to_the_walker() -> LatexContextDb:
     known = LatexContextDb()
-    macros = [MacroSpec(name, spec) for name, spec in ARGUMENTS.items()]
+    macros = [MacroSpec(name, spec) for name, spec in ARGUMENTS.items()] + [MacroSpec("\\", "[")]
     known.add_context_category("mathematics", macros=macros, environments=[EnvironmentSpec("array", "{")])
     known.set_unknown_macro_spec(MacroSpec(""))
     known.set_unknown_environment_spec(EnvironmentSpec(""))
@@ -178,6 +179,7 @@ class _Tokens:
         if name in SPACES or name in SIZES:
             return
         if name in ("\\", "cr"):
+            self.space_below(node)
             yield Token("row", name, start, end)
         elif name in ("{", "}", "|"):
             yield Token({"{": "open", "}": "close"}.get(name, "bar"), name, start, end)
@@ -187,6 +189,16 @@ class _Tokens:
             yield Token("command", name, start, end, (self.word(node),))
         else:
             yield Token("command", name, start, end, self.arguments(node, name, start))
+
+    def space_below(self, node: Any) -> None:
+        """A row may end with a length in brackets, the space below it."""
+        for argument in (node.nodeargd.argnlist if node.nodeargd else None) or ():
+            if argument is None:
+                continue
+            end = argument.pos + argument.len
+            if not _LENGTH.fullmatch(self.reader.text[argument.pos : end]):
+                message = "what stands in brackets behind the end of a row is a length, such as `[3pt]`"
+                self.reader.refuse("latex", message, argument.pos, end)
 
     def unknown(self, name: str, start: int) -> None:
         close = nearest(name, sorted(KNOWN, key=str.swapcase))

@@ -81,7 +81,8 @@ def movers(system: System, lagrangian: str = "") -> list[Mover]:
 def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     """Square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
     moving = list(system.coordinates)
-    given = {s.name.partition("_")[0] for place in system.places for c in place.components for s in c.free_symbols}
+    entries = [ZERO + c for place in system.places for c in place.components]
+    given = {s.name.partition("_")[0] for entry in entries for s in entry.free_symbols}
     base = next((letter for letter in SPEEDS if letter not in given), SPEEDS[0])
     name = f"{base}_{mover.letter}" if mover.letter else base
     letter = scalar(name)

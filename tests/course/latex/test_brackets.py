@@ -49,3 +49,10 @@ def test_the_largest_matrix_is_read_and_no_larger_one() -> None:
     rows = [r" \\ ".join(["a"] * n) for n in (MAX_SIDE, MAX_SIDE + 1)]
     assert value(rf"\begin{{pmatrix}}{rows[0]}\end{{pmatrix}}").shape == (MAX_SIDE, 1)
     assert marked(rf"\begin{{pmatrix}}{rows[1]}\end{{pmatrix}}")[0] == "shape"
+
+
+def test_a_row_may_end_with_the_space_below_it() -> None:
+    assert value(r"\begin{pmatrix} a \\[3pt] b \\[ 0.5 em ] 0 \end{pmatrix}") == value(
+        r"\begin{pmatrix} a \\ b \\ 0 \end{pmatrix}"
+    )
+    assert marked(r"\begin{pmatrix} a \\[b] 0 \\ 0 \end{pmatrix}") == ("latex", "[b]")

@@ -31,7 +31,7 @@ PAIRS: dict[str, tuple[int, set[str]]] = {
     "euler": (30, {"equal", "left side", "relation", "motion"}),
     "slab": (36, {"equal", "left side", "relation", "series"}),
     "slab-numbers": (36, {"equal", "left side", "relation", "rounded"}),
-    "top": (64, {"equal", "left side", "relation", "series", "rounded"}),
+    "top": (55, {"equal", "left side", "relation", "rounded"}),
 }
 TURNED = {"Gt(": "Lt(", "Lt(": "Gt(", "Ge(": "Le(", "Le(": "Ge("}
 WAYS = ("rounded", "series", "motion")
