@@ -69,6 +69,7 @@ def rendered(
     level = Level(detail or "standard")
     document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
     Faults(faults).stop()
+    of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = Notation(document.dimensions)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
     fragments = problem_latex(document, words, notation, template_folder(root))
@@ -81,7 +82,7 @@ def rendered(
         sheet=fragments.sheet,
         checked=fragments.checked,
         texts={name: form.render(solution) for name, form in formats().items()},
-        warnings=(*document.warnings, *failures),
+        warnings=(*(w for w in document.warnings if w not in of_nobody), *failures),
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),
         counts=document.checks.counts(),

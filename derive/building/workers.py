@@ -200,11 +200,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
         if isinstance(error, str):
             error = _overtaxed(worker, error)
     elif seconds > job.limit:
-        help_ = "look for an endless loop in its script, or raise `--time-limit`"
-        value, error = (
-            None,
-            _stopped(worker, "time-limit", f"{job.name} took over {job.limit:g} s", help_, _asked(worker)),
-        )
+        value, error = None, _too_long(worker)
     else:
         return None
     _kill(worker)
@@ -216,6 +212,26 @@ def _stopped(worker: _Worker, code: str, message: str, help_: str, trace: str) -
     job = worker.job
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     return BuildFailed(Complaint(code, message, place, help=help_))
+
+
+def _too_long(worker: _Worker) -> BuildFailed:
+    """A worker that came to the limit of its time: in a line of a script, or where nobody wrote one in a verb."""
+    trace, job = _asked(worker), worker.job
+    verb = verb_in(trace)
+    if verb is None or _line_in(trace, job):
+        message, help_ = f"{job.name} took over {job.limit:g} s", "look for an endless loop in its script"
+    else:
+        message = f"{job.name} took over {job.limit:g} s, at last for `{verb}`"
+        help_ = "ask for less, describe it with fewer letters"
+    return _stopped(worker, "time-limit", message, f"{help_}, or raise `--time-limit`", trace)
+
+
+def verb_in(trace: str) -> str | None:
+    """The verb of mechanics that a script of the engine was at."""
+    inner, asked, _ = trace.partition("/derive/stock/")
+    verbs = re.findall(r'/derive/mechanics/.+", line \d+ in (\w+)', inner) if asked else []
+    named = [verb for verb in verbs if not verb.startswith("_") and verb != "looked_at"]
+    return named[-1] if named else None
 
 
 def _died(worker: _Worker) -> BuildFailed:

@@ -135,13 +135,13 @@ class Arithmetic:
         if name == "sqrt":
             root = replace(inner, dimension=inner.dimension ** fraction(Rational(1, 2)))
         elif inner.dimension != NUMBER:
-            taken = "a number" if name == "exp" else "an angle or a number"
+            taken = "an angle or a number" if name in ("sin", "cos", "tan") else "a number"
             message = f"`{name}` takes {taken}, but `{self.shown(inner)}` is {inner.is_a}"
             self.refuse("dimension", message, inner.start, inner.end)
         else:
             root = replace(inner, terms=1)
-        if name == "exp" and inner.expr.is_number and abs(inner.expr.evalf()) > MAX_EXP_ARGUMENT:
-            self.refuse("too-large", f"`exp` of more than {MAX_EXP_ARGUMENT} is too large", inner.start, inner.end)
+        if name in ("exp", "sinh", "cosh") and inner.expr.is_number and abs(inner.expr.evalf()) > MAX_EXP_ARGUMENT:
+            self.refuse("too-large", f"`{name}` of more than {MAX_EXP_ARGUMENT} is too large", inner.start, inner.end)
         return self.real(replace(root, expr=function(inner.expr), start=start, end=end, kind=None))
 
     def number(self, text: str, start: int, end: int) -> Term:

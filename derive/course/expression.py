@@ -3,7 +3,10 @@
     sum      product (("+" | "-") product)*
     product  unary (("*" | "/") unary)*
     unary    ("-" | "+") unary | atom ("**" unary)?
-    atom     number | name | function "(" sum ")" | "(" sum ")"
+    atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
+
+A number may have the unit of an angle behind it, `sin(30 deg)`; one with another unit goes behind a letter, where the
+reader of the file has letters for numbers.
 
 Every character is accounted for by the grammar; no text ever reaches Python or SymPy as code. What is built is bounded
 before it is built: `size` bounds digits and degrees, `terms` what it would be when multiplied out.
@@ -16,10 +19,12 @@ import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Expr, cos, exp, pi, sin, sqrt, tan
+from sympy import Expr, acos, asin, atan, cos, cosh, exp, log, pi, sin, sinh, sqrt, tan, tanh
 
 from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.kinds import kind_of_dimension
 from derive.course.arithmetic import Arithmetic, Declared, Term, rational
+from derive.course.units import UNIT_NAMES, read_unit
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, Faults, did_you_mean
 
@@ -28,11 +33,15 @@ __all__ = ["RESERVED", "Declared", "rational", "read_expression"]
 LONGEST_EXPRESSION = 300
 DEEPEST_EXPRESSION = 40
 
-PLAIN_FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {"sqrt": sqrt, "sin": sin, "cos": cos, "tan": tan, "exp": exp}
+PLAIN_FUNCTIONS: Mapping[str, Callable[[Expr], Expr]] = {
+    "sqrt": sqrt, "sin": sin, "cos": cos, "tan": tan, "exp": exp, "ln": log, "arcsin": asin, "arccos": acos,
+    "arctan": atan, "asin": asin, "acos": acos, "atan": atan, "sinh": sinh, "cosh": cosh, "tanh": tanh,
+}  # fmt: skip
 RESERVED = ("pi", *PLAIN_FUNCTIONS)
+LetterFor = Callable[[Scalar, str], Expr | None]
 
 _TOKEN = re.compile(
-    r"(?P<space>\s+)|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_][A-Za-z0-9_]*)"
+    r"(?P<space>\s+)|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_][A-Za-z0-9_]*|°)"
     r"|(?P<operator>\*\*|[-+*/(),])|(?P<other>.)",
     re.ASCII | re.DOTALL,
 )
@@ -70,15 +79,21 @@ class _Token:
         return self.start + len(self.text)
 
 
-def read_expression(scalar: Scalar, symbols: Mapping[str, Declared]) -> tuple[Expr, Dimension]:
-    """The value and dimension of an expression in the declared symbols, or `Rejected` with what is wrong with it."""
-    return _Parser(scalar, symbols).whole()
+def read_expression(
+    scalar: Scalar, symbols: Mapping[str, Declared], letter_for: LetterFor | None = None
+) -> tuple[Expr, Dimension]:
+    """The value and dimension of an expression in the declared symbols, or `Rejected` with what is wrong with it.
+
+    letter_for   finds the letter behind which a number with its unit goes
+    """
+    return _Parser(scalar, symbols, letter_for).whole()
 
 
 class _Parser(Arithmetic):
-    def __init__(self, scalar: Scalar, symbols: Mapping[str, Declared]):
+    def __init__(self, scalar: Scalar, symbols: Mapping[str, Declared], letter_for: LetterFor | None):
         super().__init__(scalar)
         self.symbols = symbols
+        self.letter_for = letter_for
         self.at = 0
         if not self.text.strip():
             self.refuse("expression", "an expression is missing", 0)
@@ -95,11 +110,13 @@ class _Parser(Arithmetic):
     def check_vocabulary(self) -> None:
         """Every undeclared name at once; a character or call that has no meaning here ends the list."""
         faults = Faults()
+        pairs = zip(self.tokens, self.tokens[1:], strict=False)
+        measured = {unit.start for number, unit in pairs if self.is_measured(number, unit)}
         for token, following in zip(self.tokens, self.tokens[1:], strict=False):
             if token.kind == "other":
                 faults.add(self.odd_character(token))
                 break
-            if token.kind != "name" or token.text in RESERVED:
+            if token.kind != "name" or token.text in RESERVED or token.start in measured:
                 continue
             declared = token.text in self.symbols
             if following.text == "(" and not (declared and following.start > token.end):
@@ -108,6 +125,11 @@ class _Parser(Arithmetic):
             if not declared:
                 faults.add(self.undeclared(token))
         faults.stop()
+
+    def is_measured(self, number: _Token, unit: _Token) -> bool:
+        """Whether a number has its unit behind it, and not a letter: `30 deg`."""
+        is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
+        return number.kind == "number" and unit.kind == "name" and is_unit
 
     def odd_character(self, token: _Token) -> Complaint:
         char = token.text
@@ -182,6 +204,8 @@ class _Parser(Arithmetic):
     def atom(self, depth: int) -> Term:
         token = self.token
         self.at += 1
+        if token.kind == "number" and self.is_measured(token, self.token):
+            return self.measured(token)
         if token.kind == "number":
             return self.number(token.text, token.start, token.end)
         if token.text in PLAIN_FUNCTIONS:
@@ -197,6 +221,22 @@ class _Parser(Arithmetic):
         self.at -= 1
         found = f"before `{token.text}`" if token.text else "at the end"
         self.refuse("expression", f"something is missing {found}", token.start, token.end)
+
+    def measured(self, number: _Token) -> Term:
+        """A number with its unit: that of an angle is exact, any other number goes behind a letter."""
+        start, end = number.start, self.token.end
+        self.at += 1
+        piece = self.scalar.piece(start, end - start)
+        unit = read_unit(self.text[number.end : end], self.scalar.place_within(number.end, end - number.end))
+        if unit.angles == 1 and unit.dimension == NUMBER:
+            value = self.number(number.text, start, number.end)
+            return Term(value.expr * unit.factor, NUMBER, start, end, value.size)
+        kind = kind_of_dimension(unit.dimension)
+        letter = self.letter_for(piece, kind) if self.letter_for and kind else None
+        if letter is None:
+            message = f"`{piece.text}` is a number with a unit within an expression"
+            self.refuse("expression", message, start, end, "declare a letter for it, and give its number in `values`")
+        return Term(letter, unit.dimension, start, end, kind=kind)
 
     def closed(self, opening: _Token) -> int:
         end = self.token.end

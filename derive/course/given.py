@@ -29,7 +29,7 @@ from derive.algebra.kinds import (
 )
 from derive.algebra.ranges import Range
 from derive.course.expression import RESERVED, Declared, rational, read_expression
-from derive.course.units import begins_with_unit, misfit, read_unit
+from derive.course.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
 from derive.errors import Faults, Place, did_you_mean, rejected
 
@@ -70,6 +70,13 @@ class Given:
     measured: tuple[Measured, ...] = ()
     word: str | None = None
     written: Amount | None = None
+
+    @property
+    def letters(self) -> list[Symbol]:
+        """Those of its value, in the order of its entries."""
+        value = self.value.components or () if isinstance(self.value, Direction) else self.value
+        entries = value if isinstance(value, tuple) else (value,)
+        return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
 @dataclass(frozen=True)
@@ -271,6 +278,12 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
     return _Number(value, unit.text, value * unit.factor)
 
 
+def _is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
+    """Whether a number goes on as an expression: `3 cm*sin(phi)`, `2 m + a`."""
+    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is that of the unit
+    return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
+
+
 def _ten_power(number: str) -> int:
     power = number.lower().partition("e")[2]
     return int(power) if power and len(power) < 6 else 99 * bool(power)
@@ -348,6 +361,8 @@ class NumbersAsLetters:
 
     def letter(self, scalar: Scalar, name: str, kind: str) -> Expr | None:
         """The letter, or an exact angle, of a number with its unit; nothing for an expression."""
+        if _is_more_than_unit(scalar.text, self.letters.symbols):
+            return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
         if number is None:
             return None

@@ -150,12 +150,20 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
+    record.letters = _letters_of(problem)
     with recorded(record), within(problem.ranges):
         for declared in problem.symbols.values():
             _assume_range(declared)
         if isinstance(problem.script, StockScript):
             return problem.script.stock.solve(problem.described, problem.asked)
         return run(problem.script, {given.name: given.value for given in problem.givens})
+
+
+def _letters_of(problem: Problem) -> set[str]:
+    """The letters of what is given, and those that a description brings in itself."""
+    own = problem.described.letters if problem.described else {}
+    given = {letter.name for each in problem.givens for letter in each.letters}
+    return {*own, *given, *(measured.symbol.name for measured in problem.measured)}
 
 
 def _assume_range(declared: Declared) -> None:

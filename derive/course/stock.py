@@ -27,6 +27,29 @@ from derive.errors import DeriveError, Faults, Place, rejected
 
 T = TypeVar("T")
 
+# what the verbs of scripts say, and what says so in a description
+HELP_IN_KEYS: Mapping[str, str | None] = {
+    'give one of their verbs `symbol="..."`': "give one of them another letter, under `symbols` or by `symbol`",
+    'use another letter, or give the verb `symbol="..."`': "use another letter",
+    'give another letter, `symbol="Omega"`': "use another letter",
+    'give them letters, `constraint(..., force="N")`': "give each a letter, `force: N`",
+    "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`": (
+        "keep it by a force: add `force: F` under `rolling`"
+    ),
+    "give the equation of motion as `motion=...`": "add `results: motion_theta`, its equation of motion",
+    "the equations of motion to first order tell, `linearised(motion, at=...)`": "ask for `linearised`",
+    "give an equation of motion, a condition or a `let`": "name an equation of motion or a condition",
+    'name what varies with `coordinate("theta")`': "give what varies under `coordinates`",
+    'say `across="x"`, "y" or "z"': "say `across: x`, `y` or `z`",
+    "`solved_for` solves an equation for a letter": "`solve` under `results` solves an equation for a letter",
+    "give the interval with `within=(..., ...)`": "give the interval, `within: [0, pi/2]`",
+    "`conserved(L, phi)`": "no coordinate of this system is cyclic",
+    "`constraint(f, force=...)` is one": "write it under `constraints`",
+    "put it somewhere with `.placed` or `.held`": "give its `centre`, or `held` and `on`",
+    "fractions are written `Rational(1, 2)`": "fractions are written `1/2`",
+    '`let("name", lambda: ..., kind="...")` makes a step of an expression': None,
+}
+
 
 @dataclass(frozen=True)
 class Described:
@@ -79,7 +102,13 @@ def told_at(place: Place | None) -> Iterator[None]:
     try:
         yield
     except DeriveError as error:
-        raise type(error)(c if c.place else replace(c, place=place) for c in error.complaints) from error
+        told = (replace(c, help=in_keys(c.help)) for c in error.complaints)
+        raise type(error)(c if c.place else replace(c, place=place) for c in told) from error
+
+
+def in_keys(help_line: str | None) -> str | None:
+    """What a verb says that a script should do, as what a file should say."""
+    return HELP_IN_KEYS.get(help_line, help_line) if help_line else None
 
 
 class InLetters:
@@ -128,7 +157,7 @@ class InLetters:
     def read(self, node: Tree, name: str, is_a: str = "an expression") -> tuple[Expr, Dimension]:
         """An expression of any dimension."""
         if isinstance(node, Scalar) and not node.empty:
-            return read_expression(node, self.letters)
+            return read_expression(node, self.letters, lambda number, kind: self.numbers.letter(number, name, kind))
         faults = Faults()
         wrong_type(faults, f"`{name}`", is_a, node)
         faults.stop()

@@ -154,7 +154,7 @@ def establish(
     _check_names(key, list(quantities.values()))
     together = united(key, [(q.key, q.subject) for q in quantities.values()], scope.differ, same_value)
     body = (scope.about.body if isinstance(scope.about, Subject) else None) or together.body
-    plain_symbol, words, called = symbol, telling.words, getattr(body, "called", "")
+    plain_symbol, words, called = symbol, _told_centre(telling.words, body), str(getattr(body, "called", ""))
     if called:
         key, symbol = with_name(called, key, symbol)
         words = {"part": called, **words}
@@ -199,6 +199,12 @@ def establish(
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
     record.add(quantity, scope.case_of)
     return quantity
+
+
+def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
+    """The centre of mass by its full name, where a body has a point that may be called its centre too."""
+    is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
+    return {**words, "about": "centre_of_mass"} if is_unclear else words
 
 
 def _place_of_verb(frame: FrameType) -> str:

@@ -13,6 +13,7 @@ from typing import Any
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the word where nothing is to be chosen
+CENTRE_OF_MASS = "centre_of_mass"  # a word for the point "centre" of a body that has another one too
 ZERO = "zero"  # the word for a result that vanishes
 
 
@@ -61,7 +62,8 @@ def told_rightly(rule: str, outcome: str, facts: Judged) -> bool:
 def _names_its_point(facts: Judged) -> bool:
     """Whether the point that is named is the one that the result is about, where that is known."""
     known = getattr(facts.subject.point, "name", None)
-    named = {facts.words[word] for word in ("about", "point") if word in facts.words}
+    in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
+    named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
     return not isinstance(known, str) or isinstance(facts.subject.point, Mixed) or named <= {known}
 
 

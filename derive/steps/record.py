@@ -5,7 +5,7 @@ One letter is one quantity in a run, and what contains a coordinate, a rate or t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -28,6 +28,7 @@ class Run:
     drawings      what is to be seen
     numbers       behind the letters of its problem, as given
     places        where each given was written
+    letters       that the problem has for what is given, for coordinates and for forces: no result takes them
     """
 
     established: list[Quantity] = field(default_factory=list)
@@ -36,7 +37,23 @@ class Run:
     drawings: list[Any] = field(default_factory=list)
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
     places: Mapping[str, Place] = field(default_factory=dict)
+    letters: Collection[str] = ()
 
+
+# what textbooks call a result too, where a problem has the usual letter for something else
+OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
+    "T": ("K",),
+    "U": ("V",),
+    "L": ("calL",),
+    "H": ("calH",),
+    "R": ("calR",),
+    "h": ("J", "calE"),
+    "tau": ("tau_0",),
+    "omega": ("Omega",),
+    "lambda": ("mu", "lambda_0"),
+    "rho": ("rho_0",),
+    "sigma": ("sigma_0",),
+}
 
 current_run: ContextVar[Run | None] = ContextVar("run", default=None)
 
@@ -57,6 +74,19 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
     run = current_run.get()
     if run is not None:
         run.coordinates[symbol] = kind
+
+
+def free_letter(name: str, *indices: str) -> str:
+    """The letter of a result, with its index; another one where the problem has it, with any of the indices."""
+    run = current_run.get()
+    base, _, own = name.partition("_")
+    if run is None:
+        return name
+    for letter in (base, *OTHER_LETTERS.get(base, ())):
+        found = f"{letter}_{own}" if own else letter
+        if not {found, *(f"{found}_{index}" for index in indices)} & set(run.letters):
+            return found
+    return name
 
 
 def assume(condition: Relation) -> None:

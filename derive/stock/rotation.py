@@ -216,7 +216,7 @@ class Answers:
     def _along_principal_axes(self) -> None:
         if not self.inertia_tensor.value.is_diagonal():
             message = "the axes of this body are no principal axes, along which Euler's equations are"
-            rejected("not-principal", message, None, "give `about: centre`, or its principal `moments`")
+            rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
 
     @cached_property
     def energy_rate(self) -> Quantity:

@@ -11,10 +11,10 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of
+from derive.course.schema import SCALAR, Record, as_written, key, mapping_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Scalar, Tree, Word
-from derive.errors import Faults, Place, did_you_mean
+from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
 from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
@@ -44,6 +44,7 @@ from derive.stock.keys.places import (
     Places,
     WrittenPlace,
     coordinate_letters,
+    is_letter,
 )
 from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
@@ -76,8 +77,10 @@ class SystemKeys(Record):
     damping: Sequence[DampingKeys] = key("drag against a velocity, in proportion to it", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
-    conserved: Mapping[Word, Word] = key(
-        "letters for the constant momenta of cyclic coordinates: `phi: l`, `phi: positive l`", mapping_of(TEXT)
+    conserved: Mapping[Word, Tree] = key(
+        "letters for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or what they are, "
+        "`psi: C*s`",
+        mapping_of(SCALAR),
     )
     at: Tree | None = key(
         "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
@@ -89,15 +92,17 @@ class SystemKeys(Record):
 
 @dataclass(frozen=True)
 class DescribedSystem(Described):
-    """A system in its letters."""
+    """A system in its letters; those of forces of constraint and of constant momenta are `brought` in somewhere."""
 
     coordinates: tuple[tuple[str, str, bool], ...] = ()
     parts: tuple[Part, ...] = ()
     gravity: Expr | None = None
     conserved: tuple[tuple[str, Symbol], ...] = ()
+    kept: tuple[tuple[str, Expr], ...] = ()
     at: tuple[tuple[str, Expr], ...] = ()
     at_rest: Word | None = None
     results: tuple[Result, ...] = ()
+    brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
     named: tuple[Location, ...] = ()
 
@@ -135,6 +140,12 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     energy = _value(written.potential, "potential", "energy", known, faults)
     if energy is not None:
         parts.append(Part("potential", (energy,), place=written.values_at["potential"]))
+    brought = letters_at(written)
+    with faults:
+        _check_different(brought)
+    kept: list[tuple[str, Expr]] = []
+    with faults:
+        kept = _kept(written.conserved, letters, known)
     own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, known, faults)}
     with_own = InLetters({**symbols, **own})
     with_own.numbers = known.numbers
@@ -146,11 +157,15 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         parts=tuple(parts),
         gravity=gravity,
         conserved=tuple(
-            (str(q), own[name].symbol) for q, word in written.conserved.items() if (name := _letter(word)[0]) in own
+            (str(q), own[name].symbol)
+            for q, word in _words(written.conserved).items()
+            if (name := _letter(word)[0]) in own
         ),
-        at=_state({} if rest else _values(written.at, faults), letters, known, faults),
+        kept=tuple(kept),
+        at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
+        brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
     )
@@ -170,20 +185,51 @@ def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
     return {name: Declared(name, scalar(name), "force") for name in names}
 
 
+def letters_at(written: SystemKeys) -> list[Word]:
+    """The letters that the description brings in besides its coordinates, where they stand."""
+    forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
+    momenta = [Word.at(_letter(word)[0], word.place) for word in _words(written.conserved).values()]
+    return [*(force for force in forces if force), *(letter for letter in momenta if is_letter(letter))]
+
+
+def _words(written: Mapping[Word, Tree]) -> dict[Word, Word]:
+    return {q: node.word for q, node in written.items() if isinstance(node, Scalar)}
+
+
+def _check_different(brought: Sequence[Word]) -> None:
+    """Of two letters one is another."""
+    for i, word in enumerate(brought):
+        if word in brought[:i]:
+            message = f"`{word}` stands for something else already"
+            rejected("letter-clash", message, word.place, "use another letter")
+
+
 def _constants(
-    written: Mapping[Word, Word], letters: Mapping[str, Declared], known: InLetters, faults: Faults
+    written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters, faults: Faults
 ) -> dict[str, Declared]:
     """The letters of constant momenta."""
     found = {}
-    for q, word in written.items():
+    for q in (q for q in written if q not in letters):
+        faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
+    for q, word in _words(written).items():
         name, is_positive = _letter(word)
-        if q not in letters:
-            faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=did_you_mean(q, letters))
-            continue
+        if q not in letters or not is_letter(name):
+            continue  # an expression is its value, see `_kept`
         with faults:
             known.unused(Word.at(name, word.place), "leave it out of `symbols`, or give the momentum another letter")
         kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
         found[name] = Declared(name, constant(name, positive=is_positive), kind)
+    return found
+
+
+def _kept(written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters) -> list[tuple[str, Expr]]:
+    """The values of constant momenta that are told by an expression, `psi: C*s`."""
+    found = []
+    for q, node in written.items():
+        if q not in letters or isinstance(node, Scalar) and is_letter(_letter(node.word)[0]):
+            continue
+        kind = "angular momentum" if letters[q].kind == "angle" else "momentum"
+        found.append((str(q), known.of_kind(node, f"the momentum of {q}", kind)))
     return found
 
 
@@ -220,6 +266,7 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
         sketch(SYSTEM, of.system, named=described.named)
     for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
         answers[str(name)] = of.named(name)
+    of.check_letters()
     return answers
 
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sympy import Expr, Integer, Rational, Symbol, cos, exp, pi, sin, sqrt, sstr, tan
+from sympy import Expr, Integer, Rational, Symbol, atan, cos, cosh, exp, log, pi, sin, sqrt, sstr, tan
 
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.kinds import dimension_of_kind
@@ -58,6 +58,11 @@ def complaint(text: str) -> Complaint:
         ("(-a)**2", a**2),
         ("2**-1", Rational(1, 2)),
         ("2**3**2/2**9", Integer(1)),
+        ("sin(30 deg)", Rational(1, 2)),
+        ("90° - theta", pi / 2 - theta),
+        ("2*arctan(n)", 2 * atan(n)),
+        ("acos(1/2)", pi / 3),
+        ("ln(n)*cosh(theta)", log(n) * cosh(theta)),
         ("a - b - a", -b),
         ("a/b*b/a", Integer(1)),
         ("a/2/b", a / (2 * b)),
@@ -147,6 +152,10 @@ def test_unlike_kinds_are_not_added_and_the_caret_is_under_the_second() -> None:
         ("((a+b)**12)**12", "too-large", 1, "too large when worked out"),
         ("(a+b)**7*(a+b)**7*(a+b)**7", "too-large", 1, "too large when worked out"),
         ("a**(1/13)", "too-large", 4, "the exponent is too large"),
+        ("3 cm + a", "expression", 1, "`3 cm` is a number with a unit within an expression"),
+        ("arcsin(2)", "not-real", 1, "is not a real number"),
+        ("ln(0)", "division-by-zero", 1, "is infinite"),
+        ("arctan(a)", "dimension", 8, "`arctan` takes a number, but `a` is a length"),
         ("exp(1000)", "too-large", 5, "`exp` of more than 100"),
         ("exp(exp(99))", "too-large", 5, "`exp` of more than 100"),
         ("1e51", "too-large", 1, "a power of ten up to 50"),

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from pathlib import Path
+
 import pytest
 from sympy import Symbol, pi
 
+from derive import FOLDER
 from derive.course.expression import Declared
-from derive.course.stock import InLetters, each, stock_names, stock_script, told_at
+from derive.course.stock import HELP_IN_KEYS, InLetters, each, in_keys, stock_names, stock_script, told_at
 from derive.course.yaml_tree import Scalar, Source
 from derive.errors import Complaint, Place, Rejected, rejected
 
@@ -54,3 +58,16 @@ def test_a_number_goes_behind_a_letter() -> None:
     assert [(str(m.symbol), m.si) for m in letters.numbers.measured] == [(str(first), 2), (str(second), 3)]
     assert set(letters.chosen) == {str(first), str(second)}
     assert letters.of_kind(node("30 deg"), "a", "angle") == pi / 6
+
+
+def test_a_help_for_scripts_is_said_in_the_keys_of_a_file() -> None:
+    source = "".join(file.read_text(encoding="utf-8") for room in ("mechanics", "steps") for file in _modules(room))
+    assert [known for known in HELP_IN_KEYS if known not in source] == []
+    assert (
+        in_keys("give the equation of motion as `motion=...`") == "add `results: motion_theta`, its equation of motion"
+    )
+    assert in_keys("the lower limit stands first") == "the lower limit stands first"
+
+
+def _modules(room: str) -> Iterable[Path]:
+    return (FOLDER / room).rglob("*.py")

@@ -27,6 +27,7 @@ from derive.mechanics.bodies.parts import PlacedPart, name_of_body
 from derive.mechanics.bodies.placed import Placeable
 from derive.mechanics.bodies.regions import Point, Region, no_such_coordinates
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import free_letter
 from derive.steps.step import Form, Level, Quantity, is_zero
 from derive.steps.subject import Subject
 
@@ -55,7 +56,9 @@ class Body(Placeable, OfParticles):
     seen_as: ClassVar[str] = ""  # what the words for a drawing call it, where that is not its name
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the point where its own axes begin
+    other_centre: ClassVar[str] = ""  # the point that one may call its centre too, where that is not its centre of mass
     called: str = ""  # what the page calls it where there are others, "upper rod"
+    names_given: tuple[str, ...] = ()  # by somebody to points of it, so that they do not say where these are
     is_lopsided: ClassVar[bool] = False  # not its own image about its centre, although its particles are
     is_round: ClassVar[bool] = False  # every axis perpendicular to z, through one of its points, is like every other
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which its limits are known
@@ -319,7 +322,8 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
-    letter, kind = _DENSITIES[body.filling]
+    usual, kind = _DENSITIES[body.filling]
+    letter = usual if body.called else free_letter(usual)
     region = body.region(body.point(body.reference)).with_section_put_in()
     return establish(
         "bodies.density",

@@ -88,7 +88,9 @@ class Plate(EdgedBody):
 
 @dataclass(frozen=True)
 class Cuboid(EdgedBody):
-    """A uniform block. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
+    """A uniform block, its edges along the axes from the corner at the origin.
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
 
     sides   three lengths, along x, y and z
     mass    mass

@@ -21,7 +21,7 @@ def is_where_named(body: Any, point: Point) -> bool:
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     if point.name == "centre":
         return upright and _is_centre(body, point.position)
-    test = _TESTS.get(point.name)
+    test = None if point.name in body.names_given else _TESTS.get(point.name)
     if not upright or test is None:
         return upright
     return test(body, body.region(Point("origin", column(0, 0, 0))).with_section_put_in(), point.position)

@@ -180,6 +180,7 @@ class Hemisphere(Ball):
     """
 
     name, seen_as, reference = "a hemisphere", "half of a ball", "base"
+    other_centre = "base"
     part = Rational(2, 3)
 
     @property
@@ -260,6 +261,7 @@ class HalfCylinder(OfHeight):
     """
 
     name, reference, is_lopsided = "a half-cylinder", "circle_centre", True
+    other_centre = "circle_centre"
 
     @property
     def extent(self) -> Expr:

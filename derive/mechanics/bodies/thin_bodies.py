@@ -115,6 +115,7 @@ class Arc(Body):
     half_angle: Expr
     mass: Expr
     name, seen_as, filling, reference = "an arc", "a bent wire", "length", "circle_centre"
+    other_centre = "circle_centre"
     is_lopsided = True
 
     def __post_init__(self) -> None:
@@ -195,6 +196,7 @@ class HalfDisc(OfRadius):
     """
 
     name, filling, reference, is_lopsided = "a half-disc", "area", "circle_centre", True
+    other_centre = "circle_centre"
 
     @property
     def extent(self) -> Expr:
@@ -251,6 +253,7 @@ class HemisphericalShell(SphericalShell):
     """
 
     name, seen_as, reference = "a hemispherical shell", "", "circle_centre"
+    other_centre = "circle_centre"
 
     @property
     def ends(self) -> tuple[Expr, Expr]:

@@ -19,6 +19,7 @@ from derive.mechanics.equations.unknowns import lecture_form, residual_of, with_
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import free_letter
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, value_behind
 
 __all__ = ["period_by_energy", "speed_from_energy"]
@@ -161,7 +162,7 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
         raise Rejected(Complaint("wrong-argument", message))
 
 
-def period_by_energy(squared: Quantity, order: int = 2, symbol: str = "tau", key: str = "period") -> Quantity:
+def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of a swing to and fro, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
 
     squared   q_dot^2 as `speed_from_energy` yields it for a release from rest at q = A, the same for q and -q, 1/s^2
@@ -197,7 +198,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str = "tau", key
 
     return establish(
         "energy_integral.period_by_energy",
-        scalar(symbol),
+        scalar(symbol or free_letter("tau")),
         lambda _: Factors(Integer(4), SwingTime(value, q, amplitude, Integer(order))),
         {"squared": squared},
         lines=Lines(

@@ -38,7 +38,7 @@ from derive.mechanics.equations.characteristic import Root as RootOfPencil
 from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import require_constant
+from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
 
 __all__ = ["beats", "normal_modes", "period"]
@@ -305,7 +305,7 @@ def _pair(first: Expr, second: Expr) -> str:
     return "in_phase" if ratio.is_positive else "opposite" if ratio.is_negative else "generic"
 
 
-def period(of: Quantity, symbol: str = "tau", key: str = "period") -> Quantity:
+def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of an oscillation, tau = 2 pi/omega.
 
     of   its angular frequency, 1/s
@@ -326,7 +326,7 @@ def period(of: Quantity, symbol: str = "tau", key: str = "period") -> Quantity:
 
     return establish(
         "modes.period",
-        scalar(symbol),
+        scalar(symbol or free_letter("tau")),
         lambda omega: Ratio(2 * pi, omega),
         {"frequency": of},
         lines=Lines(put_in=None, arranged=explicit),

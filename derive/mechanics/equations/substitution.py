@@ -63,7 +63,8 @@ def put_in(
         value = _all_put(value, _replacements(quantity, of), quantity.key, of, told)
     there = _values(of, given, values, value)
     for pair in there:
-        value = _all_put(value, [pair], str(pair[0]), of, told)
+        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have taken it away
+            value = _all_put(value, [pair], str(pair[0]), of, told)
     result = _arranged(value, list(coordinates_of(of, *rests)))
     _check_holds(of, result)
     name = _name(of, symbol)

@@ -99,6 +99,7 @@ class Composite(Body):
 
     name: ClassVar[str] = "a body of several parts"
     reference: ClassVar[str] = "origin"
+    other_centre: ClassVar[str] = "origin"
 
     def __init__(
         self, *parts: Body | PlacedPart, mass: Expr | None = None, points: Mapping[str, Sequence[Any]] | None = None
@@ -109,6 +110,7 @@ class Composite(Body):
         self.parts = _told_apart(placed)
         self.shares: tuple[Quantity, ...] = ()
         self._places = {name: Point(name, place_of(*place)) for name, place in (points or {}).items()}
+        self.names_given = tuple(self._places)
         if mass is not None:
             self.shares, self.parts = _shared(self, mass)
         self.given_mass = mass
@@ -119,6 +121,11 @@ class Composite(Body):
     def mass(self) -> Expr:
         given = getattr(self, "given_mass", None)
         return given if given is not None else tidied(sum((part.mass for part in self.parts), Integer(0)))
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        """Only its parts have measures."""
+        return {}
 
     def points(self) -> Mapping[str, Point]:
         return {"origin": ORIGIN, **self._places}
@@ -315,14 +322,19 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
         {f"part_{i}": _for_the_whole(one) for i, one in enumerate(moved)},
         key=key,
         kind="moment of inertia",
-        parents=centre,
+        parents=[*body.shares, *centre],
         routes={"particles": lambda found: _about_any_axis(found, seen_particles(body, point))},
         outcome=shape_of,
         lines=Lines(put_in=Level.STANDARD if not extended else Level.FULL),
         facts=[OfBody(body), AboutPoint(point)],
-        telling=Telling(words={"about": point.name}),
+        telling=Telling(words={"about": _told(point)}),
         scope=Scope(about=Subject(body=body, point=point), differ=EVERYTHING_BUT_ROTATION),
     )
+
+
+def _told(point: Point) -> str:
+    """The word for a point; no part need have the same centre."""
+    return "centre_of_mass" if point.name == "centre" else point.name
 
 
 def _for_the_whole(part: Quantity) -> Quantity:
@@ -370,7 +382,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
         routes={"particles": any_axis},
         outcome=_PLACED[is_turned, way is not None],
         lines=Lines(put_in=Level.FULL),
-        telling=Telling(words={"about": point.name}, judged_by={"turn": turn}),
+        telling=Telling(words={"about": _told(point)}, judged_by={"turn": turn}),
         scope=Scope(about=Subject(body=part.body, point=point), differ=EVERYTHING_BUT_ROTATION),
     )
 
@@ -403,7 +415,7 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
         key="way_from_" + point.name.replace(" ", "_"),
         kind="length",
         routes={"particles": lambda found: (found, mean())},
-        telling=Telling(words={"about": point.name}),
+        telling=Telling(words={"about": _told(point)}),
         scope=Scope(about=Subject(body=part.body, point=point)),
     )
 

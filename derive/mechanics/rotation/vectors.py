@@ -30,7 +30,7 @@ from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import require_constant
+from derive.steps.record import free_letter, require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 from derive.steps.subject import Subject
 
@@ -174,7 +174,9 @@ def _whether_zero(v: Any) -> str:
     return "generic" if common.is_nonzero and any(entry.is_nonzero for entry in rest) else "in_general"
 
 
-def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
+def kinetic_energy(
+    inertia: Quantity, omega: Quantity, symbol: str | None = None, key: str = "kinetic_energy"
+) -> Quantity:
     """Kinetic energy of rotation, T = (1/2) omega . I omega.
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
@@ -193,7 +195,7 @@ def kinetic_energy(inertia: Quantity, omega: Quantity, symbol: str = "T", key: s
     product = scaled(*factored_matrix(tidied(applied(inertia.value, omega.value))))
     return establish(
         "rotation.kinetic_energy",
-        scalar(symbol),
+        scalar(symbol or free_letter("T")),
         lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
         {"omega": omega, "inertia": inertia},
         lines=Lines(

@@ -27,12 +27,13 @@ from derive.mechanics.systems.phase_space import (
     rates_by_momenta,
 )
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import free_letter
 from derive.steps.step import Level, Quantity, lettered
 
 __all__ = ["hamilton_equations", "hamiltonian", "in_momenta"]
 
 
-def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Quantity:
+def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian") -> Quantity:
     """Hamiltonian, H(q, p, t) = sum of p q_dot - L with the rates written by the momenta.
 
     of   the Lagrangian, J
@@ -71,7 +72,7 @@ def hamiltonian(of: Quantity, symbol: str = "H", key: str = "hamiltonian") -> Qu
     written = beside_potential(bound(h, put_in), of, list(letters))
     return establish(
         "canonical.hamiltonian",
-        scalar(symbol),
+        scalar(symbol or free_letter("H")),
         law,
         {
             "lagrangian": replace(of, value=bound(explicit(of.value), put_in), parents=(of,)),

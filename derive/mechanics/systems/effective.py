@@ -38,6 +38,7 @@ from derive.mechanics.systems.phase_space import (
     rates_by_momenta,
 )
 from derive.steps.establish import Lines, establish
+from derive.steps.record import free_letter
 from derive.steps.step import Fact, Level, Quantity, compared_with, lettered
 
 __all__ = ["conserved", "effective_potential", "routhian"]
@@ -185,7 +186,7 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
     return found
 
 
-def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "routhian") -> Quantity:
+def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "routhian") -> Quantity:
     """Routhian, R = L - sum of p q_dot over the cyclic coordinates: a Lagrangian of the others.
 
     of          the Lagrangian, J
@@ -229,7 +230,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str = "R", key: str = "
     written = beside_potential(whole, of, letters, [q.symbol for q in left], sign=-1)
     return establish(
         "effective.routhian",
-        scalar(symbol),
+        scalar(symbol or free_letter("R")),
         law,
         _inputs(of, constants, rates, put_in),
         lines=Lines(
@@ -258,7 +259,7 @@ def _inputs(
 
 
 def effective_potential(
-    of: Quantity, *constants: Quantity, symbol: str = "U_eff", key: str = "effective_potential"
+    of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
     """Effective potential, what the other coordinates see: U_eff = sum of p q_dot - L where their own rates vanish.
 
@@ -305,7 +306,7 @@ def effective_potential(
     written = beside_potential(whole, of, letters)
     return establish(
         "effective.effective_potential",
-        scalar(symbol),
+        scalar(symbol or free_letter("U_eff")),
         law,
         _inputs(of, constants, rates, put_in),
         lines=Lines(put_in=None, result=False, arranged=lambda _: written, after=kinetic_first(written, letters)),

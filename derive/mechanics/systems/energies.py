@@ -38,6 +38,7 @@ from derive.mechanics.systems.rigid import (
 )
 from derive.mechanics.systems.system import HALF, ZERO, Eliminated, System
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import free_letter
 from derive.steps.step import Level, Quantity, compared_with, lettered, value_behind
 from derive.steps.subject import EVERYTHING, Subject
 
@@ -83,7 +84,9 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
     moving = list(system.coordinates)
     entries = [ZERO + c for place in system.places for c in place.components]
     given = {s.name.partition("_")[0] for entry in entries for s in entry.free_symbols}
-    base = next((letter for letter in SPEEDS if letter not in given), SPEEDS[0])
+    indices = [other.letter for other in movers(system)]
+    free = (letter for letter in SPEEDS if letter not in given and free_letter(letter, *indices) == letter)
+    base = next(free, SPEEDS[0])
     name = f"{base}_{mover.letter}" if mover.letter else base
     letter = scalar(name)
     matter = Matter((MassPoint(Integer(2), mover.place),), (), tuple(moving))
@@ -186,7 +189,7 @@ def _turnings(system: System) -> list[Turning]:
     return found
 
 
-def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_energy") -> Quantity:
+def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
 
     system   its particles and bodies: v is the speed of a centre of mass and I about it, but for a body that is held,
@@ -196,7 +199,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
     Errors: the moments of a body are about another point.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
-    moved = movers(system, symbol.partition("_")[2])
+    moved = movers(system, (symbol or "").partition("_")[2])
     speeds = [_squared_speed(system, mover, len(moved) > 1) for mover in moved]
     turnings = _turnings(system)
     moving = list(system.coordinates)
@@ -225,7 +228,7 @@ def kinetic_energy_of(system: System, symbol: str = "T", key: str = "kinetic_ene
 
     return establish(
         "systems.kinetic_energy",
-        scalar(symbol),
+        scalar(symbol or free_letter("T")),
         law,
         inputs,
         key=key,
@@ -250,7 +253,7 @@ def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     return Add(*(spread(term) for term in Add.make_args(shortest)))
 
 
-def potential_energy_of(system: System, symbol: str = "U", key: str = "potential_energy") -> Quantity:
+def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
     """Potential energy of a system, U = sum of m g y from the origin upwards, and of (1/2) k (d - l)^2 of springs.
 
     system   its particles and bodies, whose y is that of the centre of mass; its weight, springs and other potentials
@@ -283,7 +286,7 @@ def potential_energy_of(system: System, symbol: str = "U", key: str = "potential
 
     return establish(
         "systems.potential_energy",
-        scalar(symbol),
+        scalar(symbol or free_letter("U")),
         law,
         named,
         key=key,

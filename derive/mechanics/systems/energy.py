@@ -19,6 +19,7 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
 from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, part_of_degree
 from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import free_letter
 from derive.steps.step import Form, Quantity, is_zero
 
 __all__ = ["energy_function", "energy_function_rate"]
@@ -43,7 +44,7 @@ def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[s
     return {"excess": (min(forms, key=lambda form: int(form.count_ops())), by_parts if excess != by_parts else excess)}
 
 
-def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function") -> Quantity:
+def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_function") -> Quantity:
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
@@ -69,7 +70,7 @@ def energy_function(of: Quantity, symbol: str = "h", key: str = "energy_function
     plain = beside_potential(explicit(carried - of.value), of, [], [q.symbol for q in moving])
     return establish(
         "energy.energy_function",
-        scalar(symbol),
+        scalar(symbol or free_letter("h")),
         law,
         {"lagrangian": of},
         lines=Lines(put_in=None, result=False, arranged=lambda _: plain, after=kinetic_first(plain, rates)),

@@ -23,7 +23,7 @@ from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_o
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.record import changes
+from derive.steps.record import changes, free_letter
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
 
 __all__ = [
@@ -61,7 +61,7 @@ class Energies(Fact):
 
 
 def lagrangian(
-    kinetic: Quantity | System, potential: Quantity | None = None, symbol: str = "L", key: str = "lagrangian"
+    kinetic: Quantity | System, potential: Quantity | None = None, symbol: str | None = None, key: str = "lagrangian"
 ) -> Quantity:
     """Lagrangian, L = T - U; of charges in magnetic fields L = T - U + sum of q v . A.
 
@@ -72,10 +72,11 @@ def lagrangian(
     Errors: T and U belong to different bodies, masses or motions.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
-    index = symbol.partition("_")[2]
+    symbol = symbol or free_letter("L")
+    base, _, index = symbol.partition("_")
     if isinstance(kinetic, System):
         system = kinetic
-        letters = [f"{letter}_{index}" if index else letter for letter in "TU"]
+        letters = [free_letter(f"{letter}_{index}" if index else letter) for letter in "TU"]
         keys = [f"{name}_{index}" if index else name for name in ("kinetic_energy", "potential_energy")]
         kinetic = kinetic_energy_of(system, letters[0], keys[0])
         potential = potential_energy_of(system, letters[1], keys[1])
@@ -89,7 +90,7 @@ def lagrangian(
     whole, magnetic = kinetic.subject.body, None
     if isinstance(whole, System) and whole.fields:
         own = f"_{index}" if index else ""
-        magnetic = magnetic_term_of(whole, f"L_B{own}", f"magnetic_term{own}")
+        magnetic = magnetic_term_of(whole, f"{base}_B{own}", f"magnetic_term{own}")
         matter += magnetic.needed(Matter)
     beside = {"magnetic": magnetic} if magnetic is not None else {}
 

@@ -44,6 +44,7 @@ __all__ = ["conjugate", "conjugate_momentum", "momenta", "rates_by_momenta"]
 
 LARGEST = 4  # momenta that are solved together for rates
 LARGEST_WITH_ANGLES = 2  # where sines and cosines couple them: the Hamiltonian of three is a page long
+LONGEST_SQUARED = 120  # operations of a quadratic form whose squares are completed
 ZERO = Integer(0)
 
 
@@ -281,7 +282,7 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
         return _added(terms)
     coupled = _added(term for term in terms if term[0].free_symbols & mixed)
     alone = _added(term for term in terms if not term[0].free_symbols & mixed)
-    orders = permutations(sorted(mixed, key=str)) if len(mixed) <= 3 else ()
+    orders = permutations(sorted(mixed, key=str)) if len(mixed) <= 3 and coupled.count_ops() <= LONGEST_SQUARED else ()
     return alone + _shortest([coupled, tidied(coupled), *(_squares(coupled, order) for order in orders)])
 
 

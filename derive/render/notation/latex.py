@@ -11,6 +11,7 @@ from derive.errors import Complaint, Rejected
 from derive.render.notation.layout import (
     DEGREE_SIGN,
     GREEK_LETTERS,
+    SCRIPT_LETTERS,
     Applied,
     Array,
     Bracketed,
@@ -177,7 +178,9 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 def _name(name: Name) -> str:
     base = name.letter
     letter = rf"\{base}" if base in GREEK_LETTERS else base
-    if len(base) > 1 and base not in GREEK_LETTERS:
+    if base in SCRIPT_LETTERS:
+        letter = rf"\mathcal{{{base[-1]}}}"
+    elif len(base) > 1 and base not in GREEK_LETTERS:
         letter = rf"\mathit{{{base}}}"
     if name.style == "vector":
         letter = rf"\bm{{{letter}}}"

@@ -161,6 +161,7 @@ GREEK_LETTERS = {
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
     "Omega": "Ω",
 }  # fmt: skip
+SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # of a result whose usual letter is taken
 
 DEGREE_SIGN = Upright("degree")  # the only unit that stands close behind its number
 DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))

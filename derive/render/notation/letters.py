@@ -11,9 +11,7 @@ from typing import Any
 
 from sympy import Basic, Integral, MatrixBase, MatrixSymbol, Symbol
 
-from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, RATES, Bracket, MassIntegral, component_names, rate
-from derive.course.given import Given
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place
 from derive.render.notation.latex import latex
@@ -44,14 +42,8 @@ def letter_clashes(problem: Problem, known: Mapping[str, Quantity]) -> list[Comp
 
 def letters_in_use(problem: Problem) -> list[Symbol]:
     """The letters that stand for something given, or have a number; one that is only declared stands for nothing."""
-    found = [letter for given in problem.givens for letter in _letters_of(given)]
+    found = [letter for given in problem.givens for letter in given.letters]
     return list(dict.fromkeys([*found, *(measured.symbol for measured in problem.measured)]))
-
-
-def _letters_of(given: Given) -> list[Symbol]:
-    value = given.value.components or () if isinstance(given.value, Direction) else given.value
-    entries = value if isinstance(value, tuple) else (value,)
-    return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
 def as_printed(name: Any) -> str:
@@ -113,6 +105,6 @@ def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
     """Where the letter is declared, or the given for whose number it was chosen."""
-    given = next((given.name for given in problem.givens if letter in _letters_of(given)), "")
+    given = next((given.name for given in problem.givens if letter in given.letters), "")
     keys = (f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)

@@ -24,6 +24,7 @@ from typing import Any
 from derive.render.notation.layout import (
     DEGREE_SIGN,
     GREEK_LETTERS,
+    SCRIPT_LETTERS,
     Applied,
     Array,
     Bracketed,
@@ -70,6 +71,7 @@ TEXT_OPERATORS = {
 }
 LEADING_SIGNS: dict[Layout, str] = {Operator("minus"): "-", Operator("plus_minus"): "±"}  # where a sum begins
 UNITS = {DEGREE_SIGN.text: "°", "partial": "∂"}
+PRINTED_LETTERS = {**GREEK_LETTERS, **SCRIPT_LETTERS}
 ACCENTS = {"vector": "\u20d7", "tensor": "\u20e1"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
@@ -149,7 +151,7 @@ def _line(layout: Layout) -> str:
         case Digits(digits):
             return digits
         case Name(base, subscript, dots, style):
-            letter = GREEK_LETTERS.get(layout.letter, layout.letter)
+            letter = PRINTED_LETTERS.get(layout.letter, layout.letter)
             dotted = {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
             arrow = ACCENTS.get(style, "") if base != "0" else ""
             between, parts = layout.below

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property, partial
 from typing import Any, Protocol
 
@@ -11,7 +12,7 @@ from sympy import Expr, Integer, Symbol
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.course.stock import told_at
 from derive.course.yaml_tree import Word
-from derive.errors import Complaint, Place, Rejected, did_you_mean, rejected
+from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import (
     Coordinate,
     System,
@@ -34,16 +35,19 @@ from derive.mechanics import (
     normal_modes,
     period,
     potential_energy_of,
+    put_in,
     routhian,
     stability,
     weight,
 )
 from derive.steps.derivation import returned_quantities
-from derive.steps.record import assume
+from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity
 from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
+
+DIGITS = "0123456789"
 
 
 class OfSystem(Protocol):
@@ -58,11 +62,15 @@ class OfSystem(Protocol):
     @property
     def conserved(self) -> tuple[tuple[str, Symbol], ...]: ...
     @property
+    def kept(self) -> tuple[tuple[str, Expr], ...]: ...
+    @property
     def at(self) -> tuple[tuple[str, Expr], ...]: ...
     @property
     def at_rest(self) -> Word | None: ...
     @property
     def results(self) -> tuple[Result, ...]: ...
+    @property
+    def brought(self) -> Mapping[str, Place]: ...
     @property
     def place(self) -> Place | None: ...
 
@@ -134,8 +142,17 @@ class Answers:
         found = {}
         for name, q in self.coordinates.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
-                found[name] = conserved(self.lagrangian, q, value=letters.get(name) or constant(f"p_{name}"))
+                own = None if name in self.kept else letters.get(name) or constant(f"p_{name}")
+                found[name] = conserved(self.lagrangian, q, value=own)
         return found
+
+    @cached_property
+    def kept(self) -> dict[str, Quantity]:
+        """What constant momenta are, where that is given."""
+        return {
+            name: conserved(self.lagrangian, self.coordinates[name], value=value, key=f"constant_{name}")
+            for name, value in self.described.kept
+        }
 
     @property
     def reduced(self) -> Quantity:
@@ -153,7 +170,10 @@ class Answers:
 
     @cached_property
     def effective_potential(self) -> Quantity:
-        return effective_potential(self.lagrangian, *self.cyclic.values())
+        if not self.kept:
+            return effective_potential(self.lagrangian, *self.cyclic.values())
+        by_letters = effective_potential(self.lagrangian, *self.cyclic.values(), key="potential_by_momenta")
+        return put_in(by_letters, *self.kept.values(), key="effective_potential")
 
     @cached_property
     def energy_function(self) -> Quantity:
@@ -223,6 +243,10 @@ class Answers:
     def normal_modes(self) -> tuple[Quantity, ...]:
         return normal_modes(self.linearised)
 
+    @property
+    def frequencies(self) -> tuple[Quantity, ...]:
+        return tuple(q for q in self.normal_modes if q.key.partition("_")[0] == "frequency")
+
     @cached_property
     def period(self) -> Quantity:
         if len(self.normal_modes) != 1:
@@ -248,9 +272,13 @@ class Answers:
             "stability": lambda: self.stability,
             "linearised": lambda: self.linearised,
             "normal_modes": lambda: self.normal_modes,
+            "frequency": lambda: self.frequencies,
             "period": lambda: self.period,
             "no_slip": lambda: self._some(
-                tuple(each for each in self.rolling if isinstance(each, Quantity)), "nothing rolls in this system"
+                tuple(each for each in self.rolling if isinstance(each, Quantity)),
+                "the conditions of rolling are kept by forces here, so that nothing is eliminated by `no_slip`"
+                if self.rolling
+                else "nothing rolls in this system",
             ),
             "angular_velocity": lambda: tuple(
                 angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane
@@ -262,12 +290,23 @@ class Answers:
             found[f"motion_{name}"] = partial(self.motion, name)
             found[f"momentum_{name}"] = partial(self._one_momentum, q)
             found[f"conserved_{name}"] = partial(self._one_conserved, name)
+            if name in dict(self.described.kept):
+                found[f"constant_{name}"] = partial(self._one_kept, name)
             found[f"acceleration_{name}"] = partial(self._one_of, "accelerations", f"acceleration_{name}")
         for constraint in self.system.constraints:
             found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
         for result in self.described.results:
             found[result.name] = partial(result.made, self.named, self.coordinates)
         return found
+
+    def check_letters(self) -> None:
+        """What a letter of the description is found to be, and what else a step calls so, are of one kind."""
+        for name, place in self.described.brought.items():
+            kinds = {q.step.kind: q.key for q in self.established if getattr(q.symbol, "name", "") == name}
+            if len(kinds) > 1:
+                keys = " and ".join(f"`{key}`" for key in kinds.values())
+                message = f"`{name}` stands for two things, {keys}"
+                rejected("letter-clash", message, place, "give what this line brings in another letter")
 
     def _some(self, found: tuple[Quantity, ...], otherwise: str) -> tuple[Quantity, ...]:
         if not found:
@@ -284,10 +323,32 @@ class Answers:
             raise Rejected(Complaint("wrong-argument", f"`{several}` has no `{key}`", help=did_you_mean(key, found)))
         return found[key]
 
+    def _one_kept(self, name: str) -> Quantity:
+        return self.kept[name]
+
     def _one_conserved(self, name: str) -> Quantity:
         if name not in self.cyclic:
             conserved(self.lagrangian, self.coordinates[name])  # which says why its momentum is not
         return self.cyclic[name]
+
+    def _on_the_way_to(self, name: Word, asks: Collection[str]) -> tuple[Quantity, ...]:
+        """The step of that key among those that answers have led to, or that lead to the equations of motion; of
+        several with numbers, `rate_1`, `rate_2`, all."""
+        steps = {q.key: q for known in self._known.values() for q in returned_quantities(known)}
+        for further in ("", "lagrangian", "equations_of_motion"):
+            if further:
+                with suppress(DeriveError):
+                    self.named(Word.at(further, name.place))
+                steps = {q.key: q for q in self.established} | steps
+            found = [q for key, q in steps.items() if key == name or key.rstrip(DIGITS) == f"{name}_"]
+            if found:
+                return tuple(found)
+        help_line = did_you_mean(name, (*asks, *steps)) or f"one may ask for {', '.join(asks)}"
+        rejected("no-such-answer", f"there is no answer `{name}`", name.place, help_line)
+
+    @property
+    def established(self) -> Sequence[Quantity]:
+        return run.established if (run := current_run.get()) else []
 
     def named(self, name: Word) -> tuple[Quantity, ...]:
         """The steps of a name, or the one step of that key among those that a name has already led to."""
@@ -295,11 +356,7 @@ class Answers:
         if name in self._on_the_way:
             rejected("circle", f"`{name}` is made of itself", name.place)
         if name not in self._known and name not in asks:
-            steps = {q.key: q for known in self._known.values() for q in returned_quantities(known)}
-            if name in steps:
-                return (steps[str(name)],)
-            names = (*asks, *steps)
-            rejected("no-such-answer", f"there is no answer `{name}`", name.place, did_you_mean(name, names))
+            return self._on_the_way_to(name, asks)
         if name not in self._known:
             self._on_the_way.append(name)
             try:

@@ -21,6 +21,7 @@ from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.parts import PlacedPart
 
 SEVERAL = "a list of lengths"
+CENTRE_OF_MASS = "centre of mass"
 PLACE = list_of(SCALAR, "its components, `[x, y]` or `[x, y, z]`")
 CORNERS = list_of(PLACE, "a list of places, such as `[[0, 0], [a, 0], [0, b]]`")
 ENDS = list_of(SCALAR, "its lower and its upper limit, `[0, R]`", length=2)
@@ -146,6 +147,13 @@ class DescribedBody:
             return whole.named(self.called) if self.called else whole
 
     @property
+    def other_centre(self) -> str:
+        """The point that one may call its centre too, where that is not its centre of mass."""
+        only: Any = self.parts[0]
+        own: str = "" if self.is_made_of_parts else only.other_centre
+        return Composite.other_centre if self.is_made_of_parts or own and self.points else own
+
+    @property
     def point_names(self) -> tuple[str, ...]:
         """Its points, which are those of a whole where it has points of its own."""
         if self.is_made_of_parts or self.points:
@@ -156,9 +164,14 @@ class DescribedBody:
 
     def point(self, name: Word) -> str:
         """A point that it has; between words a space or an underscore."""
-        found = {known.replace("_", " "): known for known in self.point_names}.get(name.replace("_", " "))
+        known_names = {known.replace("_", " "): known for known in self.point_names}
+        found = (known_names | {CENTRE_OF_MASS: "centre"}).get(name.replace("_", " "))
+        if found == "centre" and name == found and self.other_centre:
+            message = f"`centre` of {self.told} could be `centre_of_mass` or `{self.other_centre}`"
+            rejected("unclear-point", message, name.place, "write the one that is meant")
         if found is None:
-            help_line = did_you_mean(name, self.point_names) or f"it has {', '.join(self.point_names)}"
+            names = ["centre_of_mass", *(known for known in self.point_names if known != "centre")]
+            help_line = did_you_mean(name, names) or f"it has {', '.join(names)}"
             rejected("no-such-point", f"{self.told} has no point `{name}`", name.place, help_line)
         return found
 

@@ -16,7 +16,7 @@ from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, rejected
 from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, potential, spring
-from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 
 ONE_OR_MORE_COMPONENTS = Reader(
     {"anyOf": [SCALAR.schema, COMPONENTS.schema]}, lambda node, name, faults: node if node else None
@@ -181,7 +181,11 @@ class ConstraintKeys(Record):
 
 def force_letter(name: Word | None, letters: InLetters) -> str:
     """The letter of a force of constraint, which is found: it is not declared."""
-    return letters.unused(name, "leave it out of `symbols`, or give the force another letter") if name else "lambda"
+    if name is None:
+        return "lambda"
+    if not is_letter(name):
+        rejected("symbol", f"`{name}` is no letter for a force", name.place, "write `force: F`")
+    return letters.unused(name, "leave it out of `symbols`, or give the force another letter")
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:

@@ -15,7 +15,7 @@ from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import did_you_mean, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
 from derive.mechanics.systems.places import Axes
-from derive.stock.keys.bodies import Bodies, BodyKeys, DescribedBody
+from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.parts import Part, force_letter, list_of_parts
 from derive.stock.keys.places import PLACE, Places, WrittenPlace
 
@@ -80,7 +80,10 @@ class MovingBodyKeys(BodyKeys):
 
     def _point(self, letters: InLetters, body: DescribedBody | RigidBody) -> Any:
         if isinstance(self.held, Scalar):
-            return body.point(self.held.word) if isinstance(body, DescribedBody) else self.held.text.strip()
+            if isinstance(body, DescribedBody):
+                return body.point(self.held.word)
+            name = self.held.text.strip().replace("_", " ")
+            return "centre" if name == CENTRE_OF_MASS else name.replace(" ", "_")
         assert isinstance(self.held, Sequence)
         return tuple(each([partial(letters.of_kind, node, "held", "length") for node in self.held.items]))
 

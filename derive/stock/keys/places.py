@@ -82,6 +82,12 @@ PLACE: Reader[WrittenPlace] = Reader(_PLACE_SCHEMA, _place)
 PLACES = mapping_of(PLACE)
 
 
+def is_letter(name: str) -> bool:
+    """Whether a description may bring it in as a letter of its own."""
+    is_name = name.isascii() and name.replace("_", "").isalnum() and name[0].isalpha()
+    return is_name and name not in RESERVED and name != TIME.name
+
+
 def coordinate_letters(
     written: Mapping[Word, str], symbols: Mapping[str, Declared], faults: Faults
 ) -> dict[str, Declared]:
@@ -92,7 +98,7 @@ def coordinate_letters(
         if name in symbols:
             message = f"`{name}` is declared under `symbols` and is a coordinate too"
             faults.error("letter-clash", message, name.place, help="leave it out there")
-        elif name in RESERVED or name == TIME.name or not name.replace("_", "").isalnum() or not name[0].isalpha():
+        elif not is_letter(name):
             faults.error("symbol", f"`{name}` is no letter for a coordinate", name.place)
         else:
             q = scalar(str(name), positive=True) if sort == POSITIVE else scalar(str(name))

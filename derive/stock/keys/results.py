@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from sympy import Expr, Integer, oo
 
+from derive.algebra.expressions import explicit
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
-from derive.course.stock import InLetters, told_at
+from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Faults, Place, rejected
+from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import (
     Coordinate,
     beats,
@@ -28,6 +30,7 @@ from derive.mechanics import (
     steady_amplitude,
     where,
 )
+from derive.mechanics.systems.dalembert import Matter
 from derive.steps.step import Quantity
 
 NAMES = as_written(one_or_more(TEXT.schema))
@@ -87,7 +90,7 @@ class ResultKeys(Record):
                 of=_names(getattr(self, verbs[0])),
                 results=_names(self.results),
                 unknowns=tuple(letters.read(node, "for")[0] for node in _nodes(self.unknowns)),
-                values=tuple((str(letter), _end(node, letters)) for letter, node in self.values.items()),
+                values=tuple(each([partial(_value, letter, node, letters) for letter, node in self.values.items()])),
                 to=_end(self.to, letters) if self.to else None,
                 order=_order(self.order),
                 relation=str(self.relation or "="),
@@ -133,8 +136,20 @@ class Result:
         if self.symbols and self.verb not in LETTERED:
             letter = self.symbols[0]
             rejected("wrong-argument", f"what `{self.verb}` finds has no letter of its own", letter.place)
+        if self.verb == "speed" and not self.results:
+            more = self._motion_for_speed(of, answers, coordinates)
         with told_at(self.place):
             return _MAKERS[self.verb](self, of, more, coordinates)
+
+    def _motion_for_speed(
+        self, of: list[Quantity], answers: Callable[[Word], tuple[Quantity, ...]], coordinates: Mapping[str, Coordinate]
+    ) -> list[Quantity]:
+        """The equation of motion, where the energy does not tell by itself which forces act."""
+        q = self.coordinate(coordinates)
+        matter = self.only(of).fact(Matter)
+        if self.place is None or matter is not None and tuple(matter.coordinates) == (q.symbol,):
+            return []
+        return list(answers(Word.at(f"motion_{q.symbol.name}", self.place)))
 
     def only(self, of: list[Quantity]) -> Quantity:
         """The one answer; of several of one name that whose key this name is."""
@@ -179,7 +194,10 @@ def _solve(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 
 def _put_in(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    return put_in(result.only(of), *more, key=result.name, **result.symbol, **dict(result.values))
+    original = result.only(of)
+    there = {s.name for quantity in (original, *more) for s in explicit(quantity.value).free_symbols}
+    values = {name: value for name, value in result.values if name in there}
+    return put_in(original, *more, key=result.name, **result.symbol, **(values or dict(result.values)))
 
 
 def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
@@ -265,11 +283,19 @@ def _nodes(node: Tree | None) -> tuple[Tree, ...]:
 
 def _names(node: Tree | None) -> tuple[Word, ...]:
     found = []
-    for each in _nodes(node):
-        if not isinstance(each, Scalar) or each.empty:
-            rejected("wrong-type", "an answer is told by its name", each.place)
-        found.append(each.word)
+    for item in _nodes(node):
+        if not isinstance(item, Scalar) or item.empty:
+            rejected("wrong-type", "an answer is told by its name", item.place)
+        found.append(item.word)
     return tuple(found)
+
+
+def _value(letter: Word, node: Tree, letters: InLetters) -> tuple[str, Expr]:
+    """A letter, a coordinate or a rate, and its value; what an answer does not contain changes nothing in it."""
+    if letter not in letters.letters:
+        help_line = did_you_mean(letter, letters.letters) or "it is a letter, a coordinate or a rate"
+        rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
+    return str(letter), _end(node, letters)
 
 
 def _end(node: Tree, letters: InLetters) -> Expr:
