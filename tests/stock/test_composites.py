@@ -105,6 +105,12 @@ def test_the_centre_of_a_half_disc_is_asked_back(tmp_path: Path) -> None:
     assert found.message == "`centre` of a half-disc could be `centre_of_mass` or `circle_centre`"
 
 
+def test_where_nothing_drives_it_back_there_is_no_period(tmp_path: Path) -> None:
+    text = half_disc("centre_of_mass").replace("potential_energy", "period")
+    (found,) = complaints(tmp_path, text)
+    assert found.message == "nothing drives the system back to this state, so that it does not oscillate about it"
+
+
 @pytest.mark.parametrize(("held", "is_constant"), [("centre_of_mass", True), ("circle_centre", False)])
 def test_each_of_its_centres_has_a_name(held: str, is_constant: bool, tmp_path: Path) -> None:
     """Held by the centre of its circle it has U = -4/(3 pi) M g R cos(theta) + M g R."""
