@@ -39,7 +39,7 @@ from sympy.simplify.fu import TR5
 
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import is_identity, vanishes
-from derive.algebra.ranges import settled
+from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
 from derive.algebra.samples import (
     DIGITS,
     NoNumber,
@@ -266,15 +266,13 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 def _known_sign(factor: Expr) -> int | None:
     """1 or -1 where the letters show that the factor has that sign wherever they may be; else None."""
-    above, below = factor.as_numer_denom()
-    if all(part.is_positive or part.is_negative for part in (above, below)):
-        return 1 if above.is_positive == below.is_positive else -1
-    return None
+    above, below = (strict_sign_within(part) for part in factor.as_numer_denom())
+    return above * below if above and below else None
 
 
 def _never_vanishes(factor: Expr) -> bool:
     """Whether the letters show that the factor is nowhere zero, and nowhere undefined."""
-    return all(part.is_nonzero for part in factor.as_numer_denom())
+    return all(part.is_nonzero or never_vanishes_within(part) for part in factor.as_numer_denom())
 
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:

@@ -1,4 +1,7 @@
-"""Letters that lie between two numbers, 0 < alpha < pi/2, and the signs that are settled by it."""
+"""Letters that lie between two numbers, 0 < alpha < pi/2, and the signs that are settled by it.
+
+This is the one notion of a sign that holds whatever the letters are: laws, lines, outcomes and conditions ask here.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +12,41 @@ from dataclasses import dataclass
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, Symbol, cos, floor, pi, sin, tan
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, floor, oo, pi, sin, tan
+from sympy.simplify.fu import TR5, TR6
 
 
 @dataclass(frozen=True)
 class Range:
-    """The letter is greater than one number and less than the other; an end that is `closed` it may have."""
+    """The letter is greater than one number and less than the other; an end that is `closed` it may have.
+
+    Either end may be infinite.
+    """
 
     least: Expr
     greatest: Expr
     closed: tuple[bool, bool] = (False, False)
 
+    @property
+    def is_above_zero(self) -> bool:
+        return bool(self.least.is_extended_positive or self.least.is_zero and not self.closed[0])
+
+    def at(self, way: Expr) -> Expr:
+        """The number that is a part of the way, 0 < way < 1, from the lower end to the upper."""
+        if self.least.is_finite and self.greatest.is_finite:
+            return self.least + (self.greatest - self.least) * way
+        beyond = way / (1 - way)
+        if self.least.is_finite:
+            return self.least + beyond
+        return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
+
+    def near(self, number: Expr) -> Expr:
+        """A number of the range for any positive one, growing with it, itself where nothing stands against that."""
+        return number if self == POSITIVE else self.at(number / (1 + number))
+
+
+LARGEST = 200  # operations of a sum whose squares are turned into one another
+POSITIVE = Range(Integer(0), oo)
 
 _KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  which nobody changes
 
@@ -36,6 +63,15 @@ def within(ranges: Mapping[Symbol, Range]) -> Iterator[None]:
 
 def range_of(letter: Any) -> Range | None:
     return _KNOWN.get().get(letter)
+
+
+def rational_in_range(letter: Any, number: Expr) -> Expr:
+    """A positive number, or for a letter that lies in a range a rational one of that range in its place."""
+    known = range_of(letter)
+    if known is None:
+        return number
+    there = known.near(number)
+    return there if there.is_Rational else Rational(str(there.evalf(20)))
 
 
 def settled(value: Any) -> Any:
@@ -60,24 +96,75 @@ def strict_sign_within(expr: Expr) -> int | None:
     return sign_within(expr)
 
 
+def never_vanishes_within(expr: Expr) -> bool:
+    """Whether the expression is nowhere zero, by what its letters are and by the ranges in which they lie."""
+    return all(
+        bool(base.is_nonzero) or strict_sign_within(base) is not None
+        for base in (factor.as_base_exp()[0] for factor in Mul.make_args(expr))
+    )
+
+
 def _sign_of_factor(factor: Expr) -> int | None:
     if factor.is_positive or factor.is_negative:
         return 1 if factor.is_positive else -1
-    if isinstance(factor, Pow) and factor.exp.is_Integer:
-        sign = sign_within(factor.base)
-        return sign**2 if sign and factor.exp % 2 == 0 else sign
+    if isinstance(factor, Add) and (sign := _sign_by_squares(factor)):
+        return sign
+    if factor.free_symbols.isdisjoint(_KNOWN.get()):
+        return None
+    if isinstance(factor, Pow):
+        return _sign_of_power(factor.base, factor.exp)
+    if isinstance(factor, Abs):
+        return 1 if sign_within(factor.args[0]) else None
     if isinstance(factor, sin | cos | tan):
         return _sign_of_function(factor)
-    ends = _ends(factor)
-    if ends is None:
+    if (known := _range_of_letter(factor)) is not None:
+        return _sign_between(known.least, known.greatest)
+    return _sign_of_sum(factor) if isinstance(factor, Add) else None
+
+
+def _sign_of_power(base: Expr, exponent: Expr) -> int | None:
+    sign = sign_within(base)
+    if exponent.is_Integer:
+        return sign**2 if sign and exponent % 2 == 0 else sign
+    return 1 if sign == 1 and exponent.is_real else None
+
+
+def _range_of_letter(factor: Expr) -> Range | None:
+    return range_of(factor) if isinstance(factor, Symbol) else None
+
+
+def _sign_between(least: Expr, greatest: Expr) -> int | None:
+    return 1 if least.is_extended_nonnegative else -1 if greatest.is_extended_nonpositive else None
+
+
+def _sign_of_sum(total: Expr) -> int | None:
+    """By the sign that all its terms have; or by the ends between which it lies."""
+    for sign in (1, -1):
+        terms = [sign * term for term in total.args]
+        strict = [sign_within(term) == 1 for term in terms]
+        if any(strict) and all(sure or term.is_nonnegative for sure, term in zip(strict, terms, strict=True)):
+            return sign
+    ends = _ends(total)
+    return None if ends is None else _sign_between(*ends)
+
+
+def _sign_by_squares(total: Add) -> int | None:
+    """Of a sum that is of one sign though sines or cosines stand in it: m + M - m cos^2, M + m sin^2."""
+    if not total.has(sin, cos) or total.count_ops() > LARGEST:
         return None
-    return 1 if ends[0].is_nonnegative else -1 if ends[1].is_nonpositive else None
+    for squares in (total, TR5(total.expand()), TR6(total.expand())):
+        terms = Add.make_args(squares.expand())
+        for sign in (1, -1):
+            signed = [sign * term for term in terms]
+            if all(term.is_nonnegative for term in signed) and any(term.is_positive for term in signed):
+                return sign
+    return None
 
 
 def _sign_of_function(function: Expr) -> int | None:
     """By the quarter of the circle, or the half, in which its angle stays."""
     ends = _ends(function.args[0])
-    if ends is None:
+    if ends is None or not (ends[0].is_finite and ends[1].is_finite):
         return None
     width = pi / 2 if isinstance(function, tan) else pi
     shift = pi / 2 if isinstance(function, cos) else Integer(0)
@@ -88,17 +175,35 @@ def _sign_of_function(function: Expr) -> int | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """Between which numbers an expression of the first degree in its letters lies."""
+    """Between which numbers a sum of multiples of letters, sines and cosines lies, neither of which it has."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):
-        number, letter = term.as_coeff_Mul()
-        if letter == 1 or letter.is_number:
-            ends = (term, term)
-        elif (known := range_of(letter)) is not None:
-            ends = (number * known.least, number * known.greatest)
+        number, rest = term.as_coeff_Mul()
+        if rest == 1 or rest.is_number:
+            ends: tuple[Expr, Expr] | None = (term, term)
+        elif (between := _between(rest)) is not None:
+            ends = (number * between[0], number * between[1])
             ends = ends if number.is_positive else ends[::-1]
         else:
             return None
+        assert ends is not None
         least, greatest = least + ends[0], greatest + ends[1]
     return least, greatest
+
+
+def _between(rest: Expr) -> tuple[Expr, Expr] | None:
+    """The ends of a letter, or of a sine or a cosine, or a power of one, that only rises or only falls in the range."""
+    if (known := _range_of_letter(rest)) is not None:
+        return known.least, known.greatest
+    if isinstance(rest, Pow) and rest.exp.is_Integer and rest.exp.is_positive and sign_within(rest.base) == 1:
+        ends = _between(rest.base)
+        return (ends[0] ** rest.exp, ends[1] ** rest.exp) if ends and ends[0].is_nonnegative else None
+    if not isinstance(rest, sin | cos):
+        return None
+    slope = cos(rest.args[0]) if isinstance(rest, sin) else -sin(rest.args[0])
+    ends, rising = _ends(rest.args[0]), sign_within(slope)
+    if ends is None or rising is None:
+        return None
+    first, last = (rest.func(end) for end in ends)
+    return (first, last) if rising == 1 else (last, first)

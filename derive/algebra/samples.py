@@ -73,7 +73,7 @@ def _drawn(letter: Expr, scale: int, sign: int, source: Random) -> Expr:
     if letter == PLUS_MINUS:
         return Integer(sign)
     if (known := range_of(letter)) is not None:
-        return known.least + (known.greatest - known.least) * Rational(source.randint(1, 96), 97)
+        return known.at(Rational(source.randint(1, 96), 97))
     if letter.is_nonnegative:
         sign = 1
     elif letter.is_nonpositive:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping as Table
 
-from sympy import Expr
+from sympy import Expr, oo
 
 from derive.algebra.expressions import TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article
-from derive.algebra.ranges import Range
+from derive.algebra.ranges import POSITIVE, Range
 from derive.course.expression import RESERVED, Declared, read_expression
 from derive.course.given import Wanted, number_with_unit, symbol_of_kind
 from derive.course.written import SortOfLetter
@@ -17,25 +17,33 @@ from derive.course.yaml_tree import Scalar, Word, abridged
 from derive.errors import Faults, rejected
 
 _SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
+INFINITE = {"infinity": oo, "-infinity": -oo}
 _RANGE = re.compile(r"\s*([\[(])([^,]+),([^,]+)([\])])\s*")
 
 
-def read_range(name: str, node: Scalar, kind: str) -> Range:
-    """Between which numbers a letter lies: `(0, pi/2)`, `[0, 90 deg]`."""
+def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Range:
+    """Between which numbers a letter lies: `(0, pi/2)`, `[0, 90 deg]`, `(0, infinity)`.
+
+    `signed` says that it may be negative though it is of a kind that is else positive, as a coordinate may.
+    """
     found = _RANGE.fullmatch(node.text)
     if not found:
         message = f"`{abridged(node.text)}` is no range in which `{name}` could lie"
         rejected("range", message, node.place, "write `in (0, pi/2)`, or `in [0, pi/2]` with its ends")
     least, greatest = (_end(name, node.piece(found.start(i), found.end(i) - found.start(i)), kind) for i in (2, 3))
-    if not (greatest - least).is_positive:
+    if least == -oo and found[1] == "[" or greatest == oo and found[4] == "]":
+        rejected("range", f"`{name}` cannot be infinite", node.place, "write `(0, infinity)`, without that end")
+    if not (greatest - least).is_extended_positive:
         rejected("range", f"nothing lies between {least} and {greatest}", node.place)
-    if about_kind(kind).positive and not about_kind(kind).signed and least.is_negative:
+    if about_kind(kind).positive and not about_kind(kind).signed and not signed and least.is_negative:
         rejected("range", f"`{name}` is {kind_with_article(kind)}, which is positive", node.place)
     return Range(least, greatest, (found[1] == "[", found[4] == "]"))
 
 
 def _end(name: str, node: Scalar, kind: str) -> Expr:
-    wanted = Wanted(name, kind)
+    wanted, text = Wanted(name, kind), node.text.strip()
+    if text in INFINITE:
+        return INFINITE[text]
     number = number_with_unit(node, wanted, {})
     if number is not None:
         return number.si
@@ -56,8 +64,14 @@ def declared_letters(kinds: Table[Word, SortOfLetter], faults: Faults) -> dict[s
         if name == TIME.name and kind != "time":
             message = f"`t` is the time, but it is declared as {kind_with_article(kind)}"
             faults.error("time", message, word.place, help="use another letter")
-        lies = None
-        with faults:
-            lies = read_range(name, kind.ends, kind) if kind.ends else None
+        lies = range_of_sort(name, kind, faults)
         symbols[name] = Declared(name, symbol_of_kind(name, kind, lies), str(kind), lies)
     return symbols
+
+
+def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
+    """What is said of the values of a letter beside its kind."""
+    with faults:
+        if sort.ends:
+            return read_range(name, sort.ends, sort)
+    return POSITIVE if sort.positive and not about_kind(sort).positive else None

@@ -115,12 +115,9 @@ def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
     """What a declared letter is in expressions: `t` is the time itself, any other letter of its kind a duration."""
     if name == TIME.name and kind == "time":
         return TIME
-    positive = about_kind(kind).positive or lies is not None and _is_above_zero(lies)
-    return Symbol(name, real=True, positive=True) if positive else Symbol(name, real=True)
-
-
-def _is_above_zero(lies: Range) -> bool:
-    return bool(lies.least.is_positive or lies.least.is_zero and not lies.closed[0])
+    if about_kind(kind).positive or lies is not None and lies.is_above_zero:
+        return Symbol(name, real=True, positive=True)
+    return Symbol(name, real=True)
 
 
 def read_givens(

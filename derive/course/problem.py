@@ -88,7 +88,12 @@ class Problem:
     @property
     def ranges(self) -> dict[Symbol, Range]:
         """Between which numbers letters lie, where that is declared."""
-        return {declared.symbol: declared.lies for declared in self.symbols.values() if declared.lies}
+        return {declared.symbol: declared.lies for declared in self.letters if declared.lies}
+
+    @property
+    def letters(self) -> tuple[Declared, ...]:
+        """Those that are declared, and those that a description brings in."""
+        return (*self.symbols.values(), *(self.described.letters.values() if self.described else ()))
 
     @property
     def amounts(self) -> dict[Symbol, Amount]:
@@ -152,7 +157,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     record.places = {name: place for name, place in written.items() if place}
     record.letters = _letters_of(problem)
     with recorded(record), within(problem.ranges):
-        for declared in problem.symbols.values():
+        for declared in problem.letters:
             _assume_range(declared)
         if isinstance(problem.script, StockScript):
             return problem.script.stock.solve(problem.described, problem.asked)
@@ -172,9 +177,10 @@ def _assume_range(declared: Declared) -> None:
         return
     least, greatest = declared.lies.least, declared.lies.greatest
     above, below = ("=" * closed for closed in declared.lies.closed)
-    if not (least.is_zero and about_kind(declared.kind).positive):
+    if least.is_finite and not (least.is_zero and about_kind(declared.kind).positive):
         assume(Relation(declared.symbol, f">{above}", least))
-    assume(Relation(declared.symbol, f"<{below}", greatest))
+    if greatest.is_finite:
+        assume(Relation(declared.symbol, f"<{below}", greatest))
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:

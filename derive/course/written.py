@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from collections.abc import Mapping as Table
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from derive.algebra.kinds import KINDS
 from derive.course.parts import PARTS, POINTS, Question, points_in_all
@@ -30,31 +32,47 @@ from derive.course.yaml_tree import Mapping, Scalar, Tree, Word, shape_of
 from derive.errors import Faults, nearest
 
 ANY_OUTCOME = ""
+POSITIVE = "positive"  # before a kind
 SHOWN = ("full", "result", "hidden")
 CHAIN = "chain"  # what a sentence calls the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
 
 class SortOfLetter(str):
-    """The kind of a letter; `ends` is what stands after `in`, the range in which it lies."""
+    """The kind of a letter; `ends` is what stands after `in`, the range in which it lies.
+
+    `positive` was written before the kind: the letter stands for a positive number.
+    """
 
     ends: Scalar | None = None
+    positive: bool = False
 
 
-def _kind(node: Tree, name: str, faults: Faults) -> SortOfLetter:
+def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
     """A kind; of one that is mistyped what was meant, so that the slip is not told again at every use."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
-    kind = text.strip()
-    if kind not in KINDS:
-        close = nearest(kind, KINDS)
-        help_line = f"did you mean `{close}`?" if close else f"the kinds are {', '.join(KINDS)}"
+    positive, _, rest = text.strip().partition(" ")
+    kind = rest.strip() if positive == POSITIVE else text.strip()
+    if kind not in kinds:
+        close = nearest(kind, kinds)
+        help_line = f"did you mean `{close}`?" if close else f"the kinds are {', '.join(kinds)}"
         message = f"the kind of `{name}` must be one that is known, but it is {shape_of(node)}"
         faults.error("unknown-kind", message, node.place, help=help_line)
-        kind = close or "number"
+        kind = close or next(iter(kinds))
     sort = SortOfLetter(kind)
+    sort.positive = positive == POSITIVE
     if ends and isinstance(node, Scalar):
         sort.ends = node.piece(len(node.text) - len(ends), len(ends))
     return sort
+
+
+def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
+    """Kinds, positive ones of them, and kinds with a range."""
+    plain = list(kinds)
+    pattern = rf"^({POSITIVE} )?({'|'.join(plain)}) in [\[(].+,.+[\])]$"
+    return {
+        "anyOf": [{"enum": [*plain, *(f"{POSITIVE} {kind}" for kind in plain)]}, {"type": "string", "pattern": pattern}]
+    }
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
@@ -69,9 +87,7 @@ def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
     return found
 
 
-SYMBOLS = mapping_of(
-    Reader({"anyOf": [{"enum": list(KINDS)}, {"type": "string", "pattern": "^[a-z ]+ in [\\[(].+,.+[\\])]$"}]}, _kind)
-)
+SYMBOLS = mapping_of(Reader(schema_of_sorts(KINDS), sort_of_letter))
 GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
 _TEXTS = {"type": "object", "additionalProperties": TEXT.schema}
@@ -114,7 +130,9 @@ class ProblemKeys(Record):
     )
     points: Fraction | None = key("points in all; those of the parts must add up to it", POINTS)
     symbols: dict[Word, SortOfLetter] = key(
-        "letters and their kinds, with the range in which one lies: `M: mass`, `alpha: angle in (0, pi/2)`", SYMBOLS
+        "letters and their kinds, with what is known of the values: `M: mass`, `F: positive force`, "
+        "`alpha: angle in (0, pi/2)`",
+        SYMBOLS,
     )
     given: Mapping | None = key(
         "what goes to `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; "

@@ -13,6 +13,7 @@ from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
 from derive.course.schema import SCALAR, Record, as_written, key, mapping_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
+from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
@@ -39,7 +40,6 @@ from derive.stock.keys.placed import BODIES, ROLLING, MovingBodyKeys, RollingKey
 from derive.stock.keys.places import (
     COORDINATES,
     PLACES,
-    POSITIVE,
     TURNS,
     Places,
     WrittenPlace,
@@ -57,7 +57,11 @@ SYSTEM = "system"  # what the drawing of it is called
 class SystemKeys(Record):
     """What describes a system."""
 
-    coordinates: Mapping[Word, str] = key("what varies: `theta: angle`, `x: length`", COORDINATES, required=True)
+    coordinates: Mapping[Word, SortOfLetter] = key(
+        "what varies: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
+        COORDINATES,
+        required=True,
+    )
     axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
         "axes that turn, by the turns that lead to them from those of space: `hoop: [{z: omega*t}]`", TURNS
     )
@@ -153,7 +157,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         letters=own,
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
-        coordinates=tuple((n, letters[n].kind, s == POSITIVE) for n, s in written.coordinates.items() if n in letters),
+        coordinates=tuple(
+            (str(n), letters[n].kind, bool(letters[n].symbol.is_positive)) for n in written.coordinates if n in letters
+        ),
         parts=tuple(parts),
         gravity=gravity,
         conserved=tuple(

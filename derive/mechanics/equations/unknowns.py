@@ -30,7 +30,7 @@ from sympy import (
     tan,
 )
 from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR5, TR6, TR8
+from sympy.simplify.fu import TR8
 
 from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
@@ -242,19 +242,8 @@ def _factored(value: Expr) -> Expr:
 def may_vanish(value: Expr) -> Relation | None:
     """What must not vanish where one divides by a value: those of its factors that nothing decides."""
     factors = [f.as_base_exp()[0] for f in Mul.make_args(_factored(tidied(value)))]
-    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero and not _is_definite(f)]
+    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
-
-
-def _is_definite(value: Expr) -> bool:
-    """Whether a sum is of one sign, though sines or cosines stand in it: m + M - m cos^2, M + m sin^2."""
-    for squares in (value, TR5(value.expand()), TR6(value.expand())):
-        terms = Add.make_args(squares.expand())
-        for sign in (1, -1):
-            signed = [sign * term for term in terms]
-            if all(term.is_nonnegative for term in signed) and any(term.is_positive for term in signed):
-                return True
-    return False
 
 
 def linear_coefficients(expressions: Sequence[Expr], marks: Sequence[Symbol]) -> tuple[Matrix, Matrix] | None:

@@ -8,6 +8,7 @@ from typing import Any
 from sympy import Expr, Integer, Rational, Symbol, prime
 
 from derive.algebra.expressions import explicit
+from derive.algebra.ranges import rational_in_range
 from derive.mechanics.outcomes.signs import always_sign, sign_is
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -15,10 +16,11 @@ from derive.steps.step import is_zero
 
 
 def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
-    """Positive numbers for the letters, from one scale to another."""
+    """Positive numbers for the letters, from one scale to another; in the range of one that has some."""
     ordered = sorted(letters, key=str)
     for shift in range(12):
-        yield {s: Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i, s in enumerate(ordered)}
+        drawn = (Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i in range(len(ordered)))
+        yield {s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}
 
 
 def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:

@@ -14,7 +14,7 @@ from sympy import Expr, Rational, diff, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import range_of
+from derive.algebra.ranges import rational_in_range
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -28,15 +28,7 @@ def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
     ordered = sorted(letters, key=str)
     for shift in range(SHIFTS):
         drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
-        yield {s: _in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}
-
-
-def _in_range(letter: Any, number: Expr) -> Expr:
-    """The same number, brought between the ends of a letter that has some."""
-    known = range_of(letter)
-    if known is None:
-        return number
-    return Rational(str((known.least + (known.greatest - known.least) * number / (1 + number)).evalf(20)))
+        yield {s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}
 
 
 def _entries(value: Any) -> list[Expr]:

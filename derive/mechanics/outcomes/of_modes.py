@@ -13,6 +13,7 @@ from itertools import islice
 from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rational, prime
 
 from derive.algebra.amplitudes import determinant_of
+from derive.algebra.ranges import rational_in_range
 from derive.mechanics.outcomes.signs import always_sign
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -21,11 +22,11 @@ LITTLE = Rational(1, 10**15)
 
 
 def _numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
-    """Positive numbers for the letters, from one scale to another."""
+    """Positive numbers for the letters, from one scale to another; those of the range of a letter that lies in one."""
     letters = sorted(facts.inputs["stiffness"].free_symbols | facts.inputs["mass"].free_symbols, key=str)
     drawn = (
         {
-            s: Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4)
+            s: rational_in_range(s, Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4))
             for i, s in enumerate(letters)
         }
         for shift in range(40)

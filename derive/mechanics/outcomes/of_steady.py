@@ -13,9 +13,8 @@ from derive.steps.step import is_zero
 
 def _number(letter: Symbol, n: int, shift: int) -> Expr:
     """One large where another is small; within the range of the letter where it has one."""
-    known = range_of(letter)
-    if known is not None and known.least.is_finite and known.greatest.is_finite:
-        return known.least + (known.greatest - known.least) * Rational(1 + (3 * n + 5 * shift) % 7, 8)
+    if (known := range_of(letter)) is not None:
+        return known.at(Rational(1 + (3 * n + 5 * shift) % 7, 8))
     return Rational(prime(2 + (11 * n + 5 * shift + n * shift) % 29), 7 + n)
 
 

@@ -9,6 +9,8 @@ from functools import partial
 from sympy import Expr
 
 from derive.algebra.expressions import TIME, rate, scalar
+from derive.algebra.ranges import POSITIVE, Range
+from derive.course.declared import read_range
 from derive.course.expression import RESERVED, Declared
 from derive.course.schema import (
     SCALAR,
@@ -19,11 +21,11 @@ from derive.course.schema import (
     list_of,
     mapping_of,
     object_schema,
-    one_of,
     read_record,
     wrong_type,
 )
 from derive.course.stock import InLetters, each, told_at
+from derive.course.written import SortOfLetter, schema_of_sorts, sort_of_letter
 from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, rejected
@@ -31,8 +33,14 @@ from derive.mechanics import X, Y, Z, point, space
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.places import Axes, Location
 
-ANGLE, LENGTH, POSITIVE = "angle", "length", "positive length"
-COORDINATES = mapping_of(one_of((ANGLE, LENGTH, POSITIVE)))
+ANGLE, LENGTH = "angle", "length"
+
+
+def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
+    return sort_of_letter(node, name, faults, (ANGLE, LENGTH))
+
+
+COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH)), _sort))
 COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
 TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of turns, such as `[{z: phi}, {x: theta}]`"))
 AXIS_OF = {"x": X, "y": Y, "z": Z}
@@ -89,24 +97,34 @@ def is_letter(name: str) -> bool:
 
 
 def coordinate_letters(
-    written: Mapping[Word, str], symbols: Mapping[str, Declared], faults: Faults
+    written: Mapping[Word, SortOfLetter], symbols: Mapping[str, Declared], faults: Faults
 ) -> dict[str, Declared]:
     """Each coordinate, its rate and its acceleration: theta, theta_dot, theta_ddot."""
     found: dict[str, Declared] = {}
     for name, sort in written.items():
-        kind = ANGLE if sort == ANGLE else LENGTH
+        kind = str(sort)
         if name in symbols:
             message = f"`{name}` is declared under `symbols` and is a coordinate too"
             faults.error("letter-clash", message, name.place, help="leave it out there")
         elif not is_letter(name):
             faults.error("symbol", f"`{name}` is no letter for a coordinate", name.place)
         else:
-            q = scalar(str(name), positive=True) if sort == POSITIVE else scalar(str(name))
+            lies = _range(str(name), sort, faults)
+            positive = lies is not None and lies.is_above_zero and kind == LENGTH
+            q = scalar(str(name), positive=True) if positive else scalar(str(name))
             faster = kind_of_rate(kind)
-            found[str(name)] = Declared(str(name), q, kind)
+            found[str(name)] = Declared(str(name), q, kind, None if positive and lies == POSITIVE else lies)
             found[f"{name}_dot"] = Declared(f"{name}_dot", rate(q), faster)
             found[f"{name}_ddot"] = Declared(f"{name}_ddot", rate(q, 2), kind_of_rate(faster))
     return found
+
+
+def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
+    """Between which numbers a coordinate stays."""
+    with faults:
+        if sort.ends:
+            return read_range(name, sort.ends, sort, signed=not sort.positive)
+    return POSITIVE if sort.positive else None
 
 
 class Places:
