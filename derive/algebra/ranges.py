@@ -174,6 +174,13 @@ def _sign_of_function(function: Expr) -> int | None:
     return -1 if first % 2 else 1
 
 
+def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
+    """Between which numbers a letter lies, or a sine or cosine; nothing where that is open or an end is reached."""
+    if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
+        return None
+    return _ends(expr)
+
+
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
     """Between which numbers a sum of multiples of letters, sines and cosines lies, neither of which it has."""
     least: Expr = Integer(0)

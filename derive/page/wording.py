@@ -80,7 +80,7 @@ class Chain:
 
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
-ASKED = {"point", "axis_letter", "strictly", "comparison"}  # words that a phrase chooses by, and does not print
+ASKED = {"point", "axis_letter", "strictly", "comparison", "asked"}  # words by which a phrase chooses
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
 

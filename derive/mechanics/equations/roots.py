@@ -31,11 +31,14 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, explicit, scalar
+from derive.algebra.ranges import ends_within, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.quadratics import roots_together
 from derive.mechanics.equations.unknowns import (
     coordinates_of,
+    factors_elsewhere,
+    is_number,
     kind_of_unknown,
     lecture_form,
     letter_of,
@@ -52,7 +55,7 @@ from derive.steps.step import Fact, Level, Quantity, is_zero
 
 __all__ = ["roots"]
 
-FOUR, ZERO = Integer(4), Integer(0)
+FOUR, ZERO, ONE = Integer(4), Integer(0), Integer(1)
 
 
 @dataclass(frozen=True)
@@ -96,20 +99,23 @@ def roots(
     keys: Sequence[str] | None = None,
     symbols: Sequence[str] | None = None,
     together: str | None = None,
+    key: str | None = None,
 ) -> tuple[Quantity, ...]:
     """Roots of an equation in one letter, x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic factor, x = -b/a
     for each linear one; only the positive ones where the letter is that of a positive number, in ascending order.
 
-    equation   a polynomial in the letter
+    equation   a polynomial in the letter; or a result that is no equation, of which the zeros are wanted
     letter     the unknown: a letter, a coordinate, a rate, or such as `cos(theta)`
     values     what letters of the coefficients stand for here, put in after the formula: with `together`
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a); then
                each by itself, the smaller in size first. What is the only root, or says that there is none, then
                stands for all of the keys
     keys       what the steps are called; else by the letter, with _1, _2 where there are several
+    key        what the keys begin with in place of the letter
     symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
     Second route: put back into the equation; by Vieta the sum and the product of all roots are those that the
     coefficients give.
+    Factors that vanish elsewhere, sin(theta) where cos(theta) is sought, are told, or assumed not to vanish.
     Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),
     none (no root is real), none_positive, none_reached (a sine or a cosine would be greater than 1 or less than -1); of
     the two together: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (one of each sign), linear.
@@ -119,21 +125,25 @@ def roots(
     unknown = unknown_of("roots", letter)
     if together is not None or values:
         return roots_together(equation, letter_of(unknown), values, together or "roots", keys or (), symbols or ())
-    left, (x,) = polynomial_in("roots", equation, [unknown])
+    none = [*(keys or []), *([key] if key else []), f"no_{letter_of(unknown).name}"][0]
+    left, (x,) = polynomial_in("roots", equation, [unknown], or_value=True)
     polynomial = _polynomial(equation, left, x, unknown)
     every = [root for factor, times in _factors(polynomial, equation, unknown) for root in _of_factor(factor, times)]
     real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
     if not real:
-        return (_no_root(equation, unknown, every, False, keys),)
-    positive = unknown.is_positive
-    kept = [root for root in real if _sign(root) not in ((-1, 0) if positive else ())]
+        return (_no_root(equation, unknown, every, False, none),)
+    kept = [root for root in real if _sign(root) not in ((-1, 0) if _is_positive(unknown) else ())]
     if not kept:
-        return (_no_root(equation, unknown, real, True, keys),)
+        return (_no_root(equation, unknown, real, True, none),)
     kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
     if not kept:
-        return (_not_reached(equation, unknown, real, keys),)
+        return (_not_reached(equation, unknown, real, none),)
+    kept = [root for root in kept if not _is_out_of_range(root, unknown)]
+    if not kept:
+        message = f"`roots`: no root of `{equation.key}` lies in the range of {letter_of(unknown)}"
+        raise Rejected(Complaint("no-root", message))
     kept = _ascending(kept)
-    names = list(keys or _names(unknown, len(kept)))
+    names = list(keys or _names(unknown, len(kept), key))
     if len(names) != len(kept):
         message = f"`roots`: `{equation.key}` has {len(kept)} root{'s' * (len(kept) > 1)} here, not {len(names)}"
         raise Rejected(Complaint("wrong-argument", message))
@@ -170,12 +180,14 @@ def _step(
             [-rest[0] / leading, (-1) ** n * rest[-1] / leading]
         )
 
+    elsewhere = Mul(*factors_elsewhere(explicit(equation.value), unknown)) if is_number(equation) else ONE
     told = {
         role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
         for role, each in (
             ("condition", _condition(root, unknown)),
-            ("excluded", may_vanish(root.coefficients[0])),
+            ("excluded", may_vanish(_common_factor(polynomial, every) * root.coefficients[0])),
             ("existing", _existing(root, unknown, equation)),
+            ("elsewhere", None if elsewhere == 1 else Relation(elsewhere, "=", ZERO)),
         )
         if each is not None
     }
@@ -198,11 +210,12 @@ def _step(
         key=key,
         kind=kind_of_unknown(unknown, coordinates_of(equation)),
         telling=Telling(
+            words={"asked": _asked(equation)},
             formulas=told,
             judged_by={
                 "polynomial": polynomial.as_expr(),
                 "gen": polynomial.gen,
-                "positive": Integer(bool(unknown.is_positive)),
+                "positive": Integer(_is_positive(unknown)),
                 "place": Integer(i),
                 "count": Integer(len(kept)),
             },
@@ -221,9 +234,7 @@ def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootO
     return "double" if root.times > 1 else "single"
 
 
-def _no_root(
-    equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, keys: Sequence[str] | None
-) -> Quantity:
+def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
     """The discriminant is negative; or the root that could be positive is not."""
     last = _ascending(list(every))[-1]
     mark = "=" if real and is_zero(last.value) else "<"
@@ -240,8 +251,31 @@ def _no_root(
         lines=Lines(put_in=None),
         routes={"otherwise": lambda found: (found.residual, otherwise)},
         outcome="none_positive" if real else "none",
-        key=(keys or [f"no_{letter_of(unknown).name}"])[0],
+        telling=Telling(words={"asked": _asked(equation)}),
+        key=key,
     )
+
+
+def _asked(equation: Quantity) -> str:
+    return "zeros" if is_number(equation) else "roots"
+
+
+def _is_positive(unknown: Expr) -> bool:
+    """By its letter, or by the range in which that lies."""
+    return strict_sign_within(unknown) == 1
+
+
+def _is_out_of_range(root: RootOf, unknown: Expr) -> bool:
+    """Whether the letter would be beyond its range."""
+    ends = ends_within(unknown)
+    beyond = (root.value - ends[1], ends[0] - root.value) if ends else ()
+    return any(end.is_finite is not False and sign_known(tidied(end)) == 1 for end in beyond)
+
+
+def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
+    """What all coefficients are multiplied by: P of P (R u - r)."""
+    found = {root.coefficients: root.times for root in every}
+    return tidied(polynomial.LC() / Mul(*(c[0] ** times for c, times in found.items())))
 
 
 def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
@@ -249,7 +283,7 @@ def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
     return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
 
 
-def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], keys: Sequence[str] | None) -> Quantity:
+def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key: str) -> Quantity:
     nearest = min(every, key=lambda root: abs(number) if (number := with_numbers(root.value)).is_number else 1)
     side = 1 if sign_known(nearest.value) == 1 else -1
     return establish(
@@ -260,7 +294,8 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
         lines=Lines(put_in=None),
         routes={"otherwise": lambda found: (found.left, explicit(nearest.formula))},
         outcome="none_reached",
-        key=(keys or [f"no_{letter_of(unknown).name}"])[0],
+        telling=Telling(words={"asked": _asked(equation)}),
+        key=key,
     )
 
 
@@ -270,7 +305,7 @@ def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | Non
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
     exists, _ = within_one(root.value)
-    if exists is None or residual_of("roots", equation).has(cos if isinstance(unknown, sin) else sin):
+    if exists is None or residual_of("roots", equation, or_value=True).has(cos if isinstance(unknown, sin) else sin):
         return exists
     return Relation(exists.left, f"{exists.mark}=", exists.right)
 
@@ -374,7 +409,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
         _, b, c = root.coefficients
         mark = ">" if b == 0 and sign_known(c) else ">="  # of a x^2 + c with a = 0 there is no root
         return Relation(lecture_form(_without_positive(root.discriminant)), mark, ZERO)
-    if unknown.is_positive and _sign(root) is None:
+    if _is_positive(unknown) and _sign(root) is None:
         return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
     return None
 
@@ -415,9 +450,9 @@ def _numbered(name: str, n: int) -> str:
     return f"{name.removesuffix(order)}_{n}{order}"
 
 
-def _names(unknown: Expr, count: int) -> list[str]:
+def _names(unknown: Expr, count: int, key: str | None) -> list[str]:
     letter = letter_of(unknown).name
-    name = letter if isinstance(unknown, Symbol) else f"{letter}_root"
+    name = key or (letter if isinstance(unknown, Symbol) else f"{letter}_root")
     return [name] if count == 1 else [f"{name}_{i + 1}" for i in range(count)]
 
 

@@ -36,6 +36,7 @@ from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import RATES, Relation, explicit, rate, scalar
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
+from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
@@ -131,9 +132,16 @@ def left_over(expr: Expr, unknown: Expr) -> bool:
     return letter_of(unknown) in explicit(expr).free_symbols
 
 
-def residual_of(verb: str, equation: Quantity) -> Expr:
-    """Left less right of an equation."""
+def is_number(quantity: Quantity) -> bool:
+    """Whether it is a value, and no equation."""
+    return isinstance(quantity.value, Expr) and not isinstance(quantity.value, Relation)
+
+
+def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
+    """Left less right of an equation; or the value that is to vanish, where one will do too."""
     value = equation.value
+    if or_value and is_number(equation):
+        return explicit(value)
     if not isinstance(value, Relation) or value.mark != "=":
         message = f"`{verb}` needs an equation, but `{equation.key}` is none"
         raise Rejected(Complaint("wrong-argument", message, help="give an equation of motion, a condition or a `let`"))
@@ -145,27 +153,40 @@ def mark_for(unknown: Expr) -> Dummy:
     return Dummy("u", positive=True) if unknown.is_positive else Dummy("u", real=True)
 
 
-def polynomial_in(verb: str, equation: Quantity, unknowns: Sequence[Expr]) -> tuple[Expr, list[Dummy]]:
+def polynomial_in(
+    verb: str, equation: Quantity, unknowns: Sequence[Expr], or_value: bool = False
+) -> tuple[Expr, list[Dummy]]:
     """The residual of an equation with a mark for each unknown, and these marks."""
-    left = residual_of(verb, equation)
+    left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]
     for unknown, mark in zip(unknowns, marks, strict=True):
-        left = _without_factors_of_its_letter(with_unknown(left, unknown, mark), unknown, mark)
+        left, beside = without_factors_beside(with_unknown(left, unknown, mark), unknown, mark)
+        unsure = [f for f in beside if not never_vanishes_within(f)]
+        if unsure and not or_value:
+            assume(Relation(Mul(*unsure), "!=", Integer(0)))
         if left_over(left, unknown):
             message = f"`{verb}`: `{equation.key}` contains {letter_of(unknown).name} otherwise than in {unknown}"
             raise Rejected(Complaint("wrong-argument", message))
     return left, marks
 
 
-def _without_factors_of_its_letter(left: Expr, unknown: Expr, mark: Dummy) -> Expr:
-    """Of sin(theta)(a cos(theta) - b) the bracket, for the unknown cos(theta): where sin(theta) does not vanish."""
-    factors = Mul.make_args(left)
-    beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
-    rest = Mul(*(f for f in factors if f not in beside))
-    if not beside or not rest.has(mark):
-        return left
-    assume(Relation(Mul(*beside), "!=", Integer(0)))
-    return rest
+def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
+    """Of sin(theta)(a cos(theta) - b) the sine, for the unknown cos(theta), where it is not known to last."""
+    mark = mark_for(unknown)
+    _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
+    above = (f.as_base_exp() for f in beside if not never_vanishes_within(f))
+    return [base for base, power in above if power.is_positive]
+
+
+def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
+    """Of sin(theta)(a cos(theta) - b) the bracket, for the unknown cos(theta); and what it is multiplied by."""
+    for form in (left, _factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
+        factors = Mul.make_args(form)
+        beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
+        rest = Mul(*(f for f in factors if f not in beside))
+        if beside and rest.has(mark):
+            return rest, beside
+    return left, []
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:

@@ -114,7 +114,17 @@ def _at_a_place(facts: Judged, outcome: str) -> bool:
     return isinstance(place, Relation) and isinstance(place.left, Symbol)
 
 
+def _as_asked(facts: Judged, outcome: str) -> bool:
+    """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
+    given = facts.inputs["equation"]
+    beside = facts.inputs.get("elsewhere")
+    vanishes = beside is None or is_zero(explicit(given).subs(beside.left, 0))
+    return vanishes and (facts.words["asked"] == "roots") == isinstance(given, Relation)
+
+
 _TABLE: dict[str, Told] = {
+    "roots.roots": _as_asked,
+    "roots.roots_absent": _as_asked,
     "rotation.kinetic_energy": _of_their_kinds,
     "rotation.angular_momentum": _of_their_kinds,
     "rotation.torque": _of_their_kinds,

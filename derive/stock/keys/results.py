@@ -9,7 +9,7 @@ from typing import Any
 
 from sympy import Expr, Integer, oo
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import Relation, explicit
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
@@ -48,7 +48,10 @@ class ResultKeys(Record):
 
     solve: Tree | None = key("equations that are solved, for what `for` names", NAMES)
     put_in: Tree | None = key("an answer into which `results` and `values` are put", NAMES)
-    roots: Tree | None = key("an equation whose roots are wanted, in the letter of `for`", NAMES)
+    roots: Tree | None = key(
+        "an equation whose roots are wanted, or a result whose zeros are, in the letter of `for`, or in `cos(theta)`",
+        NAMES,
+    )
     limit: Tree | None = key("an answer in the limiting case that the letter of `for` goes `to` a value", NAMES)
     where: Tree | None = key(
         "an answer that is to be in the relation `is` to `bound`, solved for the letter of `for`", NAMES
@@ -201,7 +204,9 @@ def _put_in(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
 
 
 def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
-    return roots(result.only(of), result.letter, **result.named({"symbols": tuple(map(str, result.symbols))}))
+    only = result.only(of)
+    key = None if isinstance(only.value, Relation) else result.name  # zeros are called as what they were asked by
+    return roots(only, result.letter, **result.named({"symbols": tuple(map(str, result.symbols)), "key": key}))
 
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
