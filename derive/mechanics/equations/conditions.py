@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, sqrt
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
@@ -16,10 +16,15 @@ from derive.mechanics.equations.inequalities import of_the_size, sign_by_factors
 from derive.mechanics.equations.unknowns import (
     lecture_form,
     left_over,
+    letter_of,
     mark_for,
+    may_vanish,
+    meaning,
     unknown_of,
     with_unknown,
+    without_factors_beside,
 )
+from derive.mechanics.equations.zeros import reached
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Form, Level, Quantity, value_behind
@@ -37,6 +42,7 @@ WORDS = {
     "<=": "at_most",
 }
 POINTS = 40
+ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
 
 
 def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str = "condition") -> Quantity:
@@ -49,6 +55,8 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
     in its square; or what was given for a letter, 2b for R, of which one letter is taken
     Second route: a little above the solved bound, at it and a little below, the sign of the difference; and at random
     points both relations are true, or both false.
+    What both sides are divided by must not vanish, which is told where nothing decides it; in an inequality its sign
+    must be known, by the letters, their ranges or their numbers.
     Outcomes: solved, squared (for the square of the letter only); whatever the letters are: always, never, equal (it is
     neither greater nor less, where one of the two was asked for).
     Errors: the relation cannot be solved for that letter; a mark that is none.
@@ -66,6 +74,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
     if _settled_by_its_letter(alone, solved):
         return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
     result = Relation(alone, turned, solved)
+    existing, excluded = _existing(of, alone, turned, solved), _excluded(difference, alone, solved)
 
     def same_truth(found: Relation) -> Verdict:
         return _same_truth(found, difference, mark, unknown)
@@ -77,7 +86,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         {"quantity": of, "bound": bound},
         lines=Lines(
             put_in=Level.STANDARD,
-            after=_in_steps(difference, result),
+            after=_in_steps(difference, result, excluded),
             result=False,
             arranged=lambda _: result,
         ),
@@ -87,9 +96,32 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
             **({} if _divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
-        telling=Telling(words={"comparison": WORDS[mark]}, judged_by={"unknown": unknown}),
+        telling=Telling(
+            words={"comparison": WORDS[mark]},
+            formulas=_told(excluded=excluded, existing=existing),
+            judged_by={"unknown": unknown},
+        ),
         key=key,
     )
+
+
+def _told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
+    """What the sentence says must hold."""
+    return {
+        role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
+        for role, each in conditions.items()
+        if each is not None
+    }
+
+
+def _existing(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | None:
+    """For which letters there is such a value; an inequality holds or fails where there is none."""
+    exists, never = reached(alone, solved) if mark == "=" else (None, False)
+    if never:
+        letters = ", ".join(sorted(s.name for s in alone.free_symbols))
+        message = f"`{of.key}` would be so at {alone} = {solved}, which no value of {letters} reaches"
+        raise Rejected(Complaint("no-condition", message))
+    return exists
 
 
 def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves_contact") -> Quantity:
@@ -98,9 +130,12 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
     force    the normal force, positive while it pushes, N
     letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
     start    the value of that letter at the start, where the surfaces touch
-    Second route: a little towards the start the force is still positive, a little beyond it would be negative.
-    Outcomes: lost, never (the force is positive whatever the letter is).
-    Errors: the force is not positive at the start, or it is not linear in the letter.
+    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, take no part.
+    Second route: a little towards the start the force is still positive, a little beyond it would be negative; where
+    there are such factors also in numbers, along the coordinate itself.
+    Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
+    positive whatever the letter is).
+    Errors: the force is not positive from the start on, or it is not linear in the letter.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(_scalar(force))), unknown_of("leaves_contact", letter)
@@ -115,22 +150,26 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
             outcome="never",
             key=key,
         )
-    at_start = tidied(with_unknown(value, unknown, explicit(start)))
+    held, pushing = _held(value, unknown)
+    at_start = tidied(with_unknown(pushing, unknown, explicit(start)))
+    if left_over(pushing, unknown) and left_over(with_unknown(pushing, unknown, mark_for(unknown)), unknown):
+        raise _unsolvable_contact(force, unknown)
     if sign_known(at_start) != 1:
         message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
         raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
-    alone, solved, _ = _solved(force, value, "=", unknown)
+    alone, solved, _ = _solved(force, pushing, "=", unknown)
     if alone != unknown:
         raise _unsolvable(force, unknown)
     result = Relation(unknown, "=", solved)
+    existing = _existing(force, unknown, "=", solved)
 
     def on_both_sides(found: Relation) -> tuple[Any, Any]:
-        """N at the place, and on the way there from the start."""
+        """N at the place, and on the way there from the start, but for the factor that stays positive."""
         there = explicit(found.right)
         way = Dummy("s", positive=True)
         u = way / (1 + way)  # between 0 and 1
-        on_the_way = tidied(with_unknown(value, unknown, there + u * (explicit(start) - there)))
-        at_place = tidied(with_unknown(value, unknown, there))
+        on_the_way = tidied(with_unknown(pushing, unknown, there + u * (explicit(start) - there)))
+        at_place = tidied(with_unknown(pushing, unknown, there))
         expected = u * at_start
         return on_the_way + 7 * at_place, expected
 
@@ -141,18 +180,73 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
         {"force": force},
         lines=Lines(
             put_in=Level.STANDARD,
-            after=[Form(result, "solved", nonzero=_divided_out(value, unknown, solved))],
+            after=[Form(result, "solved", nonzero=(*_divided_out(value, unknown, solved), *Mul.make_args(held)))],
             result=False,
             arranged=lambda _: result,
         ),
-        routes={"on_the_way": on_both_sides},
-        outcome="lost",
+        routes={
+            "on_the_way": on_both_sides,
+            **(
+                {} if held == 1 else {"in_numbers": lambda found: _pushes_until(found, value, unknown, explicit(start))}
+            ),
+        },
+        outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         telling=Telling(
-            formulas={"from": (Relation(unknown, "=", start), Relation(start, "=", unknown))},
-            judged_by={"unknown": unknown},
+            formulas={
+                "from": (Relation(unknown, "=", start), Relation(start, "=", unknown)),
+                **_told(existing=existing),
+            },
+            judged_by={"unknown": unknown, "start": explicit(start)},
         ),
         key=key,
     )
+
+
+def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
+    """Of sin(theta)(a cos(theta) - b) the sine, where it is known to be positive, and the bracket."""
+    u = mark_for(unknown)
+    rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
+    held = Mul(*beside)
+    return (held, rest.xreplace({u: unknown})) if sign_known(held) == 1 else (Integer(1), value)
+
+
+def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
+    """Whether a factor that is positive on the way is zero at the start, as sin(theta) of what stands upright."""
+    (letter, there) = next(iter(meaning(unknown, explicit(start)).items()))
+    return bool(tidied(held.xreplace({letter: there})) == 0)
+
+
+def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
+    letter = letter_of(unknown)
+    message = f"`leaves_contact`: `{force.key}` has factors with {letter} beside {unknown}, of unknown sign"
+    help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
+    return Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> Verdict:
+    """In numbers, along the coordinate itself: the force is positive on the way, zero at the place, negative beyond."""
+    letter = letter_of(unknown)
+    value, begin, end = (with_numbers(each) for each in (value, start, explicit(found.right)))
+    letters = letters_of(value) | letters_of(begin) | letters_of(end)
+    seen = 0
+    for point in islice(points(letters - {letter}, seed_of(value)), POINTS):
+        try:
+            first, last = (value_at(_inverse(unknown, each), point) for each in (begin, end))
+            if not (first.is_real and last.is_real) or first == last:
+                continue
+            there = [value_at(value, {**point, letter: first + (last - first) * way}) for way in ON_THE_WAY]
+        except (Undefined, NoNumber, TypeError):
+            continue
+        if not all(force > 0 for force in there[:-1]) or not there[-1] < 0:
+            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is so beyond it")
+        seen += 1
+    return (
+        Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    )
+
+
+def _inverse(unknown: Expr, value: Expr) -> Expr:
+    return next(iter(meaning(unknown, value).values()))
 
 
 def _scalar(of: Quantity) -> Expr:
@@ -195,11 +289,12 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
 def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
     """What stands alone, the unknown or its square; its bound, and the mark between."""
     u = mark_for(unknown)
-    written = with_unknown(difference, unknown, u)
+    written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):
         raise _unsolvable(of, unknown)
-    core = Mul(*(f for f in Mul.make_args(written) if f.has(u) and not f.xreplace({u: unknown}).is_positive))
-    outside = (written / core).xreplace({u: unknown})
+    factors = Mul.make_args(written)
+    core = Mul(*(f for f in factors if f.has(u) and sign_known(f.xreplace({u: unknown})) != 1))
+    outside = Mul(written / core, *beside).xreplace({u: unknown})
     polynomial = core.as_numer_denom()[0].as_poly(u)
     below = core.as_numer_denom()[1]
     powers = [n for (n,), _ in polynomial.terms()] if polynomial else []
@@ -209,9 +304,10 @@ def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[E
         raise _unsolvable(of, unknown)
     leading = polynomial.all_coeffs()[0]
     rest = polynomial.as_expr().xreplace({u: Integer(0)})
-    rising = sign_known(leading * outside / below)
+    divided = leading * outside / below
+    rising = sign_known(divided)
     if not rising and mark not in ("=", "!="):
-        raise _unsolvable(of, unknown)
+        raise _unsolvable(of, unknown, _without_sign(divided))
     solved = lecture_form(-rest / leading)
     turned = mark if rising != -1 else TURNED[mark]
     if powers[0] == 1:
@@ -219,6 +315,11 @@ def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[E
     if unknown.is_nonnegative and solved.is_nonnegative:
         return unknown, lecture_form(sqrt(solved)), turned
     return unknown**2, solved, turned
+
+
+def _without_sign(value: Expr) -> Expr | None:
+    """The first factor of which no sign is known."""
+    return next((f for f in Mul.make_args(tidied(value)) if sign_known(f) is None), None)
 
 
 def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
@@ -233,19 +334,31 @@ def _divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...
     return (factor,) if sign == 1 else (-factor,) if sign == -1 else ()
 
 
-def _in_steps(difference: Expr, result: Relation) -> list[Form]:
+def _excluded(difference: Expr, alone: Expr, solved: Expr) -> Relation | None:
+    """What must not vanish, since both sides are divided by it."""
+    factor = tidied(difference / (alone - solved))
+    return None if sign_known(factor) else may_vanish(factor.as_numer_denom()[0])
+
+
+def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> list[Form]:
     """Solved at once; or for the square of a positive letter, and then for the letter."""
     alone, solved = result.sides
     divided = _divided_out(difference, alone, solved)
+    if excluded is not None:
+        return [Form(result, "solved", nonzero=(*divided, *Mul.make_args(excluded.left)))]
     squares = Relation(alone**2, result.mark, tidied(solved**2))
     if divided or not (alone.is_positive and solved.is_positive):
         return [Form(result, "solved", nonzero=divided)]
     return [Form(squares, "solved", nonzero=_divided_out(difference, *squares.sides)), Form(result, "solved")]
 
 
-def _unsolvable(of: Quantity, unknown: Expr) -> Rejected:
-    why = "it is not linear in it, or its factor has no known sign"
-    message = f"`{of.key}` cannot be compared by {unknown} alone: {why}"
+def _unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejected:
+    if factor is not None:
+        message = f"`{of.key}` cannot be compared by {unknown} alone: it would be divided by {factor}, of unknown sign"
+        letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))
+        help_line = f"say what is known of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
+        return Rejected(Complaint("no-condition", message, help=help_line))
+    message = f"`{of.key}` cannot be compared by {unknown} alone: it is not linear in it"
     return Rejected(Complaint("no-condition", message, help="give another of the letters it depends on"))
 
 

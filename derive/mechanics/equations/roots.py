@@ -31,7 +31,7 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, explicit, scalar
-from derive.algebra.ranges import ends_within, strict_sign_within
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.quadratics import roots_together
@@ -48,7 +48,7 @@ from derive.mechanics.equations.unknowns import (
     residual_of,
     unknown_of,
 )
-from derive.mechanics.equations.zeros import within_one
+from derive.mechanics.equations.zeros import is_out_of_range, within_one
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Fact, Level, Quantity, is_zero
@@ -138,7 +138,7 @@ def roots(
     kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
     if not kept:
         return (_not_reached(equation, unknown, real, none),)
-    kept = [root for root in kept if not _is_out_of_range(root, unknown)]
+    kept = [root for root in kept if not is_out_of_range(unknown, root.value)]
     if not kept:
         message = f"`roots`: no root of `{equation.key}` lies in the range of {letter_of(unknown)}"
         raise Rejected(Complaint("no-root", message))
@@ -263,13 +263,6 @@ def _asked(equation: Quantity) -> str:
 def _is_positive(unknown: Expr) -> bool:
     """By its letter, or by the range in which that lies."""
     return strict_sign_within(unknown) == 1
-
-
-def _is_out_of_range(root: RootOf, unknown: Expr) -> bool:
-    """Whether the letter would be beyond its range."""
-    ends = ends_within(unknown)
-    beyond = (root.value - ends[1], ends[0] - root.value) if ends else ()
-    return any(end.is_finite is not False and sign_known(tidied(end)) == 1 for end in beyond)
 
 
 def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:

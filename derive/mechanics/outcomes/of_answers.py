@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Expr, Integer, Poly, Rational, Symbol, oo
+from sympy import Expr, Integer, Poly, Rational, Symbol, acos, asin, atan, cos, oo, sin, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -113,6 +113,32 @@ def _always(wanted: bool) -> Predicate:
 
 def _vanishing_force(facts: Judged) -> bool:
     return facts.result.mark == "=" and bool(facts.result.left == facts.inputs["unknown"])
+
+
+def _lost(later: bool) -> Predicate:
+    """By the force at the start, with numbers for the letters: it is positive there, or it is zero."""
+
+    def is_so(facts: Judged) -> bool:
+        letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
+        force = with_numbers(explicit(facts.inputs["force"]).subs(letter, start))
+        seen = []
+        for point in islice(points(letters_of(force), seed_of(force)), 8):
+            try:
+                seen.append(value_at(force, point))
+            except (Undefined, NoNumber):
+                continue
+        there = [value == 0 if later else value > 0 for value in seen if value.is_real]
+        return _vanishing_force(facts) and bool(there) and all(there)
+
+    return is_so
+
+
+def _letter_at(unknown: Expr, start: Expr) -> tuple[Expr, Expr]:
+    if isinstance(unknown, Symbol):
+        return unknown, start
+    if unknown.is_Pow:
+        return unknown.base, start ** (1 / unknown.exp)
+    return unknown.args[0], {cos: acos, sin: asin, tan: atan}[unknown.func](start)
 
 
 def _as_let(equation: bool, reason: bool) -> Predicate:
@@ -256,7 +282,8 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "linear_motion.steady_amplitude": {"damped": _loses(True), "undamped": _loses(False)},
     "linear_motion.lag": {"damped": _loses(True), "undamped": _loses(False)},
     "conditions.leaves_contact": {
-        "lost": _vanishing_force,
+        "lost": _lost(later=False),
+        "lost_later": _lost(later=True),
         "never": sign_is(1, lambda facts: facts.inputs["force"]),
     },
 }
