@@ -54,6 +54,7 @@ from derive.algebra.samples import (
 )
 
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
+LETTERS = 6  # in which two equations may be linear
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -325,9 +326,22 @@ def _ratio(above: Expr, below: Expr) -> Expr:
     if above.has(Float) or below.has(Float):  # what is not exact is not cancelled
         return above / below
     try:
-        return cancel(together(_by_cosines(above) / _by_cosines(below)))
+        found = cancel(together(_by_cosines(above) / _by_cosines(below)))
     except PolynomialError:
-        return above / below
+        found = above / below
+    return found if _never_vanishes(found) else _ratio_by_a_letter(above, below) or found
+
+
+def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
+    """That of the factors of a letter in which both are linear, if it is that of the whole: sin(2 x) hides the common
+    factor of the others."""
+    for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
+        slopes = above.diff(letter), below.diff(letter)
+        if slopes[1] != 0 and not any(slope.has(letter) for slope in slopes):
+            found = cancel(slopes[0] / slopes[1])
+            if _never_vanishes(found) and vanishes(above - found * below):
+                return found
+    return None
 
 
 def _by_cosines(expr: Expr) -> Expr:

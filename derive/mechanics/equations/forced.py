@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, atan, cos, diff, expand, sin, sqrt, tan
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, Symbol, atan, cos, diff, expand, pi, sin, sqrt, tan
 
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation
 from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.equations.zeros import different_from_zero, positive
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
@@ -29,7 +30,7 @@ def steady_amplitude(
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
     Second route: the forced oscillation with this amplitude and this lag put back into the equation.
-    Outcomes: damped, undamped (the oscillation is in step, or opposite).
+    Outcomes: damped, undamped (in step, under a condition where the letters leave it open), opposite.
     Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.5.
     """
@@ -40,6 +41,8 @@ def steady_amplitude(
     w = diff(angle, TIME)
     stiff, loss = linear.c - linear.a * w**2, linear.b * w
     damped = "damped" if linear.b != 0 else "undamped"
+    sign = None if damped == "damped" else sign_known(stiff)
+    excluded = None if damped == "damped" else different_from_zero(stiff)
     size = scalar(symbol)
     lag = scalar("delta")
 
@@ -51,9 +54,17 @@ def steady_amplitude(
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
         """With sin(delta) = tan(delta) cos(delta), what the oscillation leaves a quarter turn on vanishes."""
-        motion = cos(angle) + tangent * sin(angle)
+        motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
         left = linear.a * diff(motion, TIME, 2) + linear.b * diff(motion, TIME) + linear.c * motion
         return expand(left).coeff(sin(angle)), Integer(0)
+
+    in_phase = None if excluded is None else positive(stiff)
+
+    def in_step(lag: Expr) -> tuple[Any, Any]:
+        """Where the stiffness is the greater, the oscillation with the positive amplitude has the sign of the force."""
+        size = Symbol("s", positive=True)
+        there = stiff if sign is not None else size
+        return cos(lag) * there, Abs(there)
 
     amplitude = establish(
         "linear_motion.steady_amplitude",
@@ -66,14 +77,17 @@ def steady_amplitude(
         key=key,
         kind=q.kind,
         telling=Telling(
-            formulas={"motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag))},
+            formulas={
+                "motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag)),
+                **({} if excluded is None else {"excluded": (excluded, _written_out(excluded))}),
+            },
             judged_by={"loss": loss},
         ),
     )
     lags = establish(
         "linear_motion.lag",
         scalar("delta") if damped == "undamped" else tan(lag),
-        lambda *_: Integer(0) if damped == "undamped" else Ratio(loss, stiff),
+        lambda *_: Ratio(loss, stiff) if damped == "damped" else pi if sign == -1 else Integer(0),
         {"equation": equation},
         lines=Lines(
             law=Level.FULL,
@@ -81,13 +95,20 @@ def steady_amplitude(
             arranged=lecture_form,
             means={lag: atan(loss / stiff)} if damped == "damped" else {},
         ),
-        routes={"quarter_turn_on": lagging},
-        outcome=damped,
+        routes={"quarter_turn_on": lagging, **({"put_back": in_step} if damped == "undamped" else {})},
+        outcome="opposite" if sign == -1 else damped,
         key=f"{key}_lag",
         kind="number" if damped == "damped" else "angle",
-        telling=Telling(judged_by={"loss": loss}),
+        telling=Telling(
+            formulas={} if in_phase is None else {"in_step": (in_phase, _written_out(in_phase))},
+            judged_by={"loss": loss, "stiff": stiff},
+        ),
     )
     return amplitude, lags
+
+
+def _written_out(condition: Relation) -> Relation:
+    return Relation(tidied(condition.left), condition.mark, tidied(condition.right))
 
 
 def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:

@@ -37,6 +37,7 @@ from derive.algebra.expressions import TIME, Relation, Terms, explicit, scalar
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
+from derive.mechanics.equations.zeros import different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
@@ -136,6 +137,9 @@ def _told(
     told: dict[str, tuple[Any, Any]] = {"start": (_equals(q.symbol, first), _equals(first, q.symbol))}
     if initial is not None:
         told["start_rate"] = (_equals(q.rate, initial), _equals(initial, q.rate))
+    excluded = _excluded(linear)
+    if excluded is not None:
+        told["excluded"] = (excluded, Relation(tidied(excluded.left), "!=", tidied(excluded.right)))
     if condition is not None:
         told["condition"] = (condition, Relation(tidied(condition.left), condition.mark, tidied(condition.right)))
     return told
@@ -310,6 +314,24 @@ def _under_swing(linear: Linear, swing: Expr) -> Expr:
     if stiff == 0 and loss == 0:
         return TIME * quarter_on / (2 * linear.a * w)
     return (stiff * swing + loss * quarter_on) / (stiff**2 + loss**2)
+
+
+def _excluded(linear: Linear) -> Relation | None:
+    """What must not vanish for the motion under what drives it: no free motion may have its frequency, or its rate."""
+    found: dict[Relation, None] = {}
+    for term in Add.make_args(_driving(linear.driven)):
+        for f in term.atoms(sin, cos, exp):
+            w = diff(f.args[0], TIME)
+            if w == 0 or linear.order == 1 and linear.c == 0 or not isinstance(f, exp) and linear.b != 0:
+                continue
+            below = linear.a * w**2 + linear.b * w if isinstance(f, exp) else -linear.a * w**2
+            below = tidied(linear.c + below)
+            condition = None if is_zero(below) else different_from_zero(below)
+            if condition is not None:
+                found[condition] = None
+    if len(found) < 2:
+        return next(iter(found), None)
+    return Relation(Mul(*(each.residual for each in found)), "!=", ZERO)
 
 
 def _accumulated(inside: Expr, equation: Quantity) -> Expr:

@@ -39,6 +39,7 @@ from derive.algebra.expressions import Relation
 from derive.algebra.ranges import ends_within
 from derive.algebra.tidy import tidied
 from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume
 
 HIGHEST = 6  # power of a coordinate
@@ -221,6 +222,14 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     if len(below) == 1 and len(above) == 1 or not below:
         return Relation(spread(Add(*above)), ">", spread(Add(*below)))
     return Relation(tidied(core), ">", 0)
+
+
+def different_from_zero(value: Expr) -> Relation | None:
+    """What must be so that a value by which one divides does not vanish, omega^2 != k/m; nothing where it cannot."""
+    if sign_known(value) is not None:
+        return None
+    condition = positive(value)
+    return Relation(condition.left, "!=", condition.right)
 
 
 def _solved(core: Expr, letter: Symbol) -> Relation | None:

@@ -223,6 +223,11 @@ def _loses(wanted: bool) -> Predicate:
     return lambda facts: is_zero(facts.inputs["loss"]) != wanted
 
 
+def _in_step(*signs: int | None) -> Predicate:
+    """Without loss, with the force or against it by the sign of what is left of the stiffness."""
+    return lambda facts: is_zero(facts.inputs["loss"]) and sign_known(facts.inputs["stiff"]) in signs
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "equations.let": {
         "generic": _as_let(False, False),
@@ -280,7 +285,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         )
     },
     "linear_motion.steady_amplitude": {"damped": _loses(True), "undamped": _loses(False)},
-    "linear_motion.lag": {"damped": _loses(True), "undamped": _loses(False)},
+    "linear_motion.lag": {"damped": _loses(True), "undamped": _in_step(1, None), "opposite": _in_step(-1)},
     "conditions.leaves_contact": {
         "lost": _lost(later=False),
         "lost_later": _lost(later=True),
