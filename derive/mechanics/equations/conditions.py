@@ -13,6 +13,7 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import of_the_size, sign_by_factors
+from derive.mechanics.equations.reach import reached
 from derive.mechanics.equations.unknowns import (
     lecture_form,
     left_over,
@@ -24,7 +25,6 @@ from derive.mechanics.equations.unknowns import (
     with_unknown,
     without_factors_beside,
 )
-from derive.mechanics.equations.zeros import reached
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Form, Level, Quantity, value_behind

@@ -12,18 +12,20 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, factor, lambdify, sin
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, diff, factor, lambdify, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
 from derive.algebra.collect import by_terms
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar
+from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest
+from derive.mechanics.equations.reach import lies_within
 from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.mechanics.systems.coordinates import Coordinate
@@ -168,11 +170,28 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
         message = f"the states of rest of `{of.key}` have no closed form: where {fault.factor} vanishes is not known"
         help_line = "give a state of rest that you know where it is needed, `at={theta: 0}`"
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
+    found = [state for state in found if _in_range(of, state)]
     if not found:
-        raise Rejected(Complaint("no-equilibrium", f"`{of.key}` has no state of rest: its force vanishes nowhere"))
+        ranged = [q.name for q in forces if range_of(q) is not None]
+        where = f" for {' and '.join(ranged)} in the range that is given" if ranged else ""
+        raise Rejected(
+            Complaint("no-equilibrium", f"`{of.key}` has no state of rest: its force vanishes nowhere{where}")
+        )
     if len(found) > MOST:
         raise Rejected(Complaint("too-large", f"`{of.key}` has more than {MOST} states of rest"))
     return found
+
+
+def _in_range(of: Quantity, state: State) -> bool:
+    """Whether the coordinates are in their ranges there."""
+    inside = {q: lies_within(q, value, state.exists) for q, value in state.values.items()}
+    open_ = next((q for q, known in inside.items() if known is None), None)
+    if open_ is not None:
+        message = (
+            f"`{of.key}`: whether {open_} = {state.values[open_]} is in the range of {open_} depends on the letters"
+        )
+        raise Rejected(Complaint("range", message, help=f"give {open_} a wider range, or none"))
+    return all(inside.values())
 
 
 def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
@@ -349,7 +368,7 @@ def _rest(
         lambda *_: values[0] if single else Amplitudes(*values),
         {f"condition_{i}": condition for i, condition in enumerate(conditions)},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"no_force": no_force, **({"counted": counted} if len(sought) == 1 else {})},
+        routes={"no_force": no_force, **({"counted": counted} if _is_countable(sought) else {})},
         outcome=outcome,
         telling=Telling(formulas=told, judged_by={"count": Integer(len(states)), "distances": distances}),
         key=f"rest_{n + 1}" if len(states) > 1 else "rest",
@@ -357,6 +376,12 @@ def _rest(
         facts=[Rest(dict(state.values), state.exists), RestOf(potential, tuple(sought))],
         parents=[potential],
     )
+
+
+def _is_countable(sought: Sequence[Symbol]) -> bool:
+    """Changes of sign are those of the force of one coordinate, which has no place at an end of its range."""
+    known = range_of(sought[0])
+    return len(sought) == 1 and (known is None or True not in known.closed)
 
 
 def _counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found: Expr) -> Verdict:
@@ -373,7 +398,8 @@ def _counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found: Expr
         expected = sorted(number for number in numbers if number is not None)
         curve = lambdify([q], force.xreplace(point), "math")
         scale = max([abs(x) for x in expected if x] or [1.0])
-        grid = _grid(angle, bool(q.is_positive), scale)
+        known = range_of(q)
+        grid = _grid(angle, bool(q.is_positive), scale) if known is None else _grid_within(known)
         signs = [s for s in (_sign(curve, x) for x in grid) if s]
         changes = sum(1 for one, other in pairwise(signs) if one != other)
         if changes != len(expected) or own is not None and own not in expected:
@@ -394,6 +420,10 @@ def _grid(angle: bool, positive: bool, scale: float) -> list[float]:
         (i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)
     ]
     return [scale * math.tan(u) for u in ends]
+
+
+def _grid_within(known: Range) -> list[float]:
+    return [float(known.at(Rational(2 * i + 1, 2 * STEPS))) for i in range(STEPS)]
 
 
 def _sign(curve: Any, x: float) -> int:

@@ -35,6 +35,7 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.quadratics import roots_together
+from derive.mechanics.equations.reach import is_out_of_range
 from derive.mechanics.equations.unknowns import (
     coordinates_of,
     factors_elsewhere,
@@ -48,7 +49,7 @@ from derive.mechanics.equations.unknowns import (
     residual_of,
     unknown_of,
 )
-from derive.mechanics.equations.zeros import is_out_of_range, within_one
+from derive.mechanics.equations.zeros import within_one
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Fact, Level, Quantity, is_zero

@@ -36,7 +36,6 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import ends_within
 from derive.algebra.tidy import tidied
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.steps.known_numbers import sign_known
@@ -186,24 +185,6 @@ def within_one(value: Expr) -> tuple[Relation | None, bool]:
     if known is not None:
         return None, known != 1
     return positive(room), False
-
-
-def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
-    """The condition under which the letter of an unknown can be such that this has the value; and whether it never can.
-
-    No cosine is greater than one, and no letter leaves its range.
-    """
-    exists, never = (None, False)
-    if isinstance(unknown, sin | cos) and value not in (1, -1):
-        exists, never = within_one(value)
-    return exists, never or is_out_of_range(unknown, value)
-
-
-def is_out_of_range(unknown: Expr, value: Expr) -> bool:
-    """Whether the letter would be beyond its range."""
-    ends = ends_within(unknown)
-    beyond = (value - ends[1], ends[0] - value) if ends else ()
-    return any(end.is_finite is not False and sign_by_factors(tidied(end)) in (0, 1) for end in beyond)
 
 
 def positive(value: Expr, letter: Symbol | None = None) -> Relation:
