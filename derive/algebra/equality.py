@@ -54,7 +54,7 @@ from derive.algebra.samples import (
 )
 
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
-LETTERS = 6  # in which two equations may be linear
+LETTERS = 6  # by which slopes are compared
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -333,13 +333,13 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """That of the factors of a letter in which both are linear, if it is that of the whole: sin(2 x) hides the common
-    factor of the others."""
+    """That of the slopes by a letter, if it is that of the whole: where sin(2 x) or a fractional power stands in one of
+    them, common factors do not show."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = above.diff(letter), below.diff(letter)
-        if slopes[1] != 0 and not any(slope.has(letter) for slope in slopes):
+        if slopes[1] != 0:
             found = cancel(slopes[0] / slopes[1])
-            if _never_vanishes(found) and vanishes(above - found * below):
+            if not found.has(letter) and _never_vanishes(found) and vanishes(above - found * below):
                 return found
     return None
 

@@ -74,7 +74,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
     if _settled_by_its_letter(alone, solved):
         return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
     result = Relation(alone, turned, solved)
-    existing, excluded = _existing(of, alone, turned, solved), _excluded(difference, alone, solved)
+    existing, excluded = _existing(of, alone, turned, solved), _excluded(difference, result)
 
     def same_truth(found: Relation) -> Verdict:
         return _same_truth(found, difference, mark, unknown)
@@ -334,9 +334,11 @@ def _divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...
     return (factor,) if sign == 1 else (-factor,) if sign == -1 else ()
 
 
-def _excluded(difference: Expr, alone: Expr, solved: Expr) -> Relation | None:
-    """What must not vanish, since both sides are divided by it."""
-    factor = tidied(difference / (alone - solved))
+def _excluded(difference: Expr, result: Relation) -> Relation | None:
+    """What must not vanish, since both sides of an equation are divided by it."""
+    if result.mark not in ("=", "!="):
+        return None
+    factor = tidied(difference / result.residual)
     return None if sign_known(factor) else may_vanish(factor.as_numer_denom()[0])
 
 

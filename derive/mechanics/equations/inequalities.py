@@ -16,6 +16,7 @@ from derive.steps.step import Form, Level, Quantity, is_zero
 __all__ = ["boundary_case", "positive_where"]
 
 TURNED = {">": "<", ">=": "<="}
+_WORDS = {1: ("always", ">"), -1: ("never", "<"), 0: ("vanishing", "=")}
 TRUE_FOR = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
 
 
@@ -33,7 +34,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
     Source: none needed: algebra of inequalities.
     """
     value = tidied(of.value)
-    if value == 0 or value.is_positive or value.is_negative:
+    if value == 0 or strict_sign_within(value) is not None:
         return _of_known_sign(of, value, key)
     mark = ">=" if or_zero else ">"
     sign, core = _of_unknown_sign(value)
@@ -69,7 +70,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
 
 
 def _of_known_sign(of: Quantity, value: Expr, key: str) -> Quantity:
-    outcome, mark = ("vanishing", "=") if value == 0 else ("always", ">") if value.is_positive else ("never", "<")
+    outcome, mark = _WORDS[strict_sign_within(value) or 0]
     return establish(
         "conditions.positive_where",
         None,
@@ -91,10 +92,11 @@ def _of_unknown_sign(value: Expr) -> tuple[int, Expr]:
     """The sign of the factors whose sign is known, and the product of those that decide."""
     sign, open_factors = 1, []
     for factor in Mul.make_args(value):
-        if factor.is_negative:
-            sign = -sign
-        elif not factor.is_positive:
+        known = strict_sign_within(factor)
+        if known is None:
             open_factors.append(factor)
+        else:
+            sign *= known
     return sign, Mul(*open_factors)
 
 
@@ -117,7 +119,7 @@ def _bound(core: Expr, letter: Symbol) -> tuple[Expr, int, int] | None:
     if powers not in ([1, 0], [2, 0]):
         return None
     leading, rest = polynomial.all_coeffs()[0], polynomial.all_coeffs()[-1]
-    rising = 1 if leading.is_positive else -1 if leading.is_negative else 0
+    rising = strict_sign_within(leading) or 0
     bound = tidied(-rest / leading)
     if not rising or (powers[0] == 1 and letter.is_positive and not bound.is_positive):
         return None

@@ -31,6 +31,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import Ratio, Relation, Root, Terms, explicit, scalar
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import Pencil
@@ -302,7 +303,7 @@ def _pair(first: Expr, second: Expr) -> str:
     if is_zero(first) or is_zero(second):
         return "alone"
     ratio = tidied(second / first)
-    return "in_phase" if ratio.is_positive else "opposite" if ratio.is_negative else "generic"
+    return {1: "in_phase", -1: "opposite", None: "generic"}[strict_sign_within(ratio)]
 
 
 def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quantity:

@@ -9,6 +9,7 @@ from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, 
 from derive.algebra.collect import spread
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import OfCoordinate, T
@@ -127,7 +128,7 @@ def sign_of(value: Expr) -> str:
     value = tidied(value)
     if value == 0:
         return "neutral"
-    return "stable" if value.is_positive else "unstable" if value.is_negative else "conditional"
+    return {1: "stable", -1: "unstable", None: "conditional"}[strict_sign_within(value)]
 
 
 def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequency") -> Quantity:

@@ -8,6 +8,7 @@ from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial, nan, 
 
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import NoSeries, taylor
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -41,7 +42,7 @@ class LowestOrder(Fact):
 
     @property
     def is_minimum(self) -> bool:
-        return self.order % 2 == 0 and bool(self.coefficient.is_positive)
+        return self.order % 2 == 0 and strict_sign_within(self.coefficient) == 1
 
 
 @dataclass(frozen=True)
@@ -237,6 +238,6 @@ def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]
 
 
 def _shape(order: int, leading: Expr, at_bound: bool) -> str:
-    even = "minimum" if leading.is_positive else "maximum" if leading.is_negative else "conditional"
+    even = {1: "minimum", -1: "maximum"}.get(strict_sign_within(leading) or 0, "conditional")
     shape = "flat" if order == 0 else "inflection" if order % 2 else even
     return f"{shape}_at_bound" if at_bound else shape

@@ -15,6 +15,7 @@ from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, bound, explicit, rate, scalar
+from derive.algebra.ranges import never_vanishes_within, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import RestOf, matter_behind
@@ -161,7 +162,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
     slope = bound(diff(explicit(of.value), q.symbol), motion)
     core = _without_positive(_rates_first(lecture_form(-slope), steady))
-    if core.is_nonzero:
+    if core.is_nonzero or core != 0 and never_vanishes_within(core):
         raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
     told |= {f"turns_{n}": (rate(s), v) for n, (s, v) in enumerate(steady.rates.items(), 1) if rate(s) != v}
@@ -193,7 +194,9 @@ def _rates_first(value: Expr, steady: Steady) -> Expr:
 
 
 def _without_positive(value: Expr) -> Expr:
-    return Mul(*(f for f in Mul.make_args(value) if not f.is_positive and not (f.is_Rational and f.is_nonzero)))
+    return Mul(
+        *(f for f in Mul.make_args(value) if strict_sign_within(f) != 1 and not (f.is_Rational and f.is_nonzero))
+    )
 
 
 def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:

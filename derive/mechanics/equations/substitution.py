@@ -10,6 +10,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
 
 from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
+from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.unknowns import (
     coordinates_of,
@@ -282,7 +283,7 @@ def _arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     if value.free_symbols & fast:
         return Relation(by_accelerations(value.left, moving), value.mark, Integer(0))
     left = lecture_form(value.left)
-    kept = [f for f in Mul.make_args(left) if not f.is_positive]
+    kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
     core = Mul(*kept) if kept else left
     return Relation(lecture_form(core), value.mark, Integer(0))
 

@@ -36,6 +36,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
+from derive.algebra.ranges import settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.steps.known_numbers import sign_known
@@ -66,7 +67,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
-            found.setdefault(tidied(zero.value), zero)
+            found.setdefault(tidied(zero.value), Zero(settled(zero.value), zero.exists))
     return sorted(found.values(), key=_order)
 
 
@@ -192,7 +193,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
     What is added stands on one side, what is subtracted on the other: R omega^2 > g.
     """
-    core = Mul(*(f for f in Mul.make_args(tidied(value)) if not f.is_positive)).as_numer_denom()[0]
+    core = Mul(*(f for f in Mul.make_args(tidied(value)) if strict_sign_within(f) != 1)).as_numer_denom()[0]
     core = expand(core)
     chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
     if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
