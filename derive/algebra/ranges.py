@@ -142,10 +142,18 @@ def _sign_of_sum(total: Expr) -> int | None:
     for sign in (1, -1):
         terms = [sign * term for term in total.args]
         strict = [sign_within(term) == 1 for term in terms]
-        if any(strict) and all(sure or term.is_nonnegative for sure, term in zip(strict, terms, strict=True)):
+        if any(strict) and all(sure or _is_nonnegative(term) for sure, term in zip(strict, terms, strict=True)):
             return sign
     ends = _ends(total)
     return None if ends is None else _sign_between(*ends)
+
+
+def _is_nonnegative(term: Expr) -> bool:
+    """Whether its factors are positive, or not negative: c^2 sin(alpha)."""
+    if term.is_nonnegative:
+        return True
+    open_factors = Mul(*(f for f in Mul.make_args(term) if not f.is_nonnegative))
+    return sign_within(open_factors) == 1
 
 
 def _sign_by_squares(total: Add) -> int | None:

@@ -42,7 +42,7 @@ def positive_where(of: Quantity, letter: Expr, or_zero: bool = False, key: str =
     turned = mark if (rising > 0) == (sign > 0) else TURNED[mark]
     core = spread(sign * core)
     steps = [Form(Relation(core, mark, 0), "positive_factors", Level.STANDARD)]
-    has_root = power == 1 or bool(bound.is_positive and letter.is_positive)
+    has_root = power == 1 or bool(_is_positive(bound) and letter.is_positive)
     alone = letter if has_root else letter**2
     if power == 2 and has_root:
         steps.append(Form(Relation(letter**2, turned, tidied(bound**2)), "solved", Level.STANDARD))
@@ -121,11 +121,15 @@ def _bound(core: Expr, letter: Symbol) -> tuple[Expr, int, int] | None:
     leading, rest = polynomial.all_coeffs()[0], polynomial.all_coeffs()[-1]
     rising = strict_sign_within(leading) or 0
     bound = tidied(-rest / leading)
-    if not rising or (powers[0] == 1 and letter.is_positive and not bound.is_positive):
+    if not rising or (powers[0] == 1 and letter.is_positive and not _is_positive(bound)):
         return None
-    if powers[0] == 2 and bound.is_positive and letter.is_positive:
+    if powers[0] == 2 and _is_positive(bound) and letter.is_positive:
         bound = tidied(sqrt(bound))
     return (spread(bound) if powers[0] == 1 else bound), powers[0], rising
+
+
+def _is_positive(value: Expr) -> bool:
+    return strict_sign_within(value) == 1
 
 
 def _unsolvable(of: Quantity, letter: Expr) -> Rejected:
@@ -146,7 +150,7 @@ def _truths_beside(found: Relation, value: Expr, or_zero: bool, side: int) -> tu
 def _beside(bound: Expr, side: int, of_square: bool) -> Expr:
     """A little beside a bound: by a factor where it is positive, so that no sign is passed; else by an amount."""
     little = Dummy("u", positive=True)
-    if bound.is_positive and not of_square:
+    if _is_positive(bound) and not of_square:
         return bound * (1 + little) ** side
     return bound + side * little
 
