@@ -5,20 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from sympy import Abs, Expr, Integer, Symbol, cos, pi, sin, sqrt, tan
+from sympy import Abs, Expr, Integer, Rational, Symbol, cos, oo, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
-from derive.algebra.ranges import Range, settled, sign_within, within
+from derive.algebra.ranges import (
+    POSITIVE,
+    Range,
+    ends_within,
+    never_vanishes_within,
+    rational_in_range,
+    settled,
+    sign_within,
+    strict_sign_within,
+    within,
+)
 from derive.algebra.tidy import tidied
 
 alpha = Symbol("alpha", positive=True)
 beta = Symbol("beta", real=True)
-a = Symbol("a", positive=True)
+a, b = symbols("a b", positive=True)
+x, P, E = symbols("x P E", real=True)
 
 
 @pytest.fixture(autouse=True)
 def acute() -> Iterator[None]:
-    with within({alpha: Range(Integer(0), pi / 2), beta: Range(-pi / 2, pi / 2)}):
+    acute = Range(Integer(0), pi / 2)
+    with within({alpha: acute, beta: Range(-pi / 2, pi / 2), P: POSITIVE, E: Range(-oo, Integer(0))}):
         yield
 
 
@@ -40,6 +52,23 @@ def acute() -> Iterator[None]:
         (-a * cos(beta), -1),
         (alpha - beta, None),
         (alpha - a, None),
+        (1 + 2 * cos(alpha) ** 2, 1),
+        (1 - cos(alpha), 1),
+        (1 - cos(beta), None),  # it vanishes within
+        (sin(alpha) - 1, -1),
+        (3 * cos(alpha) - 2, None),
+        (sqrt(cos(alpha)) * a, 1),
+        (sqrt(sin(beta)), None),
+        (a + x**2 * sin(alpha), 1),
+        (a - x**2 * sin(alpha), None),
+        (-a - x**2 * sin(alpha), -1),
+        (a + b - b * cos(x) ** 2, 1),
+        (Abs(sin(alpha)) * x, None),
+        (P, 1),
+        (P - 1, None),
+        (x - E, None),
+        (E, -1),
+        (a - E, 1),
     ],
 )
 def test_a_sign_is_told_where_it_is_one_in_the_whole_range(expr: Expr, sign: int | None) -> None:
@@ -61,3 +90,42 @@ def test_what_is_equal_in_the_range_is_equal() -> None:
 def test_nothing_is_known_outside() -> None:
     with within({alpha: Range(-pi, pi)}):
         assert not equal(Abs(sin(alpha)), sin(alpha))
+
+
+def test_an_end_that_is_reached_may_be_a_zero() -> None:
+    with within({beta: Range(Integer(0), pi / 2, (True, True))}):
+        assert sign_within(sin(beta)) == 1
+        assert strict_sign_within(sin(beta)) is None
+        assert not never_vanishes_within(sin(beta))
+        assert ends_within(sin(beta)) is None
+    assert never_vanishes_within(a * sin(alpha) / cos(beta))
+    assert not never_vanishes_within(x * sin(alpha))
+
+
+@pytest.mark.parametrize(
+    ("expr", "ends"),
+    [
+        (cos(alpha), (0, 1)),
+        (sin(alpha), (0, 1)),
+        (sin(beta), (-1, 1)),
+        (cos(beta), None),  # it rises and falls
+        (P, (0, oo)),
+        (E, (-oo, 0)),
+        (2 * alpha - pi, (-pi, 0)),
+        (x, None),
+    ],
+)
+def test_ends_are_those_of_what_only_rises_or_falls(expr: Expr, ends: tuple[object, object] | None) -> None:
+    assert ends_within(expr) == ends
+
+
+@pytest.mark.parametrize("letter", [alpha, beta, P, E])
+def test_numbers_are_drawn_from_the_range(letter: Symbol) -> None:
+    for number in (Rational(1, 1000), Integer(1), Integer(1000)):
+        there = rational_in_range(letter, number)
+        ends = ends_within(letter)
+        assert ends is not None
+        assert there.is_Rational
+        assert ends[0] < there < ends[1]
+    assert rational_in_range(P, Integer(7)) == 7
+    assert rational_in_range(a, Integer(7)) == 7
