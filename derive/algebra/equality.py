@@ -339,9 +339,13 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
         slopes = above.diff(letter), below.diff(letter)
         if slopes[1] != 0:
             found = cancel(slopes[0] / slopes[1])
-            if not found.has(letter) and _never_vanishes(found) and vanishes(above - found * below):
+            if not found.has(letter) and _never_vanishes(found) and _is_nothing(above - found * below):
                 return found
     return None
+
+
+def _is_nothing(difference: Expr) -> bool:
+    return difference.expand() == 0 or vanishes(difference)
 
 
 def _by_cosines(expr: Expr) -> Expr:

@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
+from derive.algebra.ranges import Range
 from derive.course.expression import Declared
 from derive.course.schema import SCALAR, Record, as_written, key, mapping_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
@@ -259,8 +260,17 @@ def _state(
             faults.error("no-such-coordinate", f"there is no coordinate `{q}`", q.place, help=help_line)
             continue
         with faults:
-            found.append((str(q), letters.of_kind(node, str(q), coordinates[q].kind)))
+            value = letters.of_kind(node, str(q), coordinates[q].kind)
+            _check_range(q, value, coordinates[q].lies)
+            found.append((str(q), value))
     return tuple(found)
+
+
+def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
+    """About an end of its range, or beyond it, nothing of small displacements to both sides is known."""
+    if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
+        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so that {value} is no state to start from"
+        rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")
 
 
 def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object]:

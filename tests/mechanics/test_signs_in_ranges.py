@@ -302,6 +302,12 @@ def test_an_end_at_infinity_is_not_closed(tmp_path: Path) -> None:
     assert [said.partition(": ")[2] for said in messages(tmp_path, text)] == ["`A` cannot be infinite"]
 
 
+def test_a_state_is_within_the_range(tmp_path: Path) -> None:
+    text = edited(DUMBBELL, ("  results:\n", "  at: {q: 0}\n  results:\n"))
+    (message,) = messages(tmp_path, text)
+    assert message.endswith("`q` lies between 0 and pi/2, so that 0 is no state to start from")
+
+
 def test_a_length_that_varies_may_be_negative(tmp_path: Path) -> None:
     found = solved(tmp_path, edited(DUMBBELL, ("{x: length,", "{x: 'length in (-1 m, 1 m)',")))
     assert "off" in found
