@@ -316,3 +316,67 @@ def test_a_length_that_varies_may_be_negative(tmp_path: Path) -> None:
 def test_sizes_in_ranges() -> None:
     assert equal(sqrt(sin(alpha) ** 2 * (1 - cos(alpha)) ** 2), sin(alpha) * (1 - cos(alpha)))
     assert not equal(Abs(sin(alpha) - cos(alpha)), sin(alpha) - cos(alpha))
+
+
+TROUGH = """\
+title: A rod in a trough
+solve: system
+symbols: {M: mass, R: length, beta: 'angle in (0, pi/2)', g: acceleration}
+given:
+  coordinates: {q: angle}
+  places: {middle: [R*cos(beta)*sin(q), -R*cos(beta)*cos(q)]}
+  bodies: {rod: {moments: M*R**2*sin(beta)**2/3, mass: M, turned: q, centre: middle}}
+  at: {q: 0}
+  gravity: g
+statement: A rod.
+parts:
+  - ask: With what frequency does it swing?
+    answer: [stability, normal_modes]
+"""
+
+
+def test_a_rod_in_a_trough_swings_whatever_its_length_is(tmp_path: Path) -> None:
+    """Lamb, *Dynamics*, section 52: omega^2 = 3 g cos(beta)/(R (1 + 2 cos(beta)^2))."""
+    found = solved(tmp_path, TROUGH)
+    beta = symbols("beta", positive=True)
+    assert equal(found["frequency"].value ** 2, 3 * g * cos(beta) / (R * (1 + 2 * cos(beta) ** 2)))
+    assert found["frequency"].step.outcome == "oscillating"
+    assert found["stability"].step.outcome == "stable"
+
+
+def test_upside_down_it_falls(tmp_path: Path) -> None:
+    found = solved(tmp_path, edited(TROUGH, ("beta: 'angle in (0, pi/2)'", "beta: 'angle in (pi/2, pi)'")))
+    assert (found["kappa"] if "kappa" in found else found["frequency"]).step.outcome == "growing"
+
+
+def test_a_wrong_sign_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The law takes the range for another; the words are judged by numbers of the range."""
+    from derive.mechanics.equations.characteristic import Pencil
+
+    monkeypatch.setattr(Pencil, "_sign", lambda self, value: -1)
+    (message,) = messages(tmp_path, edited(TROUGH, ("[stability, normal_modes]", "normal_modes")))
+    assert "disagrees" in message or "does not fit" in message
+
+
+MORSE = """\
+title: Two atoms
+solve: system
+symbols: {m: mass, A: positive energy, R: length, S: length}
+given:
+  coordinates: {r: positive length}
+  particles: {atom: {mass: m, at: [r, 0]}}
+  potential: A*((exp((R - r)/S) - 1)**2 - 1)
+  at: {r: R}
+statement: Two atoms.
+parts:
+  - ask: How do they swing?
+    answer: [stability, normal_modes]
+"""
+
+
+def test_two_atoms_are_bound_if_the_energy_is_positive(tmp_path: Path) -> None:
+    """Morse; Taylor, problem 5.2: U'' = 2 A/S^2, omega^2 = 2 A/(m S^2)."""
+    found = solved(tmp_path, MORSE)
+    A, S = symbols("A S", positive=True)
+    assert equal(found["frequency"].value ** 2, 2 * A / (m * S**2))
+    assert found["stability"].step.outcome == "stable"
