@@ -9,6 +9,7 @@ from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Rat
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -293,7 +294,7 @@ def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[E
     if left_over(written, unknown):
         raise _unsolvable(of, unknown)
     factors = Mul.make_args(written)
-    core = Mul(*(f for f in factors if f.has(u) and sign_known(f.xreplace({u: unknown})) != 1))
+    core = Mul(*(f for f in factors if f.has(u) and strict_sign_within(f.xreplace({u: unknown})) != 1))
     outside = Mul(written / core, *beside).xreplace({u: unknown})
     polynomial = core.as_numer_denom()[0].as_poly(u)
     below = core.as_numer_denom()[1]

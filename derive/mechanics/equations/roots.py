@@ -133,7 +133,7 @@ def roots(
     real = [root for root in every if len(root.coefficients) == 2 or sign_known(root.discriminant) != -1]
     if not real:
         return (_no_root(equation, unknown, every, False, none),)
-    kept = [root for root in real if _sign(root) not in ((-1, 0) if _is_positive(unknown) else ())]
+    kept = [root for root in real if _sign(root) not in ((-1, 0) if strict_sign_within(unknown) == 1 else ())]
     if not kept:
         return (_no_root(equation, unknown, real, True, none),)
     kept = [root for root in kept if not _is_out_of_reach(root, unknown)]
@@ -216,7 +216,7 @@ def _step(
             judged_by={
                 "polynomial": polynomial.as_expr(),
                 "gen": polynomial.gen,
-                "positive": Integer(_is_positive(unknown)),
+                "positive": Integer(strict_sign_within(unknown) == 1),
                 "place": Integer(i),
                 "count": Integer(len(kept)),
             },
@@ -259,11 +259,6 @@ def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: b
 
 def _asked(equation: Quantity) -> str:
     return "zeros" if is_number(equation) else "roots"
-
-
-def _is_positive(unknown: Expr) -> bool:
-    """By its letter, or by the range in which that lies."""
-    return strict_sign_within(unknown) == 1
 
 
 def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
@@ -403,7 +398,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
         _, b, c = root.coefficients
         mark = ">" if b == 0 and sign_known(c) else ">="  # of a x^2 + c with a = 0 there is no root
         return Relation(lecture_form(_without_positive(root.discriminant)), mark, ZERO)
-    if _is_positive(unknown) and _sign(root) is None:
+    if strict_sign_within(unknown) == 1 and _sign(root) is None:
         return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
     return None
 
