@@ -311,11 +311,17 @@ def _is_square_of_letters(value: Expr) -> bool:
     above, below = value.as_numer_denom()
     parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
     letters = [base.args[0] if isinstance(base, Abs) else base if power.is_even else None for base, power in parts]
-    if not letters or not below.is_positive or not all(isinstance(s, Symbol) and s.is_real for s in letters):
+    if not letters or not _is_size(below) or not all(isinstance(s, Symbol) and s.is_real for s in letters):
         return False
     for letter in letters:
         assume(Relation(letter, "!=", Integer(0)))
     return True
+
+
+def _is_size(below: Expr) -> bool:
+    """Whether what stands below a fraction, and so does not vanish, is positive: c^2, or the size of c."""
+    parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
+    return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:

@@ -14,7 +14,7 @@ from sympy import Expr, Rational, diff, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import rational_in_range
+from derive.algebra.ranges import range_of, rational_in_range
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -24,11 +24,19 @@ LITTLE = Rational(1, 10**12)
 
 
 def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
-    """Numbers for the letters, one large where another is small, of all the orders that they may have."""
+    """Numbers for the letters, one large where another is small, of all the orders that they may have.
+
+    A letter that may be negative is so in some of them.
+    """
     ordered = sorted(letters, key=str)
     for shift in range(SHIFTS):
         drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
-        yield {s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}
+        turned = [-1 if _may_be_negative(s) and shift >> i % 4 & 1 else 1 for i, s in enumerate(ordered)]
+        yield {s: turn * rational_in_range(s, number) for s, number, turn in zip(ordered, drawn, turned, strict=True)}
+
+
+def _may_be_negative(letter: Any) -> bool:
+    return not letter.is_nonnegative and range_of(letter) is None
 
 
 def _entries(value: Any) -> list[Expr]:
