@@ -239,8 +239,6 @@ def refused(case: str) -> Any:
         return normal_modes(linearised(chain([w, w], [k, k, k])), symbol="omega")
     if case == "cubic":
         return normal_modes(linearised(chain([m, m, m], [k, k, k, c])))
-    if case == "rates":
-        return normal_modes(linearised(turning()))
     if case == "nonlinear":
         return normal_modes(double()[0])
     if case == "beats of one":
@@ -260,7 +258,6 @@ def refused(case: str) -> Any:
         ("one of two", "needs all the equations"),
         ("taken", "omega stands for something that is given"),
         ("cubic", "the squares of 3 frequencies are the roots of a polynomial that does not factor"),
-        ("rates", "needs equations without rates"),
         ("nonlinear", "is not an equation of motion to first order"),
         ("beats of one", "do not beat"),
         ("driven", "holds the time itself"),
@@ -277,8 +274,8 @@ def test_where_omega_is_given_a_frequency_is_called_by_the_capital_letter() -> N
 
 
 WRONG: dict[str, tuple[Any, str, Callable[..., Any]]] = {
-    "a root too large": (modes, "_root_of", lambda square: 2 * sqrt(square)),
-    "a root of the other sign": (modes, "_root_of", lambda square: -sqrt(square)),
+    "a root too large": (modes, "root_of", lambda square: 2 * sqrt(square)),
+    "a root of the other sign": (modes, "root_of", lambda square: -sqrt(square)),
     "another shape": (
         characteristic,
         "_presentable",

@@ -42,7 +42,9 @@ from sympy.polys.polytools import invert
 from sympy.simplify.fu import TR5, TR6, TR8
 
 from derive.algebra.amplitudes import determinant_of
+from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import Relation
+from derive.algebra.expressions import Root as RootSign
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
@@ -297,3 +299,18 @@ def _size(value: Expr) -> tuple[float, str]:
     letters = sorted(value.free_symbols, key=str)
     number = value.subs({s: Integer(prime(n + 20)) / prime(20) for n, s in enumerate(letters)}).evalf()
     return (float(number) if number.is_real else 0.0), str(value)
+
+
+def root_of(square: Expr) -> Expr:
+    """sqrt(k/m) under one root; a rational root is drawn, and so is that of a sine."""
+    drawn = tidied(sqrt(square))
+    if drawn == 0 or square.has(sin) or not is_irrational(drawn):
+        return drawn
+    number, letters = square.as_coeff_Mul()
+    if number != 1 and sqrt(number).is_Rational and not is_irrational(letters):
+        return sqrt(number) * RootSign(spread_or_by_terms(letters))
+    return RootSign(square if is_irrational(square) else spread_or_by_terms(square))
+
+
+def is_irrational(value: Expr) -> bool:
+    return any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(Pow))

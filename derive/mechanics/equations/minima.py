@@ -31,6 +31,9 @@ from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.unknowns import without_sine_below
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
+from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.effective import SeenWith
+from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
@@ -131,6 +134,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     (q,), potential = place.coordinates, place.potential
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
+    _check_nothing_else_holds_it(place, outcome)
     told: dict[str, tuple[Any, Any]] = dict(steady_in(potential, [q]))
     is_short = int(diff(place.energy, q, 2).count_ops()) <= SHORT
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
@@ -316,16 +320,22 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 
 def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
     """A minimum is stable whatever forces turn the motion aside; what is none they may hold, as a top that spins."""
-    matter = matter_behind(place.potential)
-    if outcome == "stable" or matter is None:
+    matter = _all_matter(place.potential)
+    if outcome.startswith("stable") or matter is None:
         return
     still = {rate(q, n): ZERO for q in matter.coordinates for n in (1, 2)}
-    moving = place.coordinates
-    for p, q in ((p, q) for i, p in enumerate(moving) for q in moving[:i]):
+    for p, q in ((p, q) for p in place.coordinates for q in matter.coordinates if p != q):
         turned = diff(matter.momentum_along(p), q) - diff(matter.momentum_along(q), p)
         turned += diff(matter.other_force_along(p), rate(q)) - diff(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).subs(dict(place.values), simultaneous=True)):
             message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
             message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
-            help_line = "the equations of motion to first order tell, `linearised(motion, at=...)`"
+            help_line = "the equations of motion to first order tell, `linear_stability(linearised(motion, at=...))`"
             raise Rejected(Complaint("not-decided", message, help=help_line))
+
+
+def _all_matter(potential: Quantity) -> Matter | None:
+    """What moves, with the magnetic fields that a potential energy does not know."""
+    body = potential.subject.body
+    seen = potential.fact(SeenWith)
+    return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)

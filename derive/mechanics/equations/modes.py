@@ -16,7 +16,6 @@ from sympy import (
     ImmutableDenseMatrix,
     Integer,
     MatrixSymbol,
-    Pow,
     Symbol,
     cos,
     diff,
@@ -24,18 +23,18 @@ from sympy import (
     expand,
     pi,
     sin,
-    sqrt,
 )
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
-from derive.algebra.collect import spread_or_by_terms
-from derive.algebra.expressions import Ratio, Relation, Root, Terms, explicit, scalar
+from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.characteristic import Pencil
+from derive.mechanics.equations.characteristic import Pencil, root_of
 from derive.mechanics.equations.characteristic import Root as RootOfPencil
+from derive.mechanics.equations.damped import damped_modes
+from derive.mechanics.equations.gyroscopic import turning_modes
 from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -75,14 +74,20 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     """
     together = linear[0].needed(Linear)
     _check_whole(linear, together)
+    turns = not is_zero(together.turning)
+    if turns and not is_zero(together.turning + together.turning.T):
+        return damped_modes(linear, together, key)
     pencil = Pencil(together.stiffness, together.mass, together.exists)
-    given = {s.name for s in together.stiffness.free_symbols | together.mass.free_symbols}
+    matrices = (together.stiffness, together.turning, together.mass)
+    given = {s.name for each in matrices for s in each.free_symbols}
     free = next((name for name in LETTERS if name not in given), LETTERS[0])
     letter = scalar(symbol if symbol and len(linear) > 1 else free)
     if letter.name in given:
         message = f"`normal_modes` would call the frequency {letter}, but {letter} stands for something that is given"
         raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
     before = f"{key}_" if key else ""
+    if turns:
+        return turning_modes(linear, together, letter, before)
     characteristic = _characteristic(linear, together, pencil, letter, before)
     name = letter.name if len(linear) > 1 else symbol or f"{letter.name}_0"
     frequencies = [_frequency(characteristic, together, pencil, n, name, before) for n in range(len(pencil.roots))]
@@ -96,10 +101,6 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
 def _check_whole(linear: Sequence[Quantity], together: Linear) -> None:
     if len(linear) != len(together.displacements) or any(each.fact(Linear) != together for each in linear):
         message = "`normal_modes` needs all the equations that `linearised` yields together"
-        raise Rejected(Complaint("wrong-argument", message))
-    if not is_zero(together.turning):
-        held = next(s for s in together.displacements if any(each.value.left.has(s.rate) for each in linear))
-        message = f"`normal_modes` needs equations without rates, but there is a term with the rate of {held.symbol}"
         raise Rejected(Complaint("wrong-argument", message))
     if any(force != 0 for force in together.driven):
         message = "`normal_modes` needs equations that nothing drives, but there is a force that depends on the time"
@@ -190,7 +191,7 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
     return establish(
         "modes.frequency",
         scalar(name),
-        lambda *_: _root_of(turned * root.value),
+        lambda *_: root_of(turned * root.value),
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back, "rayleigh": rayleigh, "trace": trace},
@@ -217,21 +218,6 @@ def _trace(together: Linear) -> Expr:
     mass = together.mass
     cofactors = (together.stiffness[i, j] * mass.cofactor(i, j) for i in range(size) for j in range(size))
     return tidied(Add(*cofactors) / mass.det())
-
-
-def _root_of(square: Expr) -> Expr:
-    """sqrt(k/m) under one root; a rational root is drawn, and so is that of a sine."""
-    drawn = tidied(sqrt(square))
-    if drawn == 0 or square.has(sin) or not _is_irrational(drawn):
-        return drawn
-    number, letters = square.as_coeff_Mul()
-    if number != 1 and sqrt(number).is_Rational and not _is_irrational(letters):
-        return sqrt(number) * Root(spread_or_by_terms(letters))
-    return Root(square if _is_irrational(square) else spread_or_by_terms(square))
-
-
-def _is_irrational(value: Expr) -> bool:
-    return any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(Pow))
 
 
 def _shape(

@@ -34,7 +34,7 @@ from sympy import (
     fraction,
 )
 from sympy.core.function import AppliedUndef
-from sympy.core.numbers import Exp1, Pi
+from sympy.core.numbers import Exp1, ImaginaryUnit, Pi
 
 from derive.algebra import expressions as ex
 from derive.algebra.amplitudes import Amplitudes, Determinant
@@ -394,6 +394,7 @@ class Notation:
         (Symbol, lambda self, expr: layout_of_name(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),
+        (ImaginaryUnit, lambda self, _: Name("i")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),
         (MatAdd, lambda self, expr: self._terms(list(expr.args))),  # before Add, of which SymPy makes it a kind

@@ -30,6 +30,7 @@ from derive.mechanics import (
     hamiltonian,
     kinetic_energy_of,
     lagrangian,
+    linear_stability,
     linearised,
     multipliers,
     normal_modes,
@@ -216,8 +217,18 @@ class Answers:
     @cached_property
     def stability(self) -> tuple[Quantity, ...]:
         if self.state is not None:
-            return (stability(self.potential_at_rest, self.state),)
-        return tuple(stability(self.potential_at_rest, at) for at in self.equilibria)
+            return self._stability_at(self.state)
+        return tuple(found for at in self.equilibria for found in self._stability_at(at))
+
+    def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
+        """By the potential energy; where forces that turn the motion aside may hold the state, by its small motions."""
+        try:
+            return (stability(self.potential_at_rest, at),)
+        except Rejected as refused:
+            if any(each.code != "not-decided" for each in refused.complaints):
+                raise
+        key = at.key.replace("rest", "stability") if isinstance(at, Quantity) else "stability"
+        return tuple(returned_quantities(linear_stability(self._linearised_at(at), key=key)))
 
     @property
     def state(self) -> dict[Any, Expr] | Quantity | None:
@@ -229,13 +240,14 @@ class Answers:
 
     @cached_property
     def linearised(self) -> tuple[Quantity, ...]:
+        return self._linearised_at(self.state)
+
+    def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None) -> tuple[Quantity, ...]:
         motions = tuple(self.motions.values())
         if self.reduced is not self.lagrangian:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
-            at: Any = self.state or self.equilibria[0]
-        else:
-            at = self.state
+            at = at or self.equilibria[0]
         found = linearised(motions, at=at)
         return found if isinstance(found, tuple) else (found,)
 

@@ -1,0 +1,438 @@
+"""Small motions with forces that are linear in the rates and do no work: in frames that turn, of tops, of charges.
+
+Equations M eta_ddot + G eta_dot + K eta = 0 with G antisymmetric have solutions eta = Re(a e^(i omega t)) where
+det(K + i omega G - omega^2 M) = 0, a polynomial in omega^2. Rest is stable if all omega^2 are real, positive and
+different: what the potential energy alone would let fall, the turning may hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import (
+    Add,
+    Expr,
+    I,
+    ImmutableDenseMatrix,
+    Integer,
+    MatrixSymbol,
+    Poly,
+    Symbol,
+    cancel,
+    cos,
+    diff,
+    discriminant,
+    exp,
+    sin,
+)
+from sympy.matrices import MatrixBase
+
+from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
+from derive.algebra.expressions import Relation, explicit, scalar
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.turning_modes import OMEGA, Part, Swing, TurningPencil, factored
+from derive.mechanics.equations.zeros import border_of, positive
+from derive.mechanics.systems.coordinates import T
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Fact, Form, Level, Quantity, is_zero
+
+__all__ = ["linear_stability"]
+
+ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Turning(Fact):
+    """The frequency of a motion in which the coordinates turn round one another: what it is a root of."""
+
+    missing = "is not the frequency of a motion with forces linear in the rates"
+    swing: Swing
+
+
+def turning_modes(linear: Sequence[Quantity], together: Linear, letter: Symbol, before: str) -> tuple[Quantity, ...]:
+    """The frequencies, and the motions of those that have one shape; as `normal_modes` yields them."""
+    pencil = pencil_of(together)
+    characteristic = _characteristic(linear, together, pencil, letter, before)
+    found = [_frequency(characteristic, together, pencil, n, letter.name, before) for n in range(len(pencil.swings))]
+    motions: list[Quantity] = []
+    for n, each in enumerate(found, 1):
+        column = pencil.column(each.needed(Turning).swing)
+        if column is not None:
+            motions.append(_motion(linear, together, each, column, n, before))
+    return (*found, *motions)
+
+
+def pencil_of(together: Linear) -> TurningPencil:
+    """The matrices, of forces that do no work and have a potential energy."""
+    require_turning("normal_modes", together)
+    return TurningPencil(together.stiffness, together.turning, together.mass, together.exists)
+
+
+def require_turning(verb: str, together: Linear) -> None:
+    """That nothing drives, that the stiffness is symmetric, and that what is linear in the rates does no work."""
+    if any(force != 0 for force in together.driven):
+        message = f"`{verb}` needs equations that nothing drives, but there is a force that depends on the time"
+        raise Rejected(Complaint("wrong-argument", message))
+    symmetric = is_zero((together.stiffness - together.stiffness.T).applyfunc(tidied))
+    if not symmetric or not is_zero((together.mass - together.mass.T).applyfunc(tidied)):
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs forces that have a potential energy"))
+    if not is_zero((together.turning + together.turning.T).applyfunc(tidied)):
+        message = f"`{verb}` needs forces linear in the rates that do no work, but there is also drag"
+        raise Rejected(Complaint("wrong-argument", message))
+    for matrix, role in ((together.mass, "mass"), (together.turning, "turning"), (together.stiffness, "stiffness")):
+        for entry in matrix:
+            require_constant(verb, role, entry)
+
+
+def _characteristic(
+    linear: Sequence[Quantity], together: Linear, pencil: TurningPencil, letter: Symbol, start: str
+) -> Quantity:
+    """det(K + i omega G - omega^2 M) = 0.
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
+    """
+    matrix = ImmutableDenseMatrix(pencil.at(letter).applyfunc(_tidy_entry))
+
+    return establish(
+        "gyroscopic.characteristic",
+        None,
+        lambda *_: Relation(Determinant(matrix), "=", 0),
+        {"omega": letter},
+        lines=Lines(put_in=None, arranged=lambda _: Relation(factored(pencil.parts, letter), "=", 0)),
+        routes={"quadrature": lambda found: _in_quadrature(found, linear, together, letter)},
+        telling=Telling(formulas={"trial": (trial := exp(I * letter * T), trial)}),
+        key=f"{start}characteristic_equation",
+        parents=linear,
+        scope=Scope(coordinates={letter: "angular speed"}),
+    )
+
+
+def _in_quadrature(
+    found: Relation, linear: Sequence[Quantity], together: Linear, letter: Symbol
+) -> tuple[Relation, Relation]:
+    """Cosines and sines of real amplitudes put in: twice as many real equations, whose determinant is the square."""
+    whole = _of_cosines_and_sines(linear, together, letter)
+    return Relation(explicit(found.left) ** 2, "=", 0), Relation(whole, "=", 0)
+
+
+def _tidy_entry(entry: Expr) -> Expr:
+    real, imaginary = entry.expand().as_real_imag()
+    return tidied(real) + I * tidied(imaginary)
+
+
+def _of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: Symbol) -> Expr:
+    """The determinant of what eta = u cos(omega t) + v sin(omega t) leaves of the equations, sorted by cos and sin."""
+    size = len(linear)
+    u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(size)] for name in ("u", "v"))
+    c, s = cos(letter * T), sin(letter * T)
+    rows = []
+    for equation in linear:
+        left = with_motion(equation, together, [a * c + b * s for a, b in zip(u, v, strict=True)]).expand()
+        rows += [[diff(left.coeff(part), a) for a in (*u, *v)] for part in (c, s)]
+    return determinant_of(ImmutableDenseMatrix(rows))
+
+
+def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
+    """The left side of a linear equation with a motion eta(t) put in."""
+    put_in: dict[Any, Expr] = {}
+    for s, eta in zip(together.displacements, motion, strict=True):
+        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
+    return explicit(equation.value).residual.xreplace(put_in)
+
+
+_OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
+
+
+def _frequency(
+    characteristic: Quantity, together: Linear, pencil: TurningPencil, n: int, symbol: str, start: str
+) -> Quantity:
+    """One frequency, or rate of growth.
+
+    Outcomes: oscillating, growing, free, conditional.
+    Source: that of `normal_modes`.
+    """
+    swing = pencil.swings[n]
+    name = f"{'kappa' if swing.sign == -1 else symbol}_{n + 1}"
+    letter = characteristic.step.coordinates[-1][0]
+    turned = -1 if swing.sign == -1 else 1
+
+    def put_back(found: Expr) -> tuple[Expr, Expr]:
+        return _at_square(_polynomial_of(characteristic), letter, turned * explicit(found) ** 2), ZERO
+
+    def sum_of_squares(found: Expr) -> tuple[Expr, Expr]:
+        others = ((i, s) for i, s in enumerate(pencil.swings) if i != n)
+        signed = Add(*((-1 if s.sign == -1 else 1) * explicit(s.value) ** 2 * s.part.times for _, s in others))
+        return turned * explicit(found) ** 2 * swing.part.times + signed, _sum_of_squares(together)
+
+    needs = [need for need in swing.needs if pencil.sign(need) != 1]
+    conditions = [positive(need) for need in needs]
+    pairs = enumerate(zip(conditions, needs, strict=True), 1)
+    told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
+    return establish(
+        "gyroscopic.frequency",
+        scalar(name),
+        lambda *_: swing.value,
+        {},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"put_back": put_back, "sum_of_squares": sum_of_squares},
+        outcome=_OF_SIGN[swing.sign],
+        telling=Telling(
+            formulas=told, points_to={"characteristic": characteristic}, judged_by=judged_by(together, conditions)
+        ),
+        key=f"{start}frequency_{n + 1}",
+        kind="angular speed",
+        parents=[characteristic],
+        facts=[Turning(swing)],
+    )
+
+
+def judged_by(together: Linear, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
+    """What a word about such a motion is judged by: the matrices, and under which conditions it is told."""
+    found: dict[str, Any] = {
+        "stiffness": together.stiffness,
+        "turning": together.turning,
+        "mass": together.mass,
+        "conditions": tuple(conditions),
+    }
+    return {**found, **({"exists": together.exists} if together.exists is not None else {})}
+
+
+def _polynomial_of(characteristic: Quantity) -> Expr:
+    return explicit(characteristic.value).left.expand()
+
+
+def _at_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
+    """A polynomial in omega^2 there."""
+    polynomial = Poly(value, letter)
+    return Add(*(c * square ** (n // 2) for (n,), c in polynomial.terms()))
+
+
+def _sum_of_squares(together: Linear) -> Expr:
+    """Of all omega^2: tr(M^-1 K) - tr((M^-1 G)^2)/2, by the square of the whole motion's matrix."""
+    inverse = together.mass.inv()
+    turning = inverse * together.turning
+    return tidied((inverse * together.stiffness).trace() - (turning * turning).trace() / 2)
+
+
+# --- how the coordinates move ----------------------------------------------------------------------------------------
+
+
+def _motion(
+    linear: Sequence[Quantity],
+    together: Linear,
+    frequency: Quantity,
+    column: tuple[Expr, ...],
+    n: int,
+    start: str,
+) -> Quantity:
+    """One motion: a cosine or a sine for each coordinate.
+
+    Outcomes: circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight, generic.
+    Source: Landau, Lifshitz, *Mechanics*, section 39, problem 3.
+    """
+    swing = frequency.needed(Turning).swing
+
+    def moving(w: Expr) -> list[Expr]:
+        return [_of_time(entry, w, swing.turn) for entry in column]
+
+    def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
+        """The motion put into the linear equations, at any time."""
+        left = [with_motion(each, together, list(explicit(found))) for each in linear]
+        return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
+
+    def energy(found: MatrixBase) -> tuple[Expr, Expr]:
+        """T + U keeps its value, since what is linear in the rates does no work."""
+        eta = explicit(found)
+        rates = eta.applyfunc(lambda value: diff(value, T))
+        whole = (rates.T * together.mass * rates + eta.T * together.stiffness * eta)[0]
+        return whole, whole.subs(T, 0)
+
+    own = [s.symbol for s, entry in zip(together.displacements, column, strict=True) if not is_zero(entry)]
+    displacements = Amplitudes(*(s.symbol for s in together.displacements))
+    names = {role: (s, s) for role, s in zip(("first", "second"), own, strict=False)}
+    return establish(
+        "gyroscopic.motion",
+        MatrixSymbol(f"{_letter(together)}_{n}", len(column), 1),
+        lambda w: Amplitudes(*moving(w)),
+        {"frequency": frequency},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"motion": in_equations, "energy": energy},
+        outcome=_outcome(column, swing),
+        telling=Telling(
+            formulas={"displacements": (displacements, displacements), **names},
+            points_to={"linear": linear[0]},
+            judged_by=judged_by(together),
+        ),
+        key=f"{start}mode_{n}",
+        parents=[*linear],
+        scope=Scope(),
+    )
+
+
+def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
+    """The real part of r e^(i omega t), where omega is w or -w, and r real or imaginary."""
+    if entry.has(I):
+        return -turn * (entry / I).xreplace({OMEGA: turn * w}) * sin(w * T)
+    return entry.xreplace({OMEGA: turn * w}) * cos(w * T)
+
+
+def _letter(together: Linear) -> str:
+    taken = {s.name.partition("_")[0] for each in (together.mass, together.turning, together.stiffness)
+             for s in each.free_symbols}  # fmt: skip
+    return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
+
+
+def _outcome(column: Sequence[Expr], swing: Swing) -> str:
+    """What path it is where two coordinates move, and in which sense, from the first of them to the second."""
+    entries = [entry for entry in column if not is_zero(entry)]
+    if not any(entry.has(I) for entry in entries):
+        return "straight"
+    if len(entries) != 2:
+        return "generic"
+    size = tidied(-swing.turn * (entries[1] / I).xreplace({OMEGA: swing.turn * OMEGA}))
+    if is_zero(size - 1) or is_zero(size + 1):
+        return "circle_forwards" if is_zero(size - 1) else "circle_backwards"
+    return {True: "ellipse_forwards", False: "ellipse_backwards", None: "ellipse"}[size.is_positive]
+
+
+# --- stability --------------------------------------------------------------------------------------------------------
+
+
+def linear_stability(
+    linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
+) -> Quantity | tuple[Quantity, ...]:
+    """Stability of rest where forces linear in the rates do no work: all omega^2 real, positive and different.
+
+    linear   the equations, as `linearised` yields them together
+    letter   the letter that a condition is solved for; unless given it is one that occurs as a square alone, if any
+    Turning may hold what the potential energy alone would let fall; drag, however small, takes this away again.
+    Second route: on the border of the condition two roots of the determinant meet, or one vanishes, where the
+    determinant is that of cosines and sines put into the equations.
+    Outcomes: stable, unstable, depends; where there are several conditions, further for each but the first.
+    Errors: there is drag; the determinant does not factor.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
+    """
+    together = linear[0].needed(Linear)
+    require_turning("linear_stability", together)
+    pencil = pencil_of(together)
+    given = {s.name for each in (together.mass, together.turning, together.stiffness) for s in each.free_symbols}
+    named = scalar("omega" if "omega" not in given else "Omega")
+    characteristic = _characteristic(linear, together, pencil, named, "" if key == "stability" else f"{key}_")
+    needs = _needed(pencil)
+    if any(pencil.sign(need) == -1 for need, _ in needs):
+        return _verdict(characteristic, together, "unstable", key)
+    undecided = [(need, part) for need, part in needs if pencil.sign(need) != 1]
+    if not undecided:
+        return _verdict(characteristic, together, "stable", key)
+    conditions = [positive(need, *([letter] if isinstance(letter, Symbol) else [])) for need, _ in undecided]
+    found = [
+        _condition(characteristic, together, i, conditions, undecided, key if i == 0 else f"{key}_{i + 1}", linear)
+        for i in range(len(conditions))
+    ]
+    return found[0] if len(found) == 1 else tuple(found)
+
+
+def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
+    """What must be positive, each with the factor that it is about."""
+    if pencil.is_minimum:
+        return []
+    free = [part for part in pencil.parts if part.is_free or len(part.coefficients) > 3 or part.times > 1]
+    if free or any(_may_drift(part, pencil) for part in pencil.parts):
+        message = (
+            "`linear_stability`: a root of the determinant is zero or repeated, so that first order does not decide"
+        )
+        if any(not part.is_free and len(part.coefficients) > 3 for part in free):
+            message = "`linear_stability`: the determinant has a factor of which no closed form of the roots is known"
+        raise Rejected(Complaint("not-decided", message))
+    return [(need, part) for part in pencil.parts for need in part.needs]
+
+
+def _may_drift(part: Part, pencil: TurningPencil) -> bool:
+    """Whether a root may be zero, and the coordinates then move on evenly: not where no stiffness at all is left."""
+    if not part.mirrored or len(part.coefficients) != 3 or pencil.sign(part.coefficients[2]) is not None:
+        return any(pencil.sign(need) == 0 for need in part.needs)
+    below = (cancel(entry / part.coefficients[2]).as_numer_denom()[1] for entry in pencil.stiffness)
+    return any(pencil.sign(tidied(each)) is None for each in below)
+
+
+def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str) -> Quantity:
+    """What holds whatever the letters are.
+
+    Outcomes: stable, unstable.
+    Source: that of `linear_stability`.
+    """
+    letter = characteristic.step.coordinates[-1][0]
+    return establish(
+        "gyroscopic.stability",
+        None,
+        lambda equation: equation,
+        {"characteristic": characteristic.value},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        routes={"quadrature": lambda found: _in_quadrature(found, characteristic.parents, together, letter)},
+        outcome=outcome,
+        telling=Telling(points_to={"characteristic": characteristic}, judged_by=judged_by(together)),
+        key=key,
+        parents=[characteristic],
+    )
+
+
+def _condition(
+    characteristic: Quantity,
+    together: Linear,
+    i: int,
+    conditions: Sequence[Relation],
+    needs: Sequence[tuple[Expr, Part]],
+    key: str,
+    linear: Sequence[Quantity],
+) -> Quantity:
+    """One condition.
+
+    Outcomes: depends, further.
+    Source: that of `linear_stability`.
+    """
+    letter = characteristic.step.coordinates[-1][0]
+    need, condition = needs[i][0], conditions[i]
+
+    def at_border(found: Relation) -> tuple[Expr, Expr]:
+        """Where the two sides are equal two roots of the determinant meet, or one is zero."""
+        whole = Poly(_of_cosines_and_sines(linear, together, letter), letter)
+        square = Symbol("z")
+        by_square = Add(*(c * square ** (n // 2) for (n,), c in whole.terms()))
+        border = border_of(explicit(found))
+        meets = _without_squares(by_square, square)
+        value = meets * Poly(by_square, square).eval(0)
+        residual = value.subs(border.left, border.right) if border is not None else _remainder(value, explicit(found))
+        return residual, ZERO
+
+    return establish(
+        "gyroscopic.stability",
+        None,
+        lambda *_: Relation(need, ">", 0),
+        {},
+        lines=Lines(
+            put_in=None, law=Level.FULL, result=False, after=[Form(condition, "solved")], arranged=lambda _: condition
+        ),
+        routes={"border": at_border},
+        outcome="depends" if i == 0 else "further",
+        telling=Telling(points_to={"characteristic": characteristic}, judged_by=judged_by(together, conditions)),
+        key=key,
+        parents=[characteristic],
+    )
+
+
+def _without_squares(value: Expr, square: Symbol) -> Expr:
+    """The discriminant of the polynomial whose square this is: zero where two of its roots meet."""
+    found = Poly(value, square).sqf_part()
+    return discriminant(found.as_expr(), square)
+
+
+def _remainder(value: Expr, condition: Relation) -> Expr:
+    """What is left of it where both sides of a condition are equal."""
+    residual = condition.residual.as_numer_denom()[0].expand()
+    letter = min(residual.free_symbols, key=str)
+    return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual, letter)).as_expr()
