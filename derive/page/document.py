@@ -319,7 +319,7 @@ class _Writer:
         if isinstance(step.result, Truncated) or step.chain[-1].because == "series":
             return Answer(key, step.symbol, step.result, "approx")
         if isinstance(step.result, Relation):
-            return Answer(key, step.result.left, step.result.right, step.result.word, numbers)
+            return Answer(key, step.result.left, step.result.right, step.result.word, numbers, self.notes.get(key, ()))
         note = (Text(self.words.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
         return Answer(key, step.symbol, step.result, "equals", numbers, self.notes.get(key, note))
 

@@ -498,7 +498,7 @@ def test_the_three_cases_of_a_damped_oscillator() -> None:
             0,
             0,
             m * g / b * (t - m / b * (1 - exp(-b * t / m))),
-            "relaxes",
+            "slows",
         ),
         (lambda x: m * x.rate + b * x.symbol, m * g, 0, None, m * g / b * (1 - exp(-b * t / m)), "relaxes"),
         (lambda x: (M - mu * t) * x.rate, mu * u, 0, None, u * log(M / (M - mu * t)), "accumulates"),

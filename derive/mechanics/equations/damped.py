@@ -7,6 +7,7 @@ sqrt(c/a - b^2/4a^2); a factor a s + b that of a displacement which dies away at
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from sympy import Dummy, Expr, ImmutableDenseMatrix, MatrixSymbol, Mul, Poly, Symbol, cancel, cos, diff, exp, sqrt
 from sympy.matrices import MatrixBase
@@ -33,30 +34,45 @@ S = Dummy("s")
 LETTERS = ("s", "lambda", "sigma", "p")  # of the exponent
 
 
-def damped_modes(linear: Sequence[Quantity], together: Linear, key: str) -> tuple[Quantity, ...]:
-    """Rates of decay, frequencies and shapes, as `normal_modes` yields them where there is drag."""
-    _check(together)
-    before = f"{key}_" if key else ""
-    factors = _factors(together)
-    taken = {s.name for each in (together.mass, together.turning, together.stiffness) for s in each.free_symbols}
-    letter = scalar(next((name for name in LETTERS if name not in taken), "s_0"))
-    characteristic = _characteristic(linear, together, factors, letter, before)
-    found: list[Quantity] = []
-    number = 0
-    for part, times in factors:
-        if is_zero(part.eval(0)):
-            found.append(_free(characteristic, together, part, times, before))
-            continue
-        number += 1
-        many = len(factors) > 1
-        own = _rate(characteristic, together, part, f"_{number}" if many else "", before)
-        found.append(own)
+@dataclass(frozen=True)
+class DampedModes:
+    """What `normal_modes` yields where there is drag."""
+
+    linear: Sequence[Quantity]
+    together: Linear
+    start: str
+
+    def found(self) -> tuple[Quantity, ...]:
+        """Rates of decay, frequencies and shapes, factor by factor."""
+        _check(self.together)
+        factors = _factors(self.together)
+        matrices = (self.together.mass, self.together.turning, self.together.stiffness)
+        taken = {s.name for each in matrices for s in each.free_symbols}
+        letter = scalar(next((name for name in LETTERS if name not in taken), "s_0"))
+        characteristic = _characteristic(self.linear, self.together, factors, letter, self.start)
+        found: list[Quantity] = []
+        number = 0
+        for part, times in factors:
+            if is_zero(part.eval(0)):
+                found.append(_free(characteristic, self.together, part, times, self.start))
+                continue
+            number += 1
+            found += self._of_factor(characteristic, part, times, number, len(factors) > 1)
+        return tuple(found)
+
+    def _of_factor(
+        self, characteristic: Quantity, part: Poly, times: int, number: int, several: bool
+    ) -> list[Quantity]:
+        linear, together, start = self.linear, self.together, self.start
+        index = f"_{number}" if several else ""
+        own = _rate(characteristic, together, part, index, start)
+        found = [own]
         if part.degree() == 2:
-            found.append(_frequency(own, characteristic, together, part, f"_{number}" if many else "", before))
+            found.append(_frequency(own, characteristic, together, part, index, start))
         column = _column(together, part) if len(linear) > 1 and times == 1 else None
         if column is not None:
-            found.append(_shape(linear, together, own, part, column, number, before))
-    return tuple(found)
+            found.append(_shape(linear, together, own, part, column, number, start))
+        return found
 
 
 def _check(together: Linear) -> None:

@@ -33,7 +33,7 @@ from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.linearised import Linear, Rest
 from derive.mechanics.equations.turning_modes import OMEGA, Part, Swing, TurningPencil, factored
 from derive.mechanics.equations.zeros import border_of, positive
 from derive.mechanics.systems.coordinates import T
@@ -54,17 +54,28 @@ class Turning(Fact):
     swing: Swing
 
 
-def turning_modes(linear: Sequence[Quantity], together: Linear, letter: Symbol, before: str) -> tuple[Quantity, ...]:
-    """The frequencies, and the motions of those that have one shape; as `normal_modes` yields them."""
-    pencil = pencil_of(together)
-    characteristic = _characteristic(linear, together, pencil, letter, before)
-    found = [_frequency(characteristic, together, pencil, n, letter.name, before) for n in range(len(pencil.swings))]
-    motions: list[Quantity] = []
-    for n, each in enumerate(found, 1):
-        column = pencil.column(each.needed(Turning).swing)
-        if column is not None:
-            motions.append(_motion(linear, together, each, column, n, before))
-    return (*found, *motions)
+@dataclass(frozen=True)
+class TurningModes:
+    """What `normal_modes` yields where forces linear in the rates do no work."""
+
+    linear: Sequence[Quantity]
+    together: Linear
+    letter: Symbol
+    start: str
+
+    def found(self) -> tuple[Quantity, ...]:
+        """The frequencies, and the motions of those that have one shape."""
+        linear, together, start = self.linear, self.together, self.start
+        pencil = pencil_of(together)
+        characteristic = _characteristic(linear, together, pencil, self.letter, start)
+        name = self.letter.name
+        found = [_frequency(characteristic, together, pencil, n, name, start) for n in range(len(pencil.swings))]
+        motions: list[Quantity] = []
+        for n, each in enumerate(found, 1):
+            column = pencil.column(each.needed(Turning).swing)
+            if column is not None:
+                motions.append(_motion(linear, together, each, column, n, start))
+        return (*found, *motions)
 
 
 def pencil_of(together: Linear) -> TurningPencil:
@@ -375,10 +386,20 @@ def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str)
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"quadrature": lambda found: _in_quadrature(found, characteristic.parents, together, letter)},
         outcome=outcome,
-        telling=Telling(points_to={"characteristic": characteristic}, judged_by=judged_by(together)),
+        telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together)),
         key=key,
-        parents=[characteristic],
+        parents=[characteristic, *_rests(characteristic)],
     )
+
+
+def _rests(characteristic: Quantity) -> list[Quantity]:
+    """The state of rest that the equations are about, where it is a result itself."""
+    return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
+
+
+def _named(characteristic: Quantity) -> dict[str, Quantity]:
+    """What the sentence of a verdict names."""
+    return {"characteristic": characteristic, **dict(zip(("rest",), _rests(characteristic), strict=False))}
 
 
 def _condition(
@@ -419,9 +440,9 @@ def _condition(
         ),
         routes={"border": at_border},
         outcome="depends" if i == 0 else "further",
-        telling=Telling(points_to={"characteristic": characteristic}, judged_by=judged_by(together, conditions)),
+        telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together, conditions)),
         key=key,
-        parents=[characteristic],
+        parents=[characteristic, *_rests(characteristic)],
     )
 
 

@@ -91,7 +91,8 @@ def solution(
     case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
     Second route: put back into the equation; its value and its rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
-    uniform (no force of its position or rate), relaxes (of first order), accumulates (of first order, without q).
+    uniform (no force of its position or rate), slows (no force of its position: the rate dies away), relaxes (of first
+    order), accumulates (of first order, without q).
     Errors: the equation is not linear with constant coefficients; the case is open, or another; a driving that is of no
     such kind.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
@@ -173,9 +174,9 @@ def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Re
         message = f"`solution`: there is no case `{case}`"
         raise Rejected(Complaint("wrong-argument", message, help=f"the cases are {', '.join(CASES)}"))
     if linear.order == 1:
-        return ("relaxes" if c != 0 else "accumulates"), None
+        return ("accumulates" if c == 0 else "runs_away" if sign_known(c / b) == -1 else "relaxes"), None
     if c == 0:
-        return ("uniform" if b == 0 else "relaxes"), None
+        return ("uniform" if b == 0 else "runs_away" if sign_known(b / a) == -1 else "slows"), None
     if b == 0:
         sign = sign_known(c / a)
         if sign is None:

@@ -89,6 +89,17 @@ def stability(
     return _of_one(place, letter, named)
 
 
+def _state(place: Place) -> tuple[Any, Any]:
+    """Where it is, as the sentence says it: by the name of the state of rest, where that is one result."""
+    if len(place.coordinates) == 1:
+        (q,) = place.coordinates
+        named = place.values[q] if place.rest is None else place.rest.symbol
+        known = Relation(q, "=", named if isinstance(named, Expr) else place.values[q])
+        return known, known
+    known = Relation(Amplitudes(*place.coordinates), "=", Amplitudes(*(place.values[q] for q in place.coordinates)))
+    return known, known
+
+
 def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     known = place_given(at)
     rest = at if isinstance(at, Quantity) else None
@@ -135,7 +146,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
     _check_nothing_else_holds_it(place, outcome)
-    told: dict[str, tuple[Any, Any]] = dict(steady_in(potential, [q]))
+    told: dict[str, tuple[Any, Any]] = {"state": _state(place), **steady_in(potential, [q])}
     is_short = int(diff(place.energy, q, 2).count_ops()) <= SHORT
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:
@@ -263,7 +274,7 @@ def _of_several(place: Place, key: str) -> Quantity:
     letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
     outcome = _of_minors(matrix, values)
     _check_nothing_else_holds_it(place, outcome)
-    told: dict[str, tuple[Any, Any]] = {}
+    told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
     if place.exists is not None:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
 

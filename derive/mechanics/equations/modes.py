@@ -33,8 +33,8 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import Pencil, root_of
 from derive.mechanics.equations.characteristic import Root as RootOfPencil
-from derive.mechanics.equations.damped import damped_modes
-from derive.mechanics.equations.gyroscopic import turning_modes
+from derive.mechanics.equations.damped import DampedModes
+from derive.mechanics.equations.gyroscopic import TurningModes
 from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -62,13 +62,15 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     key      what the keys begin with, where there are modes of something else on the page; then give a `symbol` too
     Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes, of
     which only the ratios mean anything. Of one coordinate there is `frequency` alone, omega_0.
+    Where forces linear in the rates do no work, shapes are motions, cosines and sines; with drag there are rates of
+    decay, decay_1, ..., and of a factor of its own each frequency, if the determinant falls into such factors.
     Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
     the sum of all omega^2 is the trace of M^-1 K; shapes are orthogonal with M between them.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (its sign depends on
     the letters); where two or more modes have it: oscillating_repeated, growing_repeated, free_repeated,
     conditional_repeated; of shapes: in_phase, opposite, alone (the other is at rest), generic, uniform (free motion),
     departing (growing), any_of_several (repeated); of the determinant: several, one (coordinate).
-    Errors: there are terms with rates; the roots have no closed form; too many letters.
+    Errors: the roots have no closed form; with drag the modes do not separate; too many letters.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     Source: that of `normal_modes`.
     """
@@ -76,7 +78,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     _check_whole(linear, together)
     turns = not is_zero(together.turning)
     if turns and not is_zero(together.turning + together.turning.T):
-        return damped_modes(linear, together, key)
+        return DampedModes(linear, together, f"{key}_" if key else "").found()
     pencil = Pencil(together.stiffness, together.mass, together.exists)
     matrices = (together.stiffness, together.turning, together.mass)
     given = {s.name for each in matrices for s in each.free_symbols}
@@ -87,7 +89,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
         raise Rejected(Complaint("letter-clash", message, help='give another letter, `symbol="Omega"`'))
     before = f"{key}_" if key else ""
     if turns:
-        return turning_modes(linear, together, letter, before)
+        return TurningModes(linear, together, letter, before).found()
     characteristic = _characteristic(linear, together, pencil, letter, before)
     name = letter.name if len(linear) > 1 else symbol or f"{letter.name}_0"
     frequencies = [_frequency(characteristic, together, pencil, n, name, before) for n in range(len(pencil.roots))]
@@ -251,6 +253,8 @@ def _shape(
         products = [(other.value.T * together.mass * found)[0] for other in before]
         return Add(*(mark * product for mark, product in zip(marks, products, strict=True))), ZERO
 
+    entries = zip(together.displacements, column, strict=True)
+    moved = next(s.symbol for s, entry in entries if not is_zero(entry))
     return establish(
         "modes.shape",
         MatrixSymbol(f"{_letter_of_shapes(column)}_{n}", len(column), 1),
@@ -260,6 +264,7 @@ def _shape(
         routes={"motion": moving, "orthogonal": across},
         outcome=_shape_outcome(root, column, together.displacements),
         telling=Telling(
+            formulas={"moving": (moved, moved)},
             points_to={"linear": linear[0]},
             judged_by={"squared": squared, **_judged_by(together)},
         ),

@@ -205,9 +205,9 @@ def _free_motion(wanted: str) -> Predicate:
     def is_so(facts: Judged) -> bool:
         a, b, c = facts.inputs["linear"]
         if is_zero(a):
-            return wanted == ("accumulates" if is_zero(c) else "relaxes")
+            return wanted == ("accumulates" if is_zero(c) else _unless_it_grows("relaxes", c / b))
         if is_zero(c):
-            return wanted == ("uniform" if is_zero(b) else "relaxes")
+            return wanted == ("uniform" if is_zero(b) else _unless_it_grows("slows", b / a))
         stiffness, sign = sign_known(c / a), sign_known((b / a) ** 2 - 4 * c / a)
         if stiffness == -1:
             return wanted == "runs_away"
@@ -217,6 +217,10 @@ def _free_motion(wanted: str) -> Predicate:
         return wanted == fitting[sign] if sign is not None else facts.inputs["case"] and wanted in fitting.values()
 
     return is_so
+
+
+def _unless_it_grows(word: str, rate: Expr) -> str:
+    return "runs_away" if sign_known(rate) == -1 else word
 
 
 def _loses(wanted: bool) -> Predicate:
@@ -281,6 +285,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
             "runs_away",
             "uniform",
             "relaxes",
+            "slows",
             "accumulates",
         )
     },
