@@ -22,7 +22,6 @@ from derive.mechanics.equations.equilibria import *
 from derive.mechanics.equations.euler_equations import *
 from derive.mechanics.equations.extrema import *
 from derive.mechanics.equations.forced import *
-from derive.mechanics.equations.gyroscopic import *
 from derive.mechanics.equations.inequalities import *
 from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.linear_motion import *
@@ -38,6 +37,7 @@ from derive.mechanics.equations.stability import *
 from derive.mechanics.equations.stable_where import *
 from derive.mechanics.equations.steady import *
 from derive.mechanics.equations.substitution import *
+from derive.mechanics.equations.turning_stability import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
 from derive.mechanics.equations.wobble import *

@@ -31,7 +31,7 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.equations import gyroscopic, turning_modes
+from derive.mechanics.equations import gyroscopic, turning_modes, turning_stability
 from derive.mechanics.equations.turning_modes import TurningPencil
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
@@ -233,7 +233,7 @@ def test_a_wrong_law_is_refused(slip: str, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_wrong_condition_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gyroscopic, "positive", lambda need, *letter: Relation(q**2 * B**2, ">", 3 * k * m))
+    monkeypatch.setattr(turning_stability, "positive", lambda need, *letter: Relation(q**2 * B**2, ">", 3 * k * m))
     with pytest.raises(Unverified):
         linear_stability(in_field(-k))
 

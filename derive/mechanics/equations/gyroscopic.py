@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from sympy import (
@@ -20,10 +21,8 @@ from sympy import (
     MatrixSymbol,
     Poly,
     Symbol,
-    cancel,
     cos,
     diff,
-    discriminant,
     exp,
     sin,
 )
@@ -33,15 +32,15 @@ from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.linearised import Linear, Rest
-from derive.mechanics.equations.turning_modes import OMEGA, Part, Swing, TurningPencil, factored
-from derive.mechanics.equations.zeros import border_of, positive
+from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.turning_modes import OMEGA, Swing, TurningPencil, factored
+from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import T
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Form, Level, Quantity, is_zero
+from derive.steps.step import Fact, Quantity, is_zero
 
-__all__ = ["linear_stability"]
+__all__: list[str] = []
 
 ZERO = Integer(0)
 
@@ -65,10 +64,8 @@ class TurningModes:
 
     def found(self) -> tuple[Quantity, ...]:
         """The frequencies, and the motions of those that have one shape."""
-        linear, together, start = self.linear, self.together, self.start
-        pencil = pencil_of(together)
-        characteristic = _characteristic(linear, together, pencil, self.letter, start)
-        name = self.letter.name
+        linear, together, start, pencil = self.linear, self.together, self.start, self.pencil
+        characteristic, name = self.characteristic, self.letter.name
         found = [_frequency(characteristic, together, pencil, n, name, start) for n in range(len(pencil.swings))]
         motions: list[Quantity] = []
         for n, each in enumerate(found, 1):
@@ -76,6 +73,14 @@ class TurningModes:
             if column is not None:
                 motions.append(_motion(linear, together, each, column, n, start))
         return (*found, *motions)
+
+    @cached_property
+    def pencil(self) -> TurningPencil:
+        return pencil_of(self.together)
+
+    @cached_property
+    def characteristic(self) -> Quantity:
+        return _characteristic(self.linear, self.together, self.pencil, self.letter, self.start)
 
 
 def pencil_of(together: Linear) -> TurningPencil:
@@ -115,7 +120,7 @@ def _characteristic(
         lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored(pencil.parts, letter), "=", 0)),
-        routes={"quadrature": lambda found: _in_quadrature(found, linear, together, letter)},
+        routes={"quadrature": lambda found: in_quadrature(found, linear, together, letter)},
         telling=Telling(formulas={"trial": (trial := exp(I * letter * T), trial)}),
         key=f"{start}characteristic_equation",
         parents=linear,
@@ -123,11 +128,11 @@ def _characteristic(
     )
 
 
-def _in_quadrature(
+def in_quadrature(
     found: Relation, linear: Sequence[Quantity], together: Linear, letter: Symbol
 ) -> tuple[Relation, Relation]:
     """Cosines and sines of real amplitudes put in: twice as many real equations, whose determinant is the square."""
-    whole = _of_cosines_and_sines(linear, together, letter)
+    whole = of_cosines_and_sines(linear, together, letter)
     return Relation(explicit(found.left) ** 2, "=", 0), Relation(whole, "=", 0)
 
 
@@ -136,7 +141,7 @@ def _tidy_entry(entry: Expr) -> Expr:
     return tidied(real) + I * tidied(imaginary)
 
 
-def _of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: Symbol) -> Expr:
+def of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: Symbol) -> Expr:
     """The determinant of what eta = u cos(omega t) + v sin(omega t) leaves of the equations, sorted by cos and sin."""
     size = len(linear)
     u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(size)] for name in ("u", "v"))
@@ -309,151 +314,3 @@ def _outcome(column: Sequence[Expr], swing: Swing) -> str:
     if is_zero(size - 1) or is_zero(size + 1):
         return "circle_forwards" if is_zero(size - 1) else "circle_backwards"
     return {True: "ellipse_forwards", False: "ellipse_backwards", None: "ellipse"}[size.is_positive]
-
-
-# --- stability --------------------------------------------------------------------------------------------------------
-
-
-def linear_stability(
-    linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
-) -> Quantity | tuple[Quantity, ...]:
-    """Stability of rest where forces linear in the rates do no work: all omega^2 real, positive and different.
-
-    linear   the equations, as `linearised` yields them together
-    letter   the letter that a condition is solved for; unless given it is one that occurs as a square alone, if any
-    Turning may hold what the potential energy alone would let fall; drag, however small, takes this away again.
-    Second route: on the border of the condition two roots of the determinant meet, or one vanishes, where the
-    determinant is that of cosines and sines put into the equations.
-    Outcomes: stable, unstable, depends; where there are several conditions, further for each but the first.
-    Errors: there is drag; the determinant does not factor.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
-    """
-    together = linear[0].needed(Linear)
-    require_turning("linear_stability", together)
-    pencil = pencil_of(together)
-    given = {s.name for each in (together.mass, together.turning, together.stiffness) for s in each.free_symbols}
-    named = scalar("omega" if "omega" not in given else "Omega")
-    characteristic = _characteristic(linear, together, pencil, named, "" if key == "stability" else f"{key}_")
-    needs = _needed(pencil)
-    if any(pencil.sign(need) == -1 for need, _ in needs):
-        return _verdict(characteristic, together, "unstable", key)
-    undecided = [(need, part) for need, part in needs if pencil.sign(need) != 1]
-    if not undecided:
-        return _verdict(characteristic, together, "stable", key)
-    conditions = [positive(need, *([letter] if isinstance(letter, Symbol) else [])) for need, _ in undecided]
-    found = [
-        _condition(characteristic, together, i, conditions, undecided, key if i == 0 else f"{key}_{i + 1}", linear)
-        for i in range(len(conditions))
-    ]
-    return found[0] if len(found) == 1 else tuple(found)
-
-
-def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
-    """What must be positive, each with the factor that it is about."""
-    if pencil.is_minimum:
-        return []
-    free = [part for part in pencil.parts if part.is_free or len(part.coefficients) > 3 or part.times > 1]
-    if free or any(_may_drift(part, pencil) for part in pencil.parts):
-        message = (
-            "`linear_stability`: a root of the determinant is zero or repeated, so that first order does not decide"
-        )
-        if any(not part.is_free and len(part.coefficients) > 3 for part in free):
-            message = "`linear_stability`: the determinant has a factor of which no closed form of the roots is known"
-        raise Rejected(Complaint("not-decided", message))
-    return [(need, part) for part in pencil.parts for need in part.needs]
-
-
-def _may_drift(part: Part, pencil: TurningPencil) -> bool:
-    """Whether a root may be zero, and the coordinates then move on evenly: not where no stiffness at all is left."""
-    if not part.mirrored or len(part.coefficients) != 3 or pencil.sign(part.coefficients[2]) is not None:
-        return any(pencil.sign(need) == 0 for need in part.needs)
-    below = (cancel(entry / part.coefficients[2]).as_numer_denom()[1] for entry in pencil.stiffness)
-    return any(pencil.sign(tidied(each)) is None for each in below)
-
-
-def _verdict(characteristic: Quantity, together: Linear, outcome: str, key: str) -> Quantity:
-    """What holds whatever the letters are.
-
-    Outcomes: stable, unstable.
-    Source: that of `linear_stability`.
-    """
-    letter = characteristic.step.coordinates[-1][0]
-    return establish(
-        "gyroscopic.stability",
-        None,
-        lambda equation: equation,
-        {"characteristic": characteristic.value},
-        lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"quadrature": lambda found: _in_quadrature(found, characteristic.parents, together, letter)},
-        outcome=outcome,
-        telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together)),
-        key=key,
-        parents=[characteristic, *_rests(characteristic)],
-    )
-
-
-def _rests(characteristic: Quantity) -> list[Quantity]:
-    """The state of rest that the equations are about, where it is a result itself."""
-    return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
-
-
-def _named(characteristic: Quantity) -> dict[str, Quantity]:
-    """What the sentence of a verdict names."""
-    return {"characteristic": characteristic, **dict(zip(("rest",), _rests(characteristic), strict=False))}
-
-
-def _condition(
-    characteristic: Quantity,
-    together: Linear,
-    i: int,
-    conditions: Sequence[Relation],
-    needs: Sequence[tuple[Expr, Part]],
-    key: str,
-    linear: Sequence[Quantity],
-) -> Quantity:
-    """One condition.
-
-    Outcomes: depends, further.
-    Source: that of `linear_stability`.
-    """
-    letter = characteristic.step.coordinates[-1][0]
-    need, condition = needs[i][0], conditions[i]
-
-    def at_border(found: Relation) -> tuple[Expr, Expr]:
-        """Where the two sides are equal two roots of the determinant meet, or one is zero."""
-        whole = Poly(_of_cosines_and_sines(linear, together, letter), letter)
-        square = Symbol("z")
-        by_square = Add(*(c * square ** (n // 2) for (n,), c in whole.terms()))
-        border = border_of(explicit(found))
-        meets = _without_squares(by_square, square)
-        value = meets * Poly(by_square, square).eval(0)
-        residual = value.subs(border.left, border.right) if border is not None else _remainder(value, explicit(found))
-        return residual, ZERO
-
-    return establish(
-        "gyroscopic.stability",
-        None,
-        lambda *_: Relation(need, ">", 0),
-        {},
-        lines=Lines(
-            put_in=None, law=Level.FULL, result=False, after=[Form(condition, "solved")], arranged=lambda _: condition
-        ),
-        routes={"border": at_border},
-        outcome="depends" if i == 0 else "further",
-        telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together, conditions)),
-        key=key,
-        parents=[characteristic, *_rests(characteristic)],
-    )
-
-
-def _without_squares(value: Expr, square: Symbol) -> Expr:
-    """The discriminant of the polynomial whose square this is: zero where two of its roots meet."""
-    found = Poly(value, square).sqf_part()
-    return discriminant(found.as_expr(), square)
-
-
-def _remainder(value: Expr, condition: Relation) -> Expr:
-    """What is left of it where both sides of a condition are equal."""
-    residual = condition.residual.as_numer_denom()[0].expand()
-    letter = min(residual.free_symbols, key=str)
-    return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual, letter)).as_expr()
