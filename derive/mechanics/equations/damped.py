@@ -113,7 +113,7 @@ def _characteristic(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     matrix = together.mass * letter**2 + together.turning * letter + together.stiffness
-    tidy = ImmutableDenseMatrix(matrix.applyfunc(tidied))
+    tidy = together.rows_of(matrix)
     whole = Determinant(tidy) if len(linear) > 1 else tidy[0]
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:

@@ -112,7 +112,7 @@ def _characteristic(
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
     """
-    matrix = ImmutableDenseMatrix(pencil.at(letter).applyfunc(_tidy_entry))
+    matrix = ImmutableDenseMatrix(together.rows_of(pencil.at(letter)).applyfunc(_tidy_entry))
 
     return establish(
         "gyroscopic.characteristic",

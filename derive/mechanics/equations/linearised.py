@@ -11,12 +11,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, together
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import oscillations
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
@@ -51,6 +51,18 @@ class Linear(Fact):
     displacements: tuple[Coordinate, ...]
     exists: Relation | None = None
     driven: tuple[Expr, ...] = ()
+
+    def rows_of(self, matrix: MatrixBase) -> MatrixBase:
+        """A matrix of the amplitudes, each row without what all terms of its equation have in common."""
+        size = range(matrix.shape[0])
+        return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
+
+    def common(self, i: int) -> Expr:
+        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta."""
+        entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
+        above = [together(entry).as_numer_denom()[0] for entry in (*entries, self.driven[i]) if entry != 0]
+        found = common_factor(above)
+        return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
 
 
 def linearised(
@@ -113,7 +125,8 @@ def _one(
         (matrix, [rate(s.symbol, n) if n else s.symbol for s in eta])
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
-    terms = [spread(matrix[i, j]) * s for matrix, letters in ordered for j, s in enumerate(letters)]
+    common = linear.common(i)
+    terms = [spread(tidied(matrix[i, j] / common)) * s for matrix, letters in ordered for j, s in enumerate(letters)]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     named = _letters_of(rests)
@@ -124,7 +137,7 @@ def _one(
         )
         for n, (q, s) in enumerate(away, 1)
     }
-    whole = Relation(left, "=", linear.driven[i])
+    whole = Relation(left, "=", tidied(linear.driven[i] / common))
     if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
         counted["as_it_is"] = (whole, equations[i].value)
     return establish(

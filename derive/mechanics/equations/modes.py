@@ -122,7 +122,7 @@ def _characteristic(
     Outcomes: several, one.
     Source: that of `normal_modes`.
     """
-    matrix = ImmutableDenseMatrix((together.stiffness - letter**2 * together.mass).applyfunc(tidied))
+    matrix = together.rows_of(together.stiffness - letter**2 * together.mass)
     factored = pencil.factored(letter**2)
     whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
     if len(linear) == 1 and is_zero(whole + factored):
