@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Expr, Rational, Symbol, oo
+from sympy import Abs, Expr, Mul, Pow, Rational, Symbol, factor_list, oo, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import Expansion, NoExpansion, expanded, in_ascending_powers, small_of, tidied_terms
@@ -49,6 +49,7 @@ def limiting_case(
         message = f"`{of.key}` has no expansion in powers at {x.name} = {place}"
         help_line = None if order is None else "leave `order` out for the leading term alone"
         raise Rejected(Complaint("no-expansion", message, help=help_line)) from None
+    series = {n: _of_squares_drawn(c) for n, c in series.items()}
     power = Rational(order) if order is not None else max(series, default=Rational(0))
     found = tidied_terms(series, x, place)
     exact = is_zero(value - found)
@@ -86,6 +87,19 @@ def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
         return in_ascending_powers(expanded(value, x, place, Rational(value.as_poly(x).degree())), x, place)
     except NoExpansion:
         return value
+
+
+def _of_squares_drawn(value: Expr) -> Expr:
+    """With |l_1 - l_2| for sqrt((l_1 + l_2)^2 - 4 l_1 l_2)."""
+    drawn = {}
+    for root in value.atoms(Pow):
+        letters = root.base.free_symbols
+        if root.exp != Rational(1, 2) or not letters or not root.base.is_polynomial(*letters):
+            continue
+        number, factors = factor_list(root.base)
+        if number > 0 and all(times % 2 == 0 for _, times in factors):
+            drawn[root] = sqrt(number) * Mul(*(Abs(part) ** (times // 2) for part, times in factors))
+    return value.xreplace(drawn)
 
 
 def _sort_of(place: Expr) -> str:
