@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from sympy import Eq, Expr, Integer, Rational, cos, exp, log, oo, pi, sin, sqrt, symbols, tan
+from sympy import Abs, Eq, Expr, Integer, Rational, cos, exp, log, oo, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import TIME as t
@@ -104,6 +104,12 @@ def test_the_accelerations_of_a_block_and_its_wedge() -> None:
     assert "excluded" not in dict(wedge.step.roles)  # M + m sin^2 is never zero
     assert equal(limiting_case(block, M, oo, key="heavy").value, g * sin(alpha))
     assert equal(limiting_case(wedge, M, 0, key="light").value, -g * cos(alpha) / sin(alpha))
+
+
+def test_the_root_of_a_square_is_drawn_in_a_limit() -> None:
+    """The frequencies of a double pendulum with a light lower mass are those of its two lengths."""
+    width = given(sqrt((l + R) ** 2 - 4 * l * R + M * l * R / m))
+    assert limiting_case(width, M, 0).value == Abs(l - R)
 
 
 def test_what_is_divided_by_is_told_where_it_may_vanish() -> None:

@@ -108,6 +108,49 @@ parts:
 """
 
 
+HILL = """\
+title: A charge on a hill in a magnetic field
+solve: system
+symbols: {m: mass, q: charge, B: magnetic field, k: spring constant}
+given:
+  coordinates: {x: length, y: length}
+  particles: {particle: {mass: m, at: [x, y]}}
+  potential: -k*(x**2 + y**2)/2
+  charges: {charge: q, at: [x, y], magnetic: B}
+statement: A charge.
+parts:
+  - ask: Is it stable?
+    answer: [equilibria, stability]
+"""
+TOP = """\
+title: A sleeping top
+solve: system
+symbols: {M: mass, l: length, g: acceleration, A: moment of inertia, C: moment of inertia}
+given:
+  coordinates: {alpha: angle, beta: angle, psi: angle}
+  axes: {body: [{x: alpha}, {y: beta}, {z: psi}]}
+  bodies: {top: {moments: [A, A, C], mass: M, middle: [0, 0, l], held: pivot, turned: body}}
+  gravity: g
+  conserved: {psi: S}
+  at: {alpha: 0, beta: 0}
+statement: A top.
+parts:
+  - ask: How fast must it spin?
+    answer: stability
+"""
+
+
+@pytest.mark.parametrize(
+    ("described", "difference"),
+    [(HILL, "B**2*q**2 - 4*k*m"), (TOP, "-4*A*M*g*l + S**2")],
+)
+def test_what_turning_may_hold_is_judged_by_the_small_motions(described: str, difference: str, tmp_path: Path) -> None:
+    """Goldstein, section 5.7 for the top."""
+    found = solved(tmp_path, described)["stability"]
+    assert found.step.outcome == "depends" and found.value.mark == ">"
+    assert str((found.value.left - found.value.right).expand()) == difference
+
+
 def test_equations_are_linearised_about_a_state_of_rest_by_its_name(tmp_path: Path) -> None:
     """Taylor, equation 7.80."""
     found = solved(tmp_path, HOOP)["frequency"].value
