@@ -36,7 +36,7 @@ class _Piecewise(Surface):
     def told_as(self) -> str:
         return type(self).__name__.removesuffix("Mark").lower()
 
-    def in_words(self) -> InWords:
+    def in_words(self) -> InWords | None:
         return super().in_words() or (self.told_as, {"label": self.label})
 
 
@@ -83,6 +83,9 @@ class ConnectionMark(_Stretched):
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*self.places(paper.numbers))
         return [Stroke(spots, "trace"), self._beside(spots, 3.0)]
+
+    def in_words(self) -> InWords | None:
+        return super().in_words() if self.label is not None else None
 
 
 @dataclass(frozen=True)
@@ -292,11 +295,12 @@ class CartMark(BlockMark):
 
 @dataclass(frozen=True)
 class WheelMark(_Piecewise):
-    """A disc seen along its axis: a pulley, or what rolls; `pointer` is a direction that turns with it."""
+    """A disc or a hoop seen along its axis: a pulley, or what rolls; `pointer` is a direction that turns with it."""
 
     centre: Position
     radius: Any = None
     pointer: Position = None
+    is_ring: bool = False
     layer: ClassVar[int] = 2
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -307,8 +311,8 @@ class WheelMark(_Piecewise):
     def pieces(self, paper: Paper) -> list[Piece]:
         hub = paper.spot(paper.numbers.vector(self.centre))
         radius = WHEEL if self.radius is None else paper.numbers.of(self.radius) * paper.scale
-        pieces = _disc(hub, radius, "body")
-        if self.pointer is not None:
+        pieces = _ring(hub, radius) if self.is_ring else _disc(hub, radius, "body")
+        if self.pointer is not None and not self.is_ring:
             ahead = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.pointer)))
             end = hub[0] + radius * ahead[0], hub[1] + radius * ahead[1]
             pieces.append(Stroke((hub, end), "edge"))
@@ -319,6 +323,10 @@ def _disc(middle: Spot, radius: float, fill: str) -> list[Piece]:
     angles = [2 * pi * i / 72 for i in range(73)]
     spots = tuple((middle[0] + radius * cos(t), middle[1] + radius * sin(t)) for t in angles)
     return [Patch(spots, fill), Stroke(spots, "edge")]
+
+
+def _ring(middle: Spot, radius: float) -> list[Piece]:
+    return [Stroke(piece.spots, "bar") for piece in _disc(middle, radius, "blank") if isinstance(piece, Stroke)]
 
 
 @dataclass(frozen=True)

@@ -7,19 +7,19 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, ClassVar
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, cos, sin, sqrt
 
 from derive.algebra.expressions import TIME, column
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
 from derive.figures.bodies import is_line, round_outline
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.parts import BarMark, ParticleMark, WheelMark
+from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, WheelMark
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, is_fixed, moving_in, track_of
+from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, track_of
 from derive.figures.space import Vector, hull
-from derive.figures.surfaces import Polyhedron, ThinRod
+from derive.figures.surfaces import Circle, Polyhedron, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
 from derive.figures.turning import angle_marks, downwards, turns_about_axes
 from derive.mechanics.bodies.body import RoundBody
@@ -29,6 +29,8 @@ from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
 from derive.steps.step import is_zero
 
+EDGE = 12  # steps along the edge of a flat body
+ACROSS = column(0, 0, 1)
 FAR = Rational(8, 5)  # how much of a line is drawn, in terms of the coordinate
 
 
@@ -68,14 +70,48 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield from _axis_to(centre, placed)
     if square != 0 and is_fixed(system, placed.at):
         yield _holder(system, placed)
+    pivoted = pivot_of(system, placed) if square == 0 and not in_space else None
     if square != 0 and not moving_in(system, square):
         yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
         if in_space:
             yield from turns_about_axes(system, placed.turned, placed.at, _far_end(placed))
+    elif pivoted is not None:
+        yield from _pivoted(system, pivoted, outline)
     elif not in_space and getattr(placed.turned, "is_Symbol", False):
         yield from _own_angle(system, outline)
     for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
         yield from _ground_of(system, centre, wheel.radius)
+
+
+def pivot_of(system: System, placed: Any) -> Link | None:
+    """The way to the centre of a body from a place at rest with which it turns as a whole."""
+    for link in links_about_fixed(system, placed.centre):
+        if not link.is_constant:
+            continue
+        c, s = cos(placed.turned), sin(placed.turned)
+        x, y = link.way.components
+        own = tidied(x * c + y * s), tidied(y * c - x * s)
+        if not moving_in(system, *own):
+            return link
+    return None
+
+
+def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
+    """The joint on its rim; of a rod with both ends as far from there, the circle along which they slide."""
+    for mark in outline:
+        if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
+            yield FixedEnd(column_of(link.start), downwards(2), True)
+            yield ConnectionMark(column_of(link.start), column_of(link.end))
+            yield from angle_marks(system, link)
+        elif isinstance(mark, ThickBar):
+            ways = [Location(tuple(end)) - link.start for end in (mark.start, mark.end)]
+            far, other = (tidied(Add(*(c**2 for c in way.components))) for way in ways)
+            radius = sqrt(tidied(far))
+            if is_zero(far - other) and radius.is_Symbol:
+                yield Circle(column_of(link.start), ACROSS, radius)
+                yield PointMark(column_of(link.start))
+                yield ConnectionMark(column_of(link.start), mark.start, label=radius)
+                yield from angle_marks(system, link)
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
@@ -231,7 +267,7 @@ def placed_outline(placed: Any) -> list[Mark]:
             return [Polyhedron(corners, body.faces, **words)]
         return [SilhouetteMark(corners, **words), *_sides(body, corners)]
     if not isinstance(body, RoundBody):
-        return []
+        return _mapped(body, placed, at, words)
     (lower, upper), origin = body.ends, at(0, 0, 0)
     if is_line(body):
         return [ThickBar(at(0, 0, lower), at(0, 0, upper), label=upper - lower, **words)]
@@ -239,7 +275,8 @@ def placed_outline(placed: Any) -> list[Mark]:
         return [round_outline(body, origin, at(0, 0, 1) - origin)]
     if placed.across == 2:
         widest = max((body.radius_at(z) for z in (lower, upper, (lower + upper) / 2)), key=_in_units)
-        return [WheelMark(origin, widest, at(1, 0, 0) - origin, label=widest, **words)]
+        ring = body.filling == "length"
+        return [WheelMark(origin, widest, at(1, 0, 0) - origin, is_ring=ring, label=widest, **words)]
     heights = [lower + (upper - lower) * k / 24 for k in range(25)]
     sides = [(side * body.radius_at(z), z) for z in heights for side in (-1, 1)]
     corners = tuple(at(0, r, z) if placed.across == 0 else at(r, 0, z) for r, z in sides)
@@ -252,6 +289,23 @@ def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])
             yield DistanceMark(start, end, label=length)
+
+
+def _mapped(body: Any, placed: Any, at: Any, words: dict[str, Any]) -> list[Mark]:
+    """A flat body in its own plane by its edge, which the ends of its map have."""
+    map_of = getattr(body, "map", None)
+    if map_of is None or getattr(body, "flat_across", None) != "z" or placed.across != 2 or placed.point is None:
+        return []
+    place, limits = map_of()
+    if len(limits) != 2 or any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
+        return []
+    spots = [place]
+    for letter, low, high in limits:
+        steps = [low + (high - low) * Rational(k, EDGE) for k in range(EDGE + 1)]
+        spots = [spot.xreplace({letter: step}) for spot in spots for step in steps]
+    outer = [limit for limit in limits if limit[0] in place.free_symbols]
+    corners = tuple(dict.fromkeys(at(*spot) for spot in spots)) if outer else ()
+    return [SilhouetteMark(corners, **words)]
 
 
 def _measures(body: Any) -> tuple[tuple[str, Any], ...]:

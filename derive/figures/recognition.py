@@ -6,7 +6,7 @@ All of it is decided by algebra, after numbers have refuted most of what is not 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, diff, expand, factor, sin, sqrt
@@ -75,6 +75,12 @@ def is_spring(each: Central) -> bool:
     return third.is_zero is True
 
 
+def numeric(value: Expr) -> float:
+    """With numbers in the place of letters that differ and are below one: any lengths, and acute angles."""
+    letters = sorted(value.free_symbols, key=str)
+    return float(value.xreplace({letter: Float(0.6 + 0.07 * i) for i, letter in enumerate(letters)}).evalf())
+
+
 def same(a: Location, b: Location) -> bool:
     return all(expand(x - y) == 0 for x, y in _pairs(a, b))
 
@@ -137,11 +143,15 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
 
 def link_from_fixed(system: System, end: Location) -> Link | None:
     """The way to a moving place from one at rest from which its distance is constant."""
+    return next((link for link in links_about_fixed(system, end) if link.is_constant), None)
+
+
+def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
+    """The ways to a moving place from those at rest about which it turns."""
     for start in (_without(end, q) for q in moving_in(system, *end.components)):
         link = _link(system, start, end) if start is not None and is_fixed(system, start) else None
-        if link is not None and link.is_constant:
-            return link
-    return None
+        if link is not None:
+            yield link
 
 
 # --- angles ----------------------------------------------------------------------------------------------------------

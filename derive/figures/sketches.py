@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
-from sympy import ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
+from sympy import Add, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
@@ -30,13 +31,16 @@ from derive.figures.recognition import (
     kept_length,
     link_to,
     moving_in,
+    numeric,
     same,
     through_hole,
 )
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FieldMark, FixedEnd, GravityMark, WayMark
-from derive.figures.turning import downwards, leaning_to_the_right, turning_marks
+from derive.figures.touching import Touching
+from derive.figures.turning import angle_marks, downwards, leaning_to_the_right, turning_marks
+from derive.figures.wholeness import is_whole
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import Central, System
 
@@ -56,8 +60,9 @@ def sketch(
     values: Mapping[Any, Any] | None = None,
     named: Sequence[Location] = (),
     weights: bool = False,
-) -> Drawing:
-    """A drawing of a system, made of its places and forces, and put on the record of the problem.
+) -> Drawing | None:
+    """A drawing of a system, made of its places and forces, and put on the record of the problem; none where it would
+    leave out something that the system has.
 
     key      its name, for `drawings:` in the problem
     system   its particles, bodies, springs, central forces and weight
@@ -67,6 +72,8 @@ def sketch(
     weights  whether the weight of each particle and body is drawn where it acts, and not the gravity beside them
     """
     scene = _Scene(system, named, weights)
+    if not more and not scene.is_whole:
+        return None
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
 
 
@@ -81,6 +88,21 @@ class _Scene:
         self.sliding = Sliding(system, self.links) if self.rows == 2 else None
         held = {*self.links, *(self.sliding.tracks if self.sliding else ())}
         self.free = [i for i in indices if i not in held]
+        self.touching = Touching(system)
+        self.touching.told |= any(True for _ in contact_marks(system))
+        self.rods = self._rigid() if self.rows == 2 else []
+
+    def _rigid(self) -> list[tuple[int, int]]:
+        """Pairs of particles on no line and on no other rod that keep their distance."""
+        at = [particle.at for particle in self.system.particles]
+        return [(i, j) for i, j in combinations(self.free, 2) if is_rod(self.system, at[i], at[j])]
+
+    @property
+    def is_whole(self) -> bool:
+        joined = [*self.rods, *((*self.sliding.ropes, *self.sliding.strings) if self.sliding else ())]
+        joined += [(i, k) for i, (link, _, _) in self.strings.items() for k, one in self.links.items() if one == link]
+        joined += [(i, k) for i, links in self.tied.items() for k, one in self.links.items() if one in links]
+        return is_whole(self.system, self.marks, self.links.values(), joined, self.touching)
 
     @property
     def values(self) -> Mapping[Symbol, Any]:
@@ -88,6 +110,7 @@ class _Scene:
         for link in self.links.values():
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
+        found.update(self.touching.values)
         hanging = {string: HANGING * link.length for link, _, string in self.strings.values()}
         return {**found, **self._carried_round(), **hanging}
 
@@ -131,8 +154,11 @@ class _Scene:
         yield from contact_marks(self.system)
         for placed in getattr(self.system, "bodies", ()):
             yield from placed_marks(self.system, placed)
+        yield from self.touching.marks
+        for i, j in self.rods:
+            yield from self._rod(i, j)
         for i, link in self.links.items():
-            yield from turning_marks(self.system, link, self.system.particles[i].mass, self.named)
+            yield from turning_marks(self.system, link, self.system.particles[i], self.named)
             if self.rows == 3:
                 yield from self._round(link)
         yield from self._rods()
@@ -142,7 +168,7 @@ class _Scene:
             along = tuple(column_of(place) for place in (link.end, link.start, below))
             yield RopeMark(along, (ZERO, ZERO, ZERO))
         for i in self.free:
-            if i in self.strings or i in self.tied:
+            if i in self.strings or i in self.tied or any(i in pair for pair in self.rods):
                 yield ParticleMark(column_of(self.system.particles[i].at), label=self.system.particles[i].mass)
                 continue
             yield from self._free(self.system.particles[i].at, self.system.particles[i].mass)
@@ -151,6 +177,13 @@ class _Scene:
         elif self.system.weights:
             yield GravityMark(downwards(self.rows), label=self.system.gravity)
         yield from self._fields()
+
+    def _rod(self, i: int, j: int) -> Iterable[Mark]:
+        """From the lower particle to the other one, with its angle."""
+        low, up = sorted((self.system.particles[k].at for k in (i, j)), key=lambda at: numeric(at.components[1]))
+        link = Link(low, up, sqrt(tidied(Add(*(c**2 for c in (up - low).components)))), True)
+        yield BarMark(column_of(link.start), column_of(link.end), label=link.length)
+        yield from angle_marks(self.system, link)
 
     def _round(self, link: Link) -> Iterable[Mark]:
         """The circle on which a place is seen from above that is at a distance from an axis, and that axis."""
@@ -256,7 +289,7 @@ class _Scene:
     def _ways(self, at: Location) -> Iterable[Mark]:
         """The curves of its place, one coordinate after the other; a thing that is there if it is the only one."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
-        for q in moving:
+        for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
             yield WayMark(column_of(at), q, *ends, "wire" if len(moving) == 1 else "trace")
         if len(moving) == 1 and moving[0] in at.components:

@@ -20,6 +20,7 @@ from derive.figures.parts import (
     BlockMark,
     CartMark,
     CornerRopeMark,
+    ParticleMark,
     RopeMark,
     WedgeMark,
     WheelMark,
@@ -85,7 +86,11 @@ class Sliding:
         level = track.way.components[1] == 0
         off = CLEAR + (8 if is_wedge or level and self.system.between else 0)
         if not is_wedge:
-            kind = CartMark if any(same(link.start, at) for link in self.links.values()) else BlockMark
+            if not self._lies(track):
+                yield from self._afloat(i, track)
+                return
+            carries = level and any(same(link.start, at) for link in self.links.values())
+            kind = CartMark if carries else BlockMark
             block = kind(column_of(at), ImmutableDenseMatrix([1, 0]), label=self._mass(i))
             off += (block.usual[1] if level else block.usual[0]) / 2
             yield from (block, PointMark(column_of(at))) if kind is CartMark else (block,)
@@ -94,6 +99,19 @@ class Sliding:
         if track.is_unit and self._is_measured(i):
             aside = ImmutableDenseMatrix([0, -1 if is_wedge else 1] if level else [self._free_side(i), 0])
             yield DistanceMark(column_of(start), column_of(at), aside, off, label=track.by)
+
+    def _lies(self, track: Track) -> bool:
+        """Whether there is weight, or a wall that holds a spring, so that what moves on a level line is a block."""
+        walls = [end for each in self.system.between for end in (each.start, each.end) if is_fixed(self.system, end)]
+        return bool(self.system.weights or walls) or track.way.components[1] != 0
+
+    def _afloat(self, i: int, track: Track) -> Iterable[Mark]:
+        """A particle on a line on which nothing lies, and how far it has moved."""
+        at, start = column_of(self._at(i)), column_of(track.start)
+        yield ParticleMark(at, label=self._mass(i))
+        if track.is_unit:
+            before = [t for k, t in self.tracks.items() if k < i and same(t.start, track.start)]
+            yield DistanceMark(start, at, ImmutableDenseMatrix([0, 1]), CLEAR + 10 + 16 * len(before), label=track.by)
 
     def _free_side(self, i: int) -> int:
         """Of what hangs: the side on which nothing hangs or lies at the other end of its string."""

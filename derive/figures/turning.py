@@ -18,29 +18,39 @@ from derive.figures.positions import column_of
 from derive.figures.recognition import Link, angle_of_link, is_spring, kept_length, moving_in, same
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, WayMark
 from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.systems.system import Particle, System
+from derive.steps.step import is_zero
 
 ZERO = Integer(0)
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
 LONGER, BESIDE, ROUND = Rational(5, 4), Rational(9, 8), Rational(1, 8)  # of the axis, where it turns, how wide
+HANGING = frozenset({"bob", "pendulum"})  # what particles are called that hang on a rod or a string
+THREADED = frozenset({"bead", "ring", "sleeve", "collar"})  # and those on a wire
 
 
-def turning_marks(system: System, link: Link, mass: Any, named: Sequence[Location] = ()) -> Iterable[Mark]:
+def turning_marks(system: System, link: Link, which: Particle, named: Sequence[Location] = ()) -> Iterable[Mark]:
     """A particle on the way that holds it, and how that way lies; a rod leads from a place that was named, or moves."""
     start, end = column_of(link.start), column_of(link.end)
     rows = len(link.start.components)
-    yield ParticleMark(end, label=mass)
+    yield ParticleMark(end, label=which.mass)
     yield from angle_marks(system, link)
     moving = moving_in(system, *link.way.components)
     around = [q for q in system.coordinates if q in moving and system.coordinates[q] == "angle"]
     held = any(same(link.start, place) for place in named) or bool(moving_in(system, *link.start.components))
-    if link.is_constant and TIME in moving and around and held:
+    alone = moving_in(system, *link.end.components) - {TIME} == set(around[:1])
+    if link.is_constant and TIME in moving and around and held and not _is_called(which.name, THREADED):
         yield BarMark(start, end, label=link.length)
         yield PointMark(start)
         yield from _arm(system, link.start)
-    elif link.is_constant and TIME in moving and around:
+    elif link.is_constant and TIME in moving and alone and around:
         yield WayMark(end, around[0], -pi, pi, "wire")
         yield ConnectionMark(start, end, label=link.length)
+    elif link.is_constant and not is_rod_for(system, link, which.name):
+        yield ConnectionMark(start, end, label=link.length)
+        if not _is_rim(system, link):
+            yield PointMark(start)
+            if around and moving - {TIME} == set(around[:1]):
+                yield WayMark(end, around[0], -pi, pi, "wire" if _is_called(which.name, THREADED) else "trace")
     elif link.is_constant:
         yield BarMark(start, end, label=link.length)
         if not any(same(link.start, particle.at) for particle in system.particles):
@@ -54,11 +64,34 @@ def turning_marks(system: System, link: Link, mass: Any, named: Sequence[Locatio
     else:
         if (radius := kept_length(system, link.length)) is not None and around:
             yield WayMark(column_of(bound_place(link.end, link.length, radius)), around[0], -pi, pi, "wire")
-        if TIME in moving and link.length.is_Symbol:
+        if TIME in moving and moving_in(system, *link.end.components) - {TIME} == {link.length}:
             yield WayMark(end, link.length, ZERO, Rational(3, 2) * link.length, "wire")
         yield ConnectionMark(start, end, label=link.length)
         if not any(same(link.start, place) for each in system.between for place in (each.start, each.end)):
             yield PointMark(start)
+
+
+def is_rod_for(system: System, link: Link, name: str) -> bool:
+    """Whether a constant distance is surely a rod or a string: of what is called so, between two particles, or of a
+    length that has the letter of one. On a radius about a place at rest, a bead may slide on a hoop as well."""
+    if _is_called(name, THREADED) or _is_rim(system, link):
+        return False
+    if _is_called(name, HANGING) or any(same(link.start, particle.at) for particle in system.particles):
+        return True
+    return all(letter.name.lower().startswith("l") for letter in link.length.free_symbols)
+
+
+def _is_called(name: str, kinds: frozenset[str]) -> bool:
+    return any(part.rstrip("0123456789") in kinds for part in name.lower().replace("-", "_").split("_"))
+
+
+def _is_rim(system: System, link: Link) -> bool:
+    """Whether a link is a radius of a round body: what is at its end is on the body."""
+    for placed in system.bodies:
+        radius = getattr(placed.body, "radius", None)
+        if radius is not None and same(placed.centre, link.start) and is_zero(radius - link.length):
+            return True
+    return False
 
 
 def bound_place(place: Location, letter: Expr, value: Expr) -> Location:

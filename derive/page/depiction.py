@@ -21,6 +21,7 @@ from derive.page.plots import curves_of
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 
+CURVE = "way"  # the phrase for a dashed one
 FOUND = -1  # the index of the statement, before that of part a
 
 
@@ -95,7 +96,7 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
             help=did_you_mean(placement.key, names) or known,
         )
         for placement in problem.drawings
-        if placement.key not in names
+        if placement.key not in names and placement.at != HIDDEN
     ]
 
 
@@ -191,13 +192,22 @@ def alternative(
     """What is drawn, in words."""
     if isinstance(drawing, m.Plot):
         return _curves(problem, drawing, placement, words)
-    told = [nodes for nodes in (_mark(mark, words) for mark in drawing.marks) if nodes]
+    told = [nodes for nodes in (_mark(mark, words) for mark in _told_once(drawing.marks)) if nodes]
     for phrase in dict.fromkeys(mark.together for mark in drawing.marks if mark.together and mark.label is not None):
         names = [_named(mark.label) for mark in drawing.marks if mark.together == phrase and mark.label is not None]
         joint = {"names": joined(names, words.labels["and"]), "several": len(names) > 1}
         told.append(filled(words.drawings[phrase], joint))
     items = joined(told, words.labels["and"])
     return filled(words.drawings[drawing.view], {"marks": items})
+
+
+def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
+    """Of curves that only show where something can move the first."""
+    found: dict[Any, m.Mark] = {}
+    for mark in marks:
+        told = mark.in_words()
+        found.setdefault(CURVE if told is not None and told[0] == CURVE and mark.label is None else mark, mark)
+    return list(found.values())
 
 
 def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:

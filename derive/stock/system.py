@@ -122,7 +122,6 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:
         named = places.all_named()
     sorts: tuple[Sequence[Any], ...] = (
-        list(written.particles.values()),
         written.springs,
         written.central,
         written.forces,
@@ -130,6 +129,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         written.charges,
         written.constraints,
     )
+    with faults:
+        made = each([partial(one.part, places, known) for one in written.particles.values()])
+        parts += [replace(p, named=(("name", str(n)),)) for p, n in zip(made, written.particles, strict=True)]
     for described in sorts:
         with faults:
             parts += each([partial(one.part, places, known) for one in described])

@@ -33,10 +33,14 @@ DISTANCE = Dummy("r", positive=True)
 
 @dataclass(frozen=True)
 class Particle:
-    """A particle of a constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1."""
+    """A particle of a constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
+
+    name   what it is, for its drawing: a "bob" hangs on a rod, a "bead" is on a wire
+    """
 
     mass: Expr
     at: Location
+    name: str = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.mass, Expr | int) or not isinstance(self.at, Location):

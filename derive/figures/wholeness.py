@@ -1,0 +1,127 @@
+"""Whether a drawing shows all that a system has: one that leaves out a body, a spring, a wall or a string shows other
+physics, and is not drawn at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from itertools import combinations
+
+from sympy import diff
+
+from derive.figures.annotations import PointMark
+from derive.figures.marks import Mark
+from derive.figures.parts import ConnectionMark, ParticleMark
+from derive.figures.placed_bodies import ThickBar, placed_outline, with_its_shape
+from derive.figures.recognition import Link, carrier_of, is_fixed, is_rod, kept_length, moving_in, same, track_of
+from derive.figures.surroundings import AngleBetween, FieldMark, GravityMark
+from derive.figures.touching import Touching
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+
+ALONE = (ParticleMark, PointMark, ThickBar, AngleBetween, ConnectionMark, FieldMark, GravityMark)
+
+
+def is_whole(
+    system: System,
+    marks: Sequence[Mark],
+    links: Collection[Link],
+    pairs: Iterable[tuple[int, int]],
+    touching: Touching,
+) -> bool:
+    """Whether nothing that the system has is missing.
+
+    pairs   particles that a string or a rod joins
+    """
+    return (
+        _bodies_are_seen(system)
+        and _conditions_are_seen(system, links, pairs, touching)
+        and _energies_are_seen(system)
+        and _is_joined(system, links, pairs, touching)
+        and _shows_something(system, marks, links)
+    )
+
+
+def _bodies_are_seen(system: System) -> bool:
+    """Each has an outline, or in space an axis from the point at which it is held."""
+    return all(
+        placed_outline(with_its_shape(placed))
+        or (len(placed.at.components) == 3 and not same(placed.at, placed.centre))
+        for placed in system.bodies
+    )
+
+
+def _conditions_are_seen(
+    system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching
+) -> bool:
+    """Each constraint is a wall, a length, a string or what is rolled on; so is each condition of rolling."""
+    lengths = {link.length for link in links if kept_length(system, link.length) is not None}
+    tied = {system.particles[i].at: None for pair in pairs for i in pair}
+    tracks = {t.by for at in tied if (t := track_of(system, at)) is not None}
+    for each in system.constraints:
+        moving = set(each.coordinates)
+        if each not in touching.shown and not (moving <= lengths or len(moving) > 1 and moving <= tracks):
+            return False
+    in_space = any(len(placed.at.components) == 3 for placed in system.bodies)
+    return not system.conditions or not in_space and (touching.told or bool(touching.rolls_at_rest))
+
+
+def _energies_are_seen(system: System) -> bool:
+    """A potential energy of its own that couples things, or holds a body, stands for springs that are not there."""
+    charged = len([each for each in system.charges if any(each.electric)])
+    own = system.stored[: len(system.stored) - charged]
+    many = len(system.particles) + len(system.bodies) > 1 or system.bodies
+    bent = any(
+        diff(each.energy, p, q) != 0 for each in own for p in system.coordinates for q in moving_in(system, each.energy)
+    )
+    return not (many and bent)
+
+
+def _is_joined(system: System, links: Collection[Link], pairs: Iterable[tuple[int, int]], touching: Touching) -> bool:
+    """Whether things that move by one coordinate are joined by what is drawn."""
+    places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
+    group = list(range(len(places)))
+
+    def join(i: int, j: int) -> None:
+        old, new = group[i], group[j]
+        group[:] = [new if g == old else g for g in group]
+
+    for i, j in _neighbours(system, links, places):
+        join(i, j)
+    for i, j in pairs:
+        join(i, j)
+    for i, j in combinations(range(len(places)), 2):
+        if is_rod(system, places[i], places[j]):
+            join(i, j)
+    for q in system.coordinates:
+        holding = [i for i, place in enumerate(places) if q in moving_in(system, *place.components)]
+        if len({group[i] for i in holding}) > 1:
+            return False
+    return True
+
+
+def _neighbours(system: System, links: Collection[Link], places: Sequence[Location]) -> Iterator[tuple[int, int]]:
+    """Numbers of places of which a link, a force or the line of a slide joins one to the other."""
+    ends = [(link.start, link.end) for link in links] + [(each.start, each.end) for each in system.between]
+    for a, b in ends:
+        found = [i for i, place in enumerate(places) if same(place, a) or same(place, b)]
+        yield from combinations(found, 2)
+    fixed = [link for link in links if is_fixed(system, link.start)]
+    for one, other in combinations(fixed, 2):
+        if same(one.start, other.start):
+            yield tuple(next(i for i, p in enumerate(places) if same(p, link.end)) for link in (one, other))  # type: ignore[misc]
+    for i, particle in enumerate(system.particles):
+        track = track_of(system, particle.at)
+        carrier = carrier_of(system, i, track) if track is not None else None
+        if carrier is not None:
+            yield i, carrier
+
+
+def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
+    """More than particles, bodies and angles alone; a free body in space needs nothing beside it."""
+    outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
+    if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
+        return True
+    acted_on = system.weights or system.constraints or system.conditions or system.given_forces
+    lies_in_space = any(len(placed.at.components) == 3 for placed in system.bodies)
+    return bool((links or system.between) and not system.bodies or lies_in_space and not acted_on and outlines)
