@@ -37,7 +37,7 @@ from derive.figures.recognition import (
 )
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
-from derive.figures.surroundings import FieldMark, FixedEnd, GravityMark, WayMark
+from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
 from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, leaning_to_the_right, turning_marks
 from derive.figures.wholeness import is_whole
@@ -184,6 +184,9 @@ class _Scene:
         link = Link(low, up, sqrt(tidied(Add(*(c**2 for c in (up - low).components)))), True)
         yield BarMark(column_of(link.start), column_of(link.end), label=link.length)
         yield from angle_marks(self.system, link)
+        for end in (low, up):
+            if self.system.weights and not moving_in(self.system, end.components[1]):
+                yield FloorMark((column_of(end),))
 
     def _round(self, link: Link) -> Iterable[Mark]:
         """The circle on which a place is seen from above that is at a distance from an axis, and that axis."""

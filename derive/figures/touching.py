@@ -32,6 +32,7 @@ from derive.figures.recognition import (
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import FixedEnd, FloorMark, GroundMark
 from derive.figures.turning import angle_marks, bound_place, downwards
+from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.no_slip import Rolling, contact_velocity
 from derive.mechanics.systems.places import Location
@@ -111,13 +112,15 @@ class Touching:
 
     def _wheels(self) -> Iterator[tuple[Any, Expr, Location]]:
         """The bodies with a round edge in the plane, its radius and the middle of its circle."""
-        for placed in self.system.bodies:
-            radius, named = getattr(placed.body, "radius", None), getattr(placed.body, "points", dict)()
-            for mark in placed_outline(with_its_shape(placed)):
+        for placed in map(with_its_shape, self.system.bodies):
+            radius, own_points = getattr(placed.body, "radius", None), _points_of(placed.body)
+            for mark in placed_outline(placed):
                 if isinstance(mark, WheelMark):
                     yield placed, mark.radius, Location(tuple(mark.centre))
-                elif isinstance(mark, SilhouetteMark) and "circle_centre" in named and radius is not None:
-                    own = ImmutableDenseMatrix(named["circle_centre"].position - placed.point.position)
+                elif (
+                    isinstance(mark, SilhouetteMark) and radius is not None and "circle_centre" in placed.body.points()
+                ):
+                    own = ImmutableDenseMatrix(own_points["circle_centre"].position - placed.point.position)
                     yield placed, radius, placed.at + placed.seen_in_space(own)
 
     def _pulley(self, placed: Any, radius: Expr) -> Iterable[Mark]:
@@ -268,3 +271,8 @@ def _follows(component: Expr, constraint: Constraint, moving: list[Symbol]) -> b
     pairs = [(component.diff(rate(q)), kept.diff(rate(q))) for q in moving]
     share = next((a / b for a, b in pairs if b != 0 and a != 0), None)
     return share is not None and is_zero(tidied(component - share * kept))
+
+
+def _points_of(body: Any) -> Mapping[str, Point]:
+    points: Mapping[str, Point] = body.points() if hasattr(body, "points") else {}
+    return points

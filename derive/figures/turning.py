@@ -24,6 +24,7 @@ from derive.steps.step import is_zero
 ZERO = Integer(0)
 TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
 LONGER, BESIDE, ROUND = Rational(5, 4), Rational(9, 8), Rational(1, 8)  # of the axis, where it turns, how wide
+FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
 HANGING = frozenset({"bob", "pendulum"})  # what particles are called that hang on a rod or a string
 THREADED = frozenset({"bead", "ring", "sleeve", "collar"})  # and those on a wire
 
@@ -53,9 +54,14 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
                 yield WayMark(end, around[0], -pi, pi, "wire" if _is_called(which.name, THREADED) else "trace")
     elif link.is_constant:
         yield BarMark(start, end, label=link.length)
-        if not any(same(link.start, particle.at) for particle in system.particles):
+        sliding = sorted(moving_in(system, *link.start.components) - {TIME}, key=str)
+        if not any(same(link.start, particle.at) for particle in system.particles) and not sliding:
             yield FixedEnd(start, downwards(rows), True)
             yield from _shaken(system, link.start)
+        elif len(sliding) == 1 and not _is_joint(system, link.start):
+            far = pi if system.coordinates[sliding[0]] == "angle" else FAR * sliding[0]
+            yield WayMark(start, sliding[0], -far, far, "wire")
+            yield PointMark(start)
     elif (components := _components(system, link)) and not link.length.is_Symbol:
         yield from components
     elif _has_spring(system, link):
@@ -76,9 +82,14 @@ def is_rod_for(system: System, link: Link, name: str) -> bool:
     length that has the letter of one. On a radius about a place at rest, a bead may slide on a hoop as well."""
     if _is_called(name, THREADED) or _is_rim(system, link):
         return False
-    if _is_called(name, HANGING) or any(same(link.start, particle.at) for particle in system.particles):
+    if _is_called(name, HANGING) or _is_joint(system, link.start):
         return True
     return all(letter.name.lower().startswith("l") for letter in link.length.free_symbols)
+
+
+def _is_joint(system: System, place: Location) -> bool:
+    """Whether a particle is there, or the middle of a body."""
+    return any(same(place, at) for _, at in system.masses)
 
 
 def _is_called(name: str, kinds: frozenset[str]) -> bool:
