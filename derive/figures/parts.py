@@ -340,5 +340,13 @@ class WedgeMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*self.places(paper.numbers))
-        x, y = (sum(spot[k] for spot in spots) / len(spots) for k in (0, 1))
+        # The name is away from the sharp corner, where the angle of a slope is told.
+        sharp = min(range(len(spots)), key=lambda i: _opening(spots[i - 1], spots[i], spots[(i + 1) % len(spots)]))
+        shares = [0.2 if i == sharp else 0.8 / (len(spots) - 1) for i in range(len(spots))]
+        x, y = (sum(share * spot[k] for share, spot in zip(shares, spots, strict=True)) for k in (0, 1))
         return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge"), Tag(self.label, (x, y), (0.0, 0.0), on=True)]
+
+
+def _opening(before: Spot, corner: Spot, after: Spot) -> float:
+    (x, y), (u, v) = direction(corner, before), direction(corner, after)
+    return acos(max(-1.0, min(1.0, x * u + y * v)))

@@ -14,11 +14,11 @@ from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
 from derive.figures.bodies import is_line, round_outline
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, WheelMark
-from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
+from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, WheelMark, beside
+from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, track_of
-from derive.figures.space import Vector, hull
+from derive.figures.space import Spot, Vector, hull
 from derive.figures.surfaces import Circle, Polyhedron, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
 from derive.figures.turning import angle_marks, downwards, turns_about_axes
@@ -54,6 +54,11 @@ class ThickBar(BarMark):
 
     pen: ClassVar[str] = "rod"
     layer: ClassVar[int] = 2
+
+    def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
+        """Past the middle, where its centre is marked."""
+        (x, y), (u, v) = spots
+        return beside(self.label, (x + (u - x) / 3, y + (v - y) / 3), (u, v), gap)
 
 
 def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
@@ -97,7 +102,7 @@ def pivot_of(system: System, placed: Any) -> Link | None:
 
 
 def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
-    """The joint on its rim; of a rod with both ends as far from there, the circle along which they slide."""
+    """The joint on its rim or at its end; of a rod with both ends as far from there, the circle on which they slide."""
     for mark in outline:
         if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
             yield FixedEnd(column_of(link.start), downwards(2), True)
@@ -106,12 +111,14 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
         elif isinstance(mark, ThickBar):
             ways = [Location(tuple(end)) - link.start for end in (mark.start, mark.end)]
             far, other = (tidied(Add(*(c**2 for c in way.components))) for way in ways)
-            radius = sqrt(tidied(far))
-            if is_zero(far - other) and radius.is_Symbol:
+            radius = sqrt(far)
+            if 0 in (far, other):
+                yield FixedEnd(column_of(link.start), downwards(2), True)
+            elif is_zero(far - other) and radius.is_Symbol:
                 yield Circle(column_of(link.start), ACROSS, radius)
                 yield PointMark(column_of(link.start))
                 yield ConnectionMark(column_of(link.start), mark.start, label=radius)
-                yield from angle_marks(system, link)
+            yield from angle_marks(system, link)
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:

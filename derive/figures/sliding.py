@@ -232,6 +232,7 @@ class Sliding:
             lengths = [] if kind == "angle" or slides and not self.ropes else self._at_zero(q)
             if any(lengths):
                 size = next(each for each in lengths if each != 0)
+                size = size if all(lengths) else self._string(q, size)
                 share = Rational(2, 5) if not all(lengths) else Rational(1, 4 + len(found))
                 found[q] = share * size
         for i, j in self.ropes:
@@ -240,6 +241,14 @@ class Sliding:
             if radius.is_Symbol and long:
                 found[radius] = min(long, key=str) / 5
         return found
+
+    def _string(self, q: Symbol, size: Expr) -> Expr:
+        """As many of these lengths as a string has of which a coordinate is the part on one side."""
+        for i, j in self.ropes:
+            if self.tracks[i].by == q:
+                whole = abs(tidied((self.tracks[i].start - self.tracks[j].start).components[1]))
+                return whole if (whole / size).is_number and whole != 0 else size
+        return size
 
     def _radius(self, i: int, j: int) -> Expr:
         """Half of what is between the two lines on which masses hang."""

@@ -265,7 +265,7 @@ class FieldMark(Mark):
     def pieces(self, paper: Paper) -> list[Piece]:
         along = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.along)))
         right, top = max(x for x, _ in paper.drawn) + FREE, max(y for _, y in paper.drawn)
-        start = right, top - ARROW - self.before * 2.2 * ARROW
+        start = right, top - 1.5 * ARROW - self.before * 2.2 * ARROW - max(0.0, along[1]) * ARROW
         end = start[0] + ARROW * along[0], start[1] + ARROW * along[1]
         return [Stroke((start, end), "given", head=True), Tag(self.label, end, along)]
 

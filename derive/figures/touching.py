@@ -117,9 +117,7 @@ class Touching:
             for mark in placed_outline(placed):
                 if isinstance(mark, WheelMark):
                     yield placed, mark.radius, Location(tuple(mark.centre))
-                elif (
-                    isinstance(mark, SilhouetteMark) and radius is not None and "circle_centre" in placed.body.points()
-                ):
+                elif isinstance(mark, SilhouetteMark) and radius is not None and "circle_centre" in own_points:
                     own = ImmutableDenseMatrix(own_points["circle_centre"].position - placed.point.position)
                     yield placed, radius, placed.at + placed.seen_in_space(own)
 
@@ -175,14 +173,15 @@ class Touching:
                         yield FloorMark((column_of(foot),), 0.0, (ROLLING, ROLLING))
 
     def _feet(self, hub: Location, radius: Expr) -> Iterable[Location]:
-        """Where a circle that moves along a straight line may touch straight ground."""
+        """Where a circle that moves along a straight line may touch straight ground under it."""
         way = Location(tuple(tidied(c.diff(q)) for c in hub.components for q in self._moving(hub)))
         if len(way.components) == 2 and is_fixed(self.system, way):
             size = sqrt(tidied(way.components[0] ** 2 + way.components[1] ** 2))
             x, y = (tidied(c / size) for c in way.components)
             for below in (Location((y, -x)), Location((-y, x))):
-                foot: Location = hub + radius * below
-                yield foot
+                if numeric(below.components[1]) < 0:
+                    foot: Location = hub + radius * below
+                    yield foot
 
     def _moving(self, place: Location) -> list[Symbol]:
         return sorted(moving_in(self.system, *place.components), key=str)

@@ -74,7 +74,7 @@ def test_every_element_is_told_in_words_and_kept_as_data() -> None:
     )  # fmt: skip
     assert told(found) == (
         "A drawing in a vertical plane of a cart M, a block m, a spring k, a string l, a wheel, a wedge, hatched "
-        "ground, a wall, a ceiling, a fixed end, the dashed way of a place, an arrow g downwards and "
+        "ground, a wall, a ceiling, a fixed end, a dashed curve, an arrow g downwards and "
         "the length a."
     )
     assert list(drawings_from_data(json.loads(json.dumps(drawings_to_data([found]))))) == [found]
