@@ -14,7 +14,7 @@ from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
 from derive.figures.bodies import is_line, round_outline
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, WheelMark, beside
+from derive.figures.parts import BarMark, ConnectionMark, WheelMark, beside
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, track_of
@@ -124,8 +124,8 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
     """A body of any shape: the line from the point that is held to its centre of mass."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
-    yield BarMark(column_of(placed.at), column_of(centre), label=size)
-    yield ParticleMark(column_of(centre), label=placed.body.mass)
+    yield ConnectionMark(column_of(placed.at), column_of(centre), label=size)
+    yield PointMark(column_of(centre), label=placed.body.mass)
 
 
 def _holder(system: System, placed: Any) -> Mark:

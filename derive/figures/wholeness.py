@@ -37,9 +37,19 @@ def is_whole(
         _bodies_are_seen(system)
         and _conditions_are_seen(system, links, pairs, touching)
         and _energies_are_seen(system)
+        and all(
+            len(moving_in(system, *link.start.components) & {*system.coordinates}) < 2
+            for link in links
+            if _is_loose(system, link)
+        )
         and _is_joined(system, links, pairs, touching)
         and _shows_something(system, marks, links)
     )
+
+
+def _is_loose(system: System, link: Link) -> bool:
+    """Whether nothing is where it starts."""
+    return not any(same(link.start, at) for _, at in system.masses)
 
 
 def _bodies_are_seen(system: System) -> bool:

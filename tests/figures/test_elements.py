@@ -59,9 +59,7 @@ def test_a_pendulum_is_told_in_words() -> None:
     theta = coordinate("theta")
     bob = hung(l, theta)
     found = drawing("one", pivot(ORIGIN), rod(ORIGIN, bob, l), angle_mark(ORIGIN, "down", bob, theta), particle(bob, m))
-    assert told(found) == (
-        "A drawing in a vertical plane of a fixed pivot, a rod of length l, the angle θ and a particle m."
-    )
+    assert told(found) == ("A drawing in a vertical plane of a pivot, a rod of length l, the angle θ and a particle m.")
 
 
 def test_every_element_is_told_in_words_and_kept_as_data() -> None:

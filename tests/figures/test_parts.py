@@ -146,9 +146,11 @@ def test_a_pulley_in_a_corner_touches_both_parts_of_its_string(lifts: tuple[floa
         assert hub == pytest.approx((0, 0), abs=1e-6)  # the lifted string has its wheel on the corner itself
 
 
-def test_a_wedge_is_told_and_named_in_its_middle() -> None:
-    pieces = seen(shown(wedge(point(0, 0), point(3, 0), point(0, 3), label=m)))
+def test_a_wedge_is_told_and_named_away_from_its_sharp_corner() -> None:
+    pieces = seen(shown(wedge(point(0, 0), point(4, 0), point(0, 3), label=m)))
     tag = next(piece for piece in pieces if isinstance(piece, Tag))
     corners = next(piece for piece in pieces if isinstance(piece, Patch)).spots
     assert tag.on
-    assert tag.spot == pytest.approx(tuple(sum(c[k] for c in corners) / 3 for k in (0, 1)))
+    middle = [sum(c[k] for c in corners) / 3 for k in (0, 1)]
+    far = [max(c[0] for c in corners), min(c[1] for c in corners)]
+    assert tag.spot == pytest.approx(tuple(m + (m - f) / 5 for m, f in zip(middle, far, strict=True)))

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from sympy import Matrix, cos, pi, sin, symbols
 
-from derive.algebra.expressions import scalar
+from derive.algebra.expressions import TIME, scalar
 from derive.figures.parts import RopeMark
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import FixedEnd, FloorMark, GroundMark
@@ -41,15 +41,13 @@ def ladder(*letters: str) -> Touching:
     with recorded():
         x, y, theta = coordinate("x", "length"), coordinate("y", "length"), coordinate("theta")
         rod = Rod(l, M).placed(theta, point(x, y))
-        kept = [
-            constraint(x - l / 2 * sin(theta), force=letters[0]),
-            constraint(y - l / 2 * cos(theta), force=letters[1]),
-        ]
+        middle = x - l / 2 * sin(theta), y - l / 2 * cos(theta)
+        kept = [constraint(each, force=force) for each, force in zip(middle, letters, strict=True)]
         return Touching(System(rod, W, *kept))
 
 
 def test_a_ladder_leans_against_a_wall_and_stands_on_a_floor() -> None:
-    """Its upper end is at x = 0 and its lower one at y = 0: Morin, Introduction to Classical Mechanics, problem 8.27."""
+    """Its upper end is at x = 0, its lower one at y = 0: Morin, Introduction to Classical Mechanics, chapter 8."""
     found = ladder("N", "F")
     (wall,), (floor,) = marks(found, GroundMark), marks(found, FloorMark)
     x, y, theta = (scalar(name) for name in ("x", "y", "theta"))
@@ -95,7 +93,7 @@ def test_what_keeps_a_distance_rolls_on_a_circle(body: Any, far: Any, radius: An
 
 
 def test_rolling_inside_or_outside_is_told_by_what_is_at_rest() -> None:
-    """a psi' = -b phi' inside a cylinder of radius a + b, +b phi' on one of radius b - a: Landau, Lifshitz, section 32."""
+    """Turned by -b phi/a in a cylinder of radius a + b, by b phi/a on one of b - a: Landau, Lifshitz, section 32."""
     for sense, size in ((-1, a + b), (1, b - a)):
         with recorded():
             phi = coordinate("phi")
@@ -145,7 +143,7 @@ def test_what_rolls_on_a_moving_plank_is_not_on_ground_at_rest() -> None:
     with recorded():
         x, phi = coordinate("x", "length"), coordinate("phi")
         coin = Disc(R, M).placed(-phi, point(x, R), across="z")
-        plank = point(a * scalar("t") ** 2, 0)
+        plank = point(a * TIME**2, 0)
         moving = Touching(System(coin, W, *rolling_constraint(coin, point(x, 0), "F", plank)))
         still = Touching(System(coin, W, *rolling_constraint(coin, point(x, 0), "F")))
         known = Touching(System(coin, W, no_slip(coin, point(x, 0))))

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from sympy import cos, pi, sin, symbols
 
+from derive.algebra.expressions import TIME
 from derive.figures import sketch
 from derive.figures.marks import Drawing
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, WheelMark
@@ -28,7 +29,7 @@ from derive.mechanics import (
 )  # fmt: skip
 from derive.steps.record import recorded
 
-M, m, R, a, b, k, l, g, t, I = symbols("M m R a b k l g t I", positive=True)
+M, m, R, a, b, k, l, g, I = symbols("M m R a b k l g I", positive=True)
 W = weight(g)
 
 
@@ -65,7 +66,7 @@ def beads_that_pull_at_each_other() -> Any:
 def on_a_moving_plank() -> Any:
     x, phi = coordinate("x", "length"), coordinate("phi")
     coin = Disc(R, M).placed(-phi, point(x, R), across="z")
-    return coin, W, *rolling_constraint(coin, point(x, 0), "F", point(a * t, 0))
+    return coin, W, *rolling_constraint(coin, point(x, 0), "F", point(a * TIME, 0))
 
 
 def without_its_string() -> Any:
