@@ -10,7 +10,11 @@ from sympy import Rational, cos, sin, sqrt, symbols
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.building.solution import rendered
-from tests.stock.described import PENDULUM, complaints, course_with, edited, messages, solved
+from derive.course.problem import run_solve
+from derive.figures.marks import Drawing
+from derive.figures.parts import BarMark
+from derive.steps.record import Run
+from tests.stock.described import PENDULUM, complaints, course_with, edited, loaded, messages, solved
 
 l, m, g, k, omega = symbols("l m g k omega", positive=True)
 theta, theta_dot, theta_ddot = symbols("theta theta_dot theta_ddot", real=True)
@@ -182,3 +186,27 @@ def test_a_distance_is_positive_at_rest(tmp_path: Path) -> None:
     found = solved(tmp_path, edited(PENDULUM, *hung))
     assert equal(found["rest_1"].value[0], l + m * g / k)
     assert found["rest_2"].step.outcome == "where"
+
+
+def test_what_a_particle_is_called_tells_how_it_is_drawn(tmp_path: Path) -> None:
+    """A bob hangs on a rod, a bead is on a wire: their formulas are the same."""
+    for name, radius, is_rod in (("bob", "R", True), ("bead", "l", False), ("upper", "l", True), ("upper", "R", False)):
+        text = edited(PENDULUM, ("bob:", f"{name}:"))
+        text = text.replace("l*", f"{radius}*").replace("{l: length", "{R: length" if radius == "R" else "{l: length")
+        run = Run()
+        run_solve(loaded(tmp_path, text), run)
+        (drawn,) = run.drawings
+        assert isinstance(drawn, Drawing)
+        assert any(isinstance(mark, BarMark) for mark in drawn.marks) == is_rod
+
+
+def test_nothing_is_drawn_of_a_body_that_has_no_shape(tmp_path: Path) -> None:
+    """Landau, Lifshitz, Mechanics, section 32, problem 5: a cylinder of which only the moment is known; a page that
+    hides its drawing need not know that there is none."""
+    text = edited(PENDULUM, ("  places: {A: [l*sin(theta), -l*cos(theta)]}\n", ""), (
+        "particles: {bob: {mass: m, at: A}}",
+        "bodies: {cylinder: {moments: m*l**2, mass: m, turned: -theta, centre: [l*theta, l]}}",
+    )) + "drawings: {system: {at: hidden}}\n"  # fmt: skip
+    run = Run()
+    run_solve(loaded(tmp_path, text), run)
+    assert not run.drawings
