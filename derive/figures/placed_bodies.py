@@ -29,7 +29,7 @@ from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
 from derive.steps.step import is_zero
 
-EDGE = 12  # steps along the edge of a flat body
+EDGE = 32  # steps along the edge of a flat body
 ACROSS = column(0, 0, 1)
 FAR = Rational(8, 5)  # how much of a line is drawn, in terms of the coordinate
 
@@ -306,12 +306,14 @@ def _mapped(body: Any, placed: Any, at: Any, words: dict[str, Any]) -> list[Mark
     place, limits = map_of()
     if len(limits) != 2 or any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
         return []
-    spots = [place]
-    for letter, low, high in limits:
-        steps = [low + (high - low) * Rational(k, EDGE) for k in range(EDGE + 1)]
-        spots = [spot.xreplace({letter: step}) for spot in spots for step in steps]
-    outer = [limit for limit in limits if limit[0] in place.free_symbols]
-    corners = tuple(dict.fromkeys(at(*spot) for spot in spots)) if outer else ()
+    (u, *u_ends), (v, *v_ends) = limits
+    edges = [(u, end, v, v_ends) for end in u_ends] + [(v, end, u, u_ends) for end in v_ends]
+    spots = [
+        place.xreplace({held: end, letter: low + (high - low) * Rational(k, EDGE)})
+        for held, end, letter, (low, high) in edges
+        for k in range(EDGE + 1)
+    ]
+    corners = tuple(dict.fromkeys(at(*spot) for spot in spots))
     return [SilhouetteMark(corners, **words)]
 
 

@@ -70,7 +70,8 @@ def turning_marks(system: System, link: Link, which: Particle, named: Sequence[L
     else:
         if (radius := kept_length(system, link.length)) is not None and around:
             yield WayMark(column_of(bound_place(link.end, link.length, radius)), around[0], -pi, pi, "wire")
-        if TIME in moving and moving_in(system, *link.end.components) - {TIME} == {link.length}:
+        alone = moving_in(system, *link.end.components) - {TIME} == {link.length}
+        if TIME in moving and alone and not moving_in(system, *link.start.components):
             yield WayMark(end, link.length, ZERO, Rational(3, 2) * link.length, "wire")
         yield ConnectionMark(start, end, label=link.length)
         if not any(same(link.start, place) for each in system.between for place in (each.start, each.end)):
@@ -118,7 +119,8 @@ def angle_marks(system: System, link: Link) -> Iterable[Mark]:
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
+        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # in space the rate stands at the axis
+            yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
         yield from _round_the_vertical(system, link)
 
