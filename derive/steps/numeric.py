@@ -142,7 +142,7 @@ def _under_one_root(value: Expr) -> Expr:
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """Whether a condition is so for the numbers, 20 cm > 2.5 cm; nothing if letters are left.
 
-    condition   an inequality or an equation between what is given, as `positive_where` and `isotropic_where` yield
+    condition   an inequality or an equation between what is given, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit
     Second route: both sides, and the sign of their difference, as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.

@@ -25,7 +25,6 @@ from derive.mechanics import (
     lagrangian,
     leaves_contact,
     let,
-    positive_where,
     put_in,
     roots,
     solution,
@@ -109,9 +108,9 @@ def test_no_angle_has_a_cosine_above_one() -> None:
 
 
 def test_what_is_positive_in_the_range_is_positive_always() -> None:
-    found = positive_where(given(c**2 * sin(alpha) + cos(alpha) * m), c)
+    found = where(given(c**2 * sin(alpha) + cos(alpha) * m), ">", 0, c)
     assert found.step.outcome == "always"
-    assert positive_where(given(m * sin(alpha) - M), M).value == Relation(M, "<", m * sin(alpha))
+    assert where(given(m * sin(alpha) - M), ">", 0, M).value == Relation(M, "<", m * sin(alpha))
 
 
 @pytest.mark.parametrize("mark", ["=", "<"])

@@ -69,13 +69,6 @@ def test_two_moments_cannot_have_one_name() -> None:
         establish("equations.let", names, lambda: values, {}, key="moments", definition=True)
 
 
-@pytest.mark.parametrize(("mark", "strictly", "right"), [(">", "positive", True), (">=", "positive", False)])
-def test_a_strict_condition_is_said_to_be_strict(mark: str, strictly: str, right: bool) -> None:
-    for turned in (mark, mark.replace(">", "<")):
-        facts = Judged(Relation(R, turned, a), words={"strictly": strictly})
-        assert told_rightly("conditions.positive_where", "conditional", facts) is right
-
-
 @pytest.mark.parametrize(
     ("rule", "right", "wrong"),
     [

@@ -12,13 +12,12 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import NoSeries, taylor
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.oscillations import sign_of
 from derive.mechanics.systems.coordinates import only_coordinate
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
-__all__ = ["curvature_at", "leading_order", "slope"]
+__all__ = ["leading_order", "slope"]
 
 HIGHEST = 8  # where a potential is level to this order, nothing is decided
 
@@ -102,48 +101,11 @@ def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
     return series(value.subs(q, place + u), u, 0, order + 1).removeO().expand().coeff(u, order)
 
 
-def curvature_at(curvature: Quantity, at: Expr | None = None, key: str = "curvature") -> Quantity:
-    """Curvature of the potential energy where it is level, U''(q_0).
-
-    curvature   as `slope(potential, 2)` yields it
-    at          q_0, where U' vanishes; 0 unless given
-    Second route: twice the coefficient of the square in the expansion of U about that point.
-    Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
-    Errors: U' does not vanish there.
-    Source: Taylor, *Classical Mechanics*, section 4.6.
-    """
-    of = curvature.needed(DerivativeOf)
-    q, potential = of.coordinate, of.potential
-    place = at if at is not None else Integer(0)
-    _check_lasts("curvature_at", potential, q)
-    _check_level(potential.value, q, place, potential)
-    return establish(
-        "potentials.curvature_at",
-        At(curvature.symbol, q, place),
-        lambda second: At(second, q, place),
-        {"curvature": curvature},
-        telling=Telling(
-            formulas={"place": (Relation(q, "=", place), Relation(q, "=", _level_place(potential.value, q, place)))}
-        ),
-        lines=Lines(put_in=None, law=Level.FULL, arranged=spread_or_by_terms),
-        routes={"expanded": compared_with(lambda: 2 * _coefficient(potential.value, q, place, 2))},
-        outcome=sign_of,
-        key=key,
-        parents=[potential],
-    )
-
-
 def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:
     """A potential that changes with the time has no equilibrium that its shape could tell."""
     require_constant(
         verb, "potential energy but for its coordinate", potential.value.xreplace({q: Dummy("q", real=True)})
     )
-
-
-def _level_place(value: Expr, q: Symbol, place: Expr) -> Expr:
-    """The place, if the energy of a small displacement from it has no first order; undefined if it has."""
-    u = Dummy("u", real=True)
-    return place if is_zero(diff(value.subs(q, place + u), u).subs(u, 0)) else nan
 
 
 def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
@@ -159,7 +121,7 @@ def leading_order(
 
     of          a potential energy of one coordinate, J; or its curvature at rest, as `stability` yields it, which knows
                 place and border
-    where       a letter and the value for which the curvature of this potential vanishes, as `boundary_case` yields it
+    where       a letter and the value for which the curvature of this potential vanishes, as a relation
     at          q_0; 0 unless given
     Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
@@ -224,7 +186,7 @@ def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, wher
     """At the border of this very potential its curvature vanishes."""
     if where is not None and not is_zero(diff(value, q, 2).subs(q, place)):
         message = f"the curvature of `{potential.key}` does not vanish at {where}, so that is not its border"
-        help_line = "leave `where` out, or give `boundary_case` of its condition"
+        help_line = "leave `where` out, or give the letter at its bound"
         raise Rejected(Complaint("wrong-border", message, help=help_line))
 
 

@@ -112,13 +112,6 @@ def _of_numbers(wanted: str) -> Predicate:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
-    "conditions.positive_where": {
-        "conditional": _solved(squared=False),
-        "squared": _solved(squared=True),
-        "always": _of_known_sign(1),
-        "never": _of_known_sign(-1),
-        "vanishing": _of_known_sign(0),
-    },
     "roots.one_of_two": {
         "smaller": _whether(True, _SMALLER),
         "larger": _whether(True, _LARGER),

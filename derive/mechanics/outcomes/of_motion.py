@@ -98,7 +98,6 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "conditional": _of_square(None),
     },
     "potentials.slope": {"slope": _order_of(1), "curvature": _order_of(2), "higher": _order_of(2, more=True)},
-    "potentials.curvature_at": _SIGNS,
     "potentials.leading_order": {
         **{
             shape: _shaped(shape, at_bound=False)

@@ -87,12 +87,6 @@ def _axis_as_named(facts: Judged, outcome: str) -> bool:
     return outcome != "diagonal" or facts.words["axis"] == outcome
 
 
-def _as_strictly(facts: Judged, outcome: str) -> bool:
-    """Where a quantity must be positive zero is left out, where it must not be negative it is allowed."""
-    strictly = facts.words.get("strictly")
-    return strictly is None or (strictly == "positive") == (facts.result.mark in {"<", ">"})
-
-
 def _rate_of_the_component(facts: Judged, outcome: str) -> bool:
     return "rate" in facts.quantities and rate(facts.inputs["component"]) in _letters_of(facts.result)
 
@@ -107,11 +101,6 @@ def _difference(facts: Judged, outcome: str) -> bool:
     roles = ("kinetic", "potential", "magnetic")
     kinetic, potential, magnetic = (explicit(facts.inputs.get(role, Integer(0))) for role in roles)
     return is_zero(explicit(facts.result) - kinetic + potential - magnetic)
-
-
-def _at_a_place(facts: Judged, outcome: str) -> bool:
-    place = facts.inputs["place"]
-    return isinstance(place, Relation) and isinstance(place.left, Symbol)
 
 
 def _as_asked(facts: Judged, outcome: str) -> bool:
@@ -138,11 +127,9 @@ _TABLE: dict[str, Told] = {
     "bodies.centre_of_mass": _counted_from_its_point,
     "bodies.section_radius": _counted_from_its_point,
     "equations.at": _for_a_vector,
-    "conditions.positive_where": _as_strictly,
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
     "lagrangian.lagrangian": _difference,
-    "potentials.curvature_at": _at_a_place,
 }
 
 for _rule, _told in _TABLE.items():
