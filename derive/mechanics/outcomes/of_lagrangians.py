@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Add, Dummy, Expr, Integer, Symbol, diff
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import bound, explicit, rate
+from derive.algebra.expressions import TIME, bound, explicit, rate
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import by_functions_of_time
@@ -45,8 +45,17 @@ def _is_energy(facts: Judged) -> bool:
     return bool(equal(_in_rates(facts), whole))
 
 
-def _energy(conserved: bool, whole: bool) -> Predicate:
-    return lambda facts: (_is_conserved(facts), _is_energy(facts)) == (conserved, whole)
+def _is_worked_on(facts: Judged) -> bool:
+    """Its rate along the motion is not -dL/dt alone."""
+    L = facts.quantities["lagrangian"]
+    matter, kept = L.needed(Matter), L.fact(Kept)
+    power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
+    power -= Add(*(c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())))
+    return not is_zero(power)
+
+
+def _energy(conserved: bool, whole: bool, worked: bool = False) -> Predicate:
+    return lambda facts: (_is_conserved(facts), _is_energy(facts), _is_worked_on(facts)) == (conserved, whole, worked)
 
 
 _ENERGIES = {
@@ -54,11 +63,42 @@ _ENERGIES = {
     "conserved": _energy(True, False),
     "changing_energy": _energy(False, True),
     "changing": _energy(False, False),
+    "work_energy": _energy(False, True, True),
+    "work": _energy(False, False, True),
 }
+
+
+def _rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> Predicate:
+    """An equation; whether -dL/dt is in its right side, and other work, and whether no rates make it positive."""
+
+    def is_so(facts: Judged) -> bool:
+        if facts.result.mark != "=" or is_zero(facts.result.right) != (in_time is None):
+            return False
+        found, by_time = explicit(facts.result.right), -diff(explicit(facts.inputs["lagrangian"]), TIME)
+        if in_time is None:
+            return True
+        told = (not is_zero(by_time), not is_zero(found - by_time))
+        return told == (in_time, worked) and (lost is None or _never_gains(found, facts.inputs["moving"]) == lost)
+
+    return is_so
+
+
+def _never_gains(power: Expr, moving: tuple[Symbol, ...]) -> bool:
+    """Against the rates as a quadratic form, whose matrix has no positive leading entry and no odd part."""
+    rates = [rate(q) for q in moving]
+    forwards = power.xreplace({v: -v for v in rates})
+    return is_zero(forwards - power) and all(bool(diff(power, v, 2).is_nonpositive) for v in rates)
 
 
 def _is_equation_of(facts: Judged, letter: Symbol) -> bool:
     return facts.result.mark == "=" and bool(facts.result.left == rate(letter))
+
+
+def _pushed(facts: Judged, beside: bool) -> bool:
+    """An equation of the momentum, with more on its right side than -dH/dq or not."""
+    H, q = explicit(facts.inputs["hamiltonian"]), facts.inputs["coordinate"]
+    more = not is_zero(explicit(facts.result.right) + diff(H, q))
+    return _is_equation_of(facts, facts.inputs["momentum"]) and more == beside
 
 
 def _conserved(kind: str | None) -> Predicate:
@@ -145,8 +185,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "canonical.hamiltonian": _ENERGIES,
     "canonical.hamilton_equation": {
         "rate": lambda facts: _is_equation_of(facts, facts.inputs["coordinate"]),
-        "force": lambda facts: _is_equation_of(facts, facts.inputs["momentum"]) and not is_zero(facts.result.right),
-        "cyclic": lambda facts: _is_equation_of(facts, facts.inputs["momentum"]) and is_zero(facts.result.right),
+        "force": lambda facts: _pushed(facts, beside=False) and not is_zero(facts.result.right),
+        "cyclic": lambda facts: _pushed(facts, beside=False) and is_zero(facts.result.right),
+        "applied": lambda facts: _pushed(facts, beside=True),
     },
     "effective.conserved": {
         "angular": _conserved("angle"),
@@ -172,8 +213,11 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "energy.energy_function": _ENERGIES,
     "energy.energy_function_rate": {
-        "conserved": lambda facts: facts.result.mark == "=" and is_zero(facts.result.right),
-        "changes": lambda facts: facts.result.mark == "=" and not is_zero(facts.result.right),
+        "conserved": _rate_by(in_time=None, worked=False),
+        "changes": _rate_by(in_time=True, worked=False),
+        "work": _rate_by(in_time=False, worked=True),
+        "lost": _rate_by(in_time=False, worked=True, lost=True),
+        "work_and_time": _rate_by(in_time=True, worked=True),
     },
 }
 

@@ -8,13 +8,15 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Symbol, diff
 
-from derive.algebra.collect import by_terms
+from derive.algebra.collect import by_terms, spread
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, bound, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.energy import outcome_of_energy, told_of_excess
+from derive.mechanics.systems.forced import ActedOn, applied_force
 from derive.mechanics.systems.lagrangian import Energies, coordinates_of
 from derive.mechanics.systems.phase_space import (
     PhaseSpace,
@@ -28,7 +30,7 @@ from derive.mechanics.systems.phase_space import (
 )
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter
-from derive.steps.step import Level, Quantity, lettered
+from derive.steps.step import Level, Quantity, is_zero, lettered
 
 __all__ = ["hamilton_equations", "hamiltonian", "in_momenta"]
 
@@ -39,9 +41,9 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     of   the Lagrangian, J
     The momenta and the rates that belong to them are steps of their own.
     Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; and with the momenta in it dH/dp is
-    q_dot, and -dH/dq is the sum of F . dr/dq and of m v . d(dr/dq)/dt.
+    q_dot, and -dH/dq is the sum of F . dr/dq, of forces F with a potential energy, and of m v . d(dr/dq)/dt.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither).
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U).
     Errors: the momenta do not determine the rates, or too many would have to be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
@@ -65,7 +67,8 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     def canonical(found: Expr) -> tuple[Any, Any]:
         onwards = [bound(diff(found, p), in_rates) for _, p in space.pairs]
         pushed = [bound(-diff(found, q), in_rates) for q, _ in space.pairs]
-        forces = [matter.force_along(q) + matter.turning_along(q) for q, _ in space.pairs]
+        stored = [matter.stored_force_along(q) + matter.deflection_along(q) for q, _ in space.pairs]
+        forces = [push + matter.turning_along(q) for push, (q, _) in zip(stored, space.pairs, strict=True)]
         return ImmutableDenseMatrix([*onwards, *pushed]), ImmutableDenseMatrix([*(q.rate for q in moving), *forces])
 
     h = explicit(sum((p.value * v for p, v in zip(given, put_in, strict=True)), -explicit(of.value)))
@@ -96,14 +99,16 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
 
 def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
-    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq for each coordinate.
+    """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq for each coordinate; with forces that have no
+    potential energy, and those that keep constraints, p_q_dot = -dH/dq + Q + sum of lambda df/dq.
 
     of   the Hamiltonian, J
     Keys: canonical_ and the name of the coordinate, or of the momentum.
     Second route: with the momenta put in, the first is the rate itself, and the second is
     d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
-    Outcomes: rate (the first), force (the second), cyclic (the second where H does not contain q).
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    Outcomes: rate (the first), force (the second), cyclic (the second where H does not contain q), applied (with such
+    forces).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1 and problem 8.4.
     """
     found: list[Quantity] = []
     for q in of.needed(PhaseSpace).coordinates:
@@ -145,17 +150,31 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         return ImmutableDenseMatrix([found.left, lost]), ImmutableDenseMatrix([rate(p), work])
 
     cyclic = not explicit(of.value).has(q.symbol)
+    acted, kept = space.lagrangian.fact(ActedOn), space.lagrangian.fact(Kept)
+    applied = applied_force(space.lagrangian, q) if acted is not None else None
+    pushes = []
+    if applied is not None and not is_zero(applied.value):
+        rates = {v.symbol: v.value for v in of.parents if v.symbol in {each.rate for each in space.coordinates}}
+        pushes = [replace(applied, value=bound(explicit(applied.value), rates), parents=(applied,))]
+    held = [spread(c.along(q.symbol)) * c.force for c in (kept.constraints if kept else ())]
+    held = [term for term in held if term != 0]
+
+    def law(H: Expr, *forces: Expr) -> Relation:
+        terms = [-Partial(H, q.symbol), *forces, *held]
+        return Relation(rate(p), "=", Terms(*terms) if len(terms) > 1 else terms[0])
+
     return establish(
         "canonical.hamilton_equation",
         None,
-        lambda H: Relation(rate(p), "=", -Partial(H, q.symbol)),
-        {"hamiltonian": of},
+        law,
+        {"hamiltonian": of, **{push.key: push for push in pushes}},
         lines=Lines(put_in=None, arranged=lambda found: _by_terms(found, [p for _, p in space.pairs])),
         routes={"virtual_work": by_virtual_work},
-        outcome="cyclic" if cyclic else "force",
+        outcome="applied" if pushes or held else "cyclic" if cyclic else "force",
         telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{p.name}",
         facts=[space, OfCoordinate(q)],
+        scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in (kept.constraints if kept else ())}),
     )
 
 

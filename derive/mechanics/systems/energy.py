@@ -1,7 +1,7 @@
 """The energy function of a Lagrangian, whether it is the energy, and whether it is conserved: two different questions.
 
-h = sum of q_dot dL/dq_dot - L is constant if L does not contain the time itself. It is T + U if the places of the mass
-points depend on the coordinates alone.
+h = sum of q_dot dL/dq_dot - L is constant if L does not contain the time itself and no force does work that L does not
+know of. It is T + U if the places of the mass points depend on the coordinates alone.
 """
 
 from __future__ import annotations
@@ -9,16 +9,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Symbol, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, factor
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.tidy import tidied
+from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import by_functions_of_time
-from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.dalembert import Load, Matter
+from derive.mechanics.systems.forced import ActedOn, applied_force
 from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
 from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, part_of_degree
-from derive.steps.establish import Lines, Telling, establish
+from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter
 from derive.steps.step import Form, Quantity, is_zero
 
@@ -27,10 +29,28 @@ __all__ = ["energy_function", "energy_function_rate"]
 
 def outcome_of_energy(value: Expr, of: Quantity) -> str:
     """Whether an energy function in coordinates and rates is T + U, and whether it is conserved."""
-    conserved = TIME not in explicit(of.value).free_symbols
-    if is_zero(value - of.needed(Energies).whole):
-        return "energy" if conserved else "changing_energy"
-    return "conserved" if conserved else "changing"
+    whole = is_zero(value - of.needed(Energies).whole)
+    if not is_zero(_power_beside(of)):
+        return "work_energy" if whole else "work"
+    if TIME not in explicit(of.value).free_symbols:
+        return "energy" if whole else "conserved"
+    return "changing_energy" if whole else "changing"
+
+
+def _power_beside(of: Quantity) -> Expr:
+    """What forces do that have no potential energy, and those that keep a condition which itself moves."""
+    matter = of.needed(Matter)
+    loads = [load for load in matter.others if isinstance(load, Load)]
+    works = [rate(q) * load.work_along(q) for q in matter.coordinates for load in loads]
+    return explicit(Add(*works, *_powers_of_conditions(of)))
+
+
+def _powers_of_conditions(of: Quantity) -> list[Expr]:
+    """Of each condition that moves, -lambda df/dt: a force that keeps one which stays does no work."""
+    kept, moving = of.fact(Kept), list(of.coordinates)
+    still = {rate(q): Integer(0) for q in moving}
+    moved = [(c.force, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
+    return [-force * v for force, v in moved if v != 0]
 
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
@@ -50,7 +70,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     of   the Lagrangian, J
     Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither).
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U).
     Errors: L is not the difference of two energies.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
@@ -84,38 +104,70 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
 
 
 def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
-    """Rate of the energy function along every motion, dh/dt = -dL/dt, the time being what occurs in L by itself.
+    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt, the time being what occurs in L
+    by itself; and -lambda df/dt for each condition f = 0 that moves.
 
     of   the energy function, J
+    The generalized forces Q are steps of their own.
     Second route: h as a function of time, less the sum of q_dot (m a - F) . dr/dq, which vanishes by d'Alembert's
     principle.
-    Outcomes: conserved (L does not contain the time), changes.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
+    Outcomes: conserved (L does not contain the time), changes, work (forces without a potential energy do work), lost
+    (it can only decrease), work_and_time (both).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7.
     """
     L = of.needed(FromLagrangian).lagrangian
-    matter = L.needed(Matter)
-    moving = [q.symbol for q in coordinates_of(L)]
-    rate_of_it = explicit(-Partial(L.value, TIME))
+    matter, kept = L.needed(Matter), L.fact(Kept)
+    every = coordinates_of(L)
+    moving = [q.symbol for q in every]
+    forces = [(q, applied_force(L, q)) for q in every] if L.fact(ActedOn) is not None else []
+    applied = [(q, force) for q, force in forces if not is_zero(force.value)]
+    held = _powers_of_conditions(L)
+    in_time = explicit(-Partial(L.value, TIME))
+    powers = [explicit(force.value) * q.rate for q, force in applied]
+    rate_of_it = Add(by_terms(in_time), by_rates(Add(*powers), moving), *held)
+
+    def law(h: Expr, L: Expr, *forces: Expr) -> Relation:
+        works = [Factors(force, q.rate) for force, (q, _) in zip(forces, applied, strict=True)]
+        terms = [*works, *held, *([-Partial(L, TIME)] if in_time != 0 or not (works or held) else [])]
+        return Relation(TimeRate(h, *moving), "=", Terms(*terms) if len(terms) > 1 else terms[0])
 
     def along_the_motion(found: Relation) -> tuple[Any, Any]:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
+        work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # which vanishes
         by_time = by_functions_of_time(of.value, moving)
         return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([by_time, by_time - Add(*work)])
 
     return establish(
         "energy.energy_function_rate",
         None,
-        lambda h, L: Relation(TimeRate(h, *moving), "=", -Partial(L, TIME)),
-        {"energy": of, "lagrangian": L},
+        law,
+        {"energy": of, "lagrangian": L, **{force.key: force for _, force in applied}},
         lines=Lines(
             put_in=None,
             result=False,
             arranged=lambda found: found,
-            after=[Form(Relation(TimeRate(of.symbol, *moving), "=", by_terms(rate_of_it)), "result")],
+            after=[Form(Relation(TimeRate(of.symbol, *moving), "=", rate_of_it), "result")],
         ),
         routes={"along_the_motion": along_the_motion},
-        outcome="conserved" if rate_of_it == 0 else "changes",
+        outcome=_sort_of_rate(rate_of_it, in_time, moving),
+        telling=Telling(judged_by={"moving": tuple(moving)}),
         key=key or f"{of.key}_rate",
         parents=[of, L],
         facts=[FromLagrangian(L)],
+        scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in (kept.constraints if kept and held else ())}),
     )
+
+
+def _sort_of_rate(found: Expr, in_time: Expr, moving: Sequence[Symbol]) -> str:
+    if is_zero(found):
+        return "conserved"
+    if is_zero(found - in_time):
+        return "changes"
+    if in_time != 0:
+        return "work_and_time"
+    return "lost" if all(_takes(term, moving) for term in Add.make_args(found.expand())) else "work"
+
+
+def _takes(term: Expr, moving: Sequence[Symbol]) -> bool:
+    """Whether a term is a square of rates with a minus sign."""
+    return bool(term.is_nonpositive) and term.has(*(rate(q) for q in moving))

@@ -208,7 +208,8 @@ class Answers:
             assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
         if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
             return self.effective_potential
-        return self.lagrangian if is_driven else self.potential_energy
+        is_pushed = is_driven or bool(self.system.given_forces)
+        return self.lagrangian if is_pushed else self.potential_energy
 
     @cached_property
     def equilibria(self) -> tuple[Quantity, ...]:
@@ -248,6 +249,8 @@ class Answers:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
             at = at or self.equilibria[0]
+        elif at is None and self.system.given_forces and len(self.equilibria) == 1:
+            at = self.equilibria[0]
         found = linearised(motions, at=at)
         return found if isinstance(found, tuple) else (found,)
 
