@@ -54,6 +54,7 @@ DEFINITIONS = {
     "constant_angular_velocity",
     "principal_tensor",
     "let",
+    "combination",
     "axis_vector",
 }
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}

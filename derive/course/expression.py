@@ -25,10 +25,10 @@ from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.kinds import kind_of_dimension
 from derive.course.arithmetic import Arithmetic, Declared, Term, rational
 from derive.course.units import UNIT_NAMES, read_unit
-from derive.course.yaml_tree import Scalar
+from derive.course.yaml_tree import Scalar, Word
 from derive.errors import Complaint, Faults, did_you_mean
 
-__all__ = ["RESERVED", "Declared", "rational", "read_expression"]
+__all__ = ["RESERVED", "Declared", "names_in", "rational", "read_expression"]
 
 LONGEST_EXPRESSION = 300
 DEEPEST_EXPRESSION = 40
@@ -87,6 +87,12 @@ def read_expression(
     letter_for   finds the letter behind which a number with its unit goes
     """
     return _Parser(scalar, symbols, letter_for).whole()
+
+
+def names_in(scalar: Scalar) -> list[Word]:
+    """The names in an expression that have no meaning of their own, each with its place, before anything is read."""
+    names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
+    return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
 
 
 class _Parser(Arithmetic):

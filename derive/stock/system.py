@@ -18,6 +18,7 @@ from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
+from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.parts import (
@@ -47,7 +48,7 @@ from derive.stock.keys.places import (
     coordinate_letters,
     is_letter,
 )
-from derive.stock.keys.results import RESULTS, Result, ResultKeys
+from derive.stock.keys.results import RESULTS, Result, ResultKeys, names
 
 STATE = mapping_of(SCALAR)
 POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
@@ -154,6 +155,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:
         kept = _kept(written.conserved, letters, known)
     own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, known, faults)}
+    with faults:
+        own |= _steady_rates(written, letters, known)
     with_own = InLetters({**symbols, **own})
     with_own.numbers = known.numbers
     return DescribedSystem(
@@ -211,6 +214,18 @@ def _check_different(brought: Sequence[Word]) -> None:
         if word in brought[:i]:
             message = f"`{word}` stands for something else already"
             rejected("letter-clash", message, word.place, "use another letter")
+
+
+def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
+    """The letters of the rates of steady motions, in the order of the coordinates that have no value there."""
+    found = {}
+    for result in written.results.values():
+        if result.steady is not None:
+            turning = [q for q in written.coordinates if q in letters and q not in result.values]
+            for q, name in zip(turning, names(result.symbol), strict=False):
+                known.unused(name, "leave it out of `symbols`, or give the rate another letter")
+                found[str(name)] = Declared(str(name), scalar(name, positive=True), kind_of_rate(letters[q].kind))
+    return found
 
 
 def _constants(

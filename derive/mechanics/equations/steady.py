@@ -85,7 +85,7 @@ def steady_motion(
     if not turning or not still:
         missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so nothing turns steadily"
         raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
-    given_rates, values = _given("rate", rates, turning, turning), _given("value", at, still, turning)
+    given_rates, values = _given("rate", rates, turning, still), _given("value", at, turning, still)
     given_rates |= {k.coordinate: bound(k.turning, values) for k in (known.kept if known is not None else ())}
     steady_rates = {q.symbol: given_rates.get(q.symbol, q.rate) for q in turning}
     places = {q.symbol: values.get(q.symbol, q.symbol) for q in still}
@@ -135,10 +135,11 @@ def _of_equation(
 
 
 def _given(
-    role: str, given: Mapping[Any, Any] | None, allowed: Sequence[Coordinate], turning: Sequence[Coordinate]
+    role: str, given: Mapping[Any, Any] | None, turning: Sequence[Coordinate], still: Sequence[Coordinate]
 ) -> dict[Symbol, Expr]:
     """What is given for each coordinate, all of it constant."""
-    known = {q.symbol for q in allowed}
+    known = {q.symbol for q in (turning if role == "rate" else still)}
+    moving = {TIME, *(s for q in (*turning, *still) for s in (q.symbol, q.rate))}
     found: dict[Symbol, Expr] = {}
     for q, value in (given or {}).items():
         letter = q.symbol if isinstance(q, Coordinate) else q
@@ -147,8 +148,9 @@ def _given(
             message = f"`steady_motion`: a {role} is given for {letter}, which is {wrong}"
             raise Rejected(Complaint("wrong-argument", message))
         number = value.value if isinstance(value, Quantity) else ZERO + value
-        turns = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this very motion
-        require_constant("steady_motion", role, number.xreplace({s: Dummy(s.name, real=True) for s in turns}))
+        held = {s for s in number.free_symbols if any(s == q.rate for q in turning)}  # constant in this very motion
+        held |= ({number} if isinstance(number, Symbol) else set()) - moving  # what the rate, or the place, is called
+        require_constant("steady_motion", role, number.xreplace({s: Dummy("held", real=True) for s in held}))
         found[letter] = number
     return found
 

@@ -190,7 +190,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no letter that could take a dot"))
-    moving = list(quantity.coordinates)
+    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # a motion is known as a function of the time
 
     def by_time() -> Expr:
         return by_functions_of_time(quantity.value, moving)

@@ -17,28 +17,36 @@ from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import (
     Coordinate,
     beats,
+    frequency,
+    frequency_squared_about,
     leaves_contact,
     limiting_case,
     maximum,
     minimum,
     period_by_energy,
     put_in,
+    rate_of,
     roots,
     solution,
     solved_for,
     speed_from_energy,
     steady_amplitude,
+    steady_motion,
+    unknown,
     where,
 )
+from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.step import Quantity
+from derive.stock.keys.formulas import Formula, formula
 
 NAMES = as_written(one_or_more(TEXT.schema))
 EXPRESSIONS = as_written(one_or_more(SCALAR.schema))
 INFINITE = {"infinity": oo, "-infinity": -oo}
 VERBS = (
     "solve", "put_in", "roots", "limit", "where", "maximum", "minimum", "leaves", "solution", "amplitude", "speed",
-    "period", "beats",
+    "period", "beats", "value", "rate", "steady",
+    "frequency",
 )  # fmt: skip
 
 
@@ -66,6 +74,20 @@ class ResultKeys(Record):
     speed: Tree | None = key("a conserved energy, which gives the rate of `for` from `start` and `start_rate`", NAMES)
     period: Tree | None = key("a squared rate, as `speed` gives it, to the `order` in the amplitude", NAMES)
     beats: Tree | None = key("two frequencies, the slower first, of oscillations that are added", NAMES)
+    value: Tree | None = key("a formula of answers by their names and of letters, such as `pi*rate/frequency`", SCALAR)
+    rate: Tree | None = key(
+        "a motion such as `solution` finds, or another answer whose rate of change is wanted", NAMES
+    )
+    steady: Tree | None = key(
+        "a Lagrangian whose steady motion is wanted, with the places that stay and the rates of cyclic coordinates as "
+        "`values`: `{r: r_0}`, and letters for the others of these rates as `symbol`",
+        NAMES,
+    )
+    frequency: Tree | None = key(
+        "an effective potential energy, for small oscillations about the steady motion that `results` names; `for` the "
+        "letter that its condition takes out",
+        NAMES,
+    )
     unknowns: Tree | None = key("a letter, a rate such as `theta_dot`, or several", EXPRESSIONS, called="for")
     results: Tree | None = key("answers that are put in", NAMES)
     values: Mapping[Word, Tree] = key("values of letters and coordinates that are put in", mapping_of(SCALAR))
@@ -87,11 +109,13 @@ class ResultKeys(Record):
             if len(verbs) != 1:
                 message = f"`{name}` needs one of {', '.join(f'`{verb}`' for verb in VERBS)}"
                 rejected("missing-key", message, name.place)
+            written = formula(self.value, letters.letters) if self.value else None
             return Result(
                 name=str(name),
                 verb=verbs[0],
-                of=_names(getattr(self, verbs[0])),
-                results=_names(self.results),
+                of=names(getattr(self, verbs[0])) if written is None else (),
+                formula=written,
+                results=names(self.results),
                 unknowns=tuple(letters.read(node, "for")[0] for node in _nodes(self.unknowns)),
                 values=tuple(each([partial(_value, letter, node, letters) for letter, node in self.values.items()])),
                 to=_end(self.to, letters) if self.to else None,
@@ -102,7 +126,7 @@ class ResultKeys(Record):
                 start_rate=_end(self.start_rate, letters) if self.start_rate else None,
                 within=tuple(_end(node, letters) for node in _nodes(self.within)),
                 case=str(self.case) if self.case else None,
-                symbols=_names(self.symbol),
+                symbols=names(self.symbol),
                 place=name.place,
             )
         return None
@@ -118,6 +142,7 @@ class Result:
     name: str
     verb: str
     of: tuple[Word, ...]
+    formula: Formula | None = None
     results: tuple[Word, ...] = ()
     unknowns: tuple[Expr, ...] = ()
     values: tuple[tuple[str, Expr], ...] = ()
@@ -134,6 +159,8 @@ class Result:
 
     def made(self, answers: Callable[[Word], tuple[Quantity, ...]], coordinates: Mapping[str, Coordinate]) -> Any:
         """By the verb, of the answers of those names."""
+        if self.formula is not None:
+            return self.formula.made(partial(_one_of, answers), self.name, **self.symbol or {"symbol": None})
         of = [quantity for name in self.of for quantity in answers(name)]
         more = [quantity for name in self.results for quantity in answers(name)]
         if self.symbols and self.verb not in LETTERED:
@@ -250,6 +277,47 @@ def _period(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
     return period_by_energy(result.only(of), key=result.name, **result.symbol, **extra)
 
 
+def _rate(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    return rate_of(result.only(of), key=result.name)
+
+
+def _steady(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    places = {q[name]: value for name, value in result.values if name in q}
+    rates = {one: value for name, value in result.values for one in q.values() if one.rate.name == name}
+    known = {*(one.symbol.name for one in places), *(one.rate.name for one in rates)}
+    strange = next((name for name, _ in result.values if name not in known), None)
+    if strange is not None:
+        message = f"`steady` has values of coordinates and rates, but `{strange}` is none"
+        rejected("no-such-coordinate", message, result.place)
+    L = result.only(of)
+    turning = [one for one in q.values() if one.symbol not in explicit(L.value).free_symbols and one not in rates]
+    if len(result.symbols) > len(turning):
+        message = f"`steady` has letters for the rates of {len(turning)} cyclic coordinates"
+        rejected("wrong-argument", message, result.symbols[-1].place)
+    for one, letter in zip(turning, result.symbols, strict=False):
+        rates[one] = unknown(str(letter), kind_of_rate(one.kind) or "number", positive=True)
+    return steady_motion(L, rates, places, key=result.name)
+
+
+def _frequency(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    if len(more) != 1:
+        rejected("missing-key", "`frequency` needs the steady motion that it is about as its `results`", result.place)
+    without = result.named({"without": result.letter if result.unknowns else None})
+    squared = frequency_squared_about(
+        result.only(of), more[0], key=f"{result.name}_squared", **result.symbol, **without
+    )
+    return frequency(squared, key=result.name)
+
+
+def _one_of(answers: Callable[[Word], tuple[Quantity, ...]], name: Word) -> Quantity:
+    """The one answer of a name, or that whose key the name is."""
+    found = answers(name)
+    found = tuple(quantity for quantity in found if quantity.key == name) or found
+    if len(found) != 1:
+        rejected("wrong-argument", f"`{name}` stands for {len(found)} answers", name.place)
+    return found[0]
+
+
 def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     if len(of) != 2:
         rejected("wrong-argument", f"`beats` is about two frequencies, but these are {len(of)}", result.place)
@@ -257,7 +325,7 @@ def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
     return beats(slow, fast, key=result.name, **result.symbol)
 
 
-LETTERED = ("put_in", "roots", "limit", "amplitude", "period", "beats")
+LETTERED = ("put_in", "roots", "limit", "amplitude", "period", "beats", "value", "frequency", "steady")
 
 _MAKERS: Mapping[str, Callable[..., Any]] = {
     "solve": _solve,
@@ -273,6 +341,9 @@ _MAKERS: Mapping[str, Callable[..., Any]] = {
     "speed": _speed,
     "period": _period,
     "beats": _beats,
+    "rate": _rate,
+    "steady": _steady,
+    "frequency": _frequency,
 }
 
 
@@ -286,7 +357,8 @@ def _nodes(node: Tree | None) -> tuple[Tree, ...]:
     return () if node is None else node.items if isinstance(node, Sequence) else (node,)
 
 
-def _names(node: Tree | None) -> tuple[Word, ...]:
+def names(node: Tree | None) -> tuple[Word, ...]:
+    """The names that stand there, one or several."""
     found = []
     for item in _nodes(node):
         if not isinstance(item, Scalar) or item.empty:

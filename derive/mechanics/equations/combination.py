@@ -1,0 +1,57 @@
+"""What is made of several results by arithmetic: a ratio of two frequencies, the difference of two motions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from sympy import Expr, MatrixBase, Symbol
+
+from derive.algebra.expressions import Relation, bound, explicit, scalar
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.unknowns import lecture_form, left_over, unknown_of
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.step import Quantity
+from derive.steps.subject import EVERYTHING
+
+__all__ = ["combination"]
+
+
+def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
+    """A number made of results, as a formula says it: pi Omega/omega, the angle from one apsis to the next.
+
+    expression   the formula, in letters and in marks for the results
+    values       mark -> the result that stands there; of an equation with a letter alone on its left, what that equals
+    symbol       its letter; without it the key
+    Nothing checks that it is what its letter says: it is a definition, and the page calls it one.
+    Errors: a result is no number, such as a vector or an equation that is not solved.
+    Source: none needed: a definition.
+    """
+    inputs = {quantity.key: _number(quantity) for quantity in values.values()}
+
+    def law(*those: Any) -> Expr:
+        return bound(expression, dict(zip(values, those, strict=True)))
+
+    return establish(
+        "combination.combination",
+        scalar(symbol or key),
+        law,
+        inputs,
+        key=key,
+        definition=True,
+        lines=Lines(arranged=lecture_form),
+        parents=[q for q in values.values() if isinstance(q.value, Relation)],
+        scope=Scope(differ=EVERYTHING),
+    )
+
+
+def _number(quantity: Quantity) -> Quantity | Expr:
+    """The quantity, or what an equation says that a letter is."""
+    value = quantity.value
+    if not isinstance(value, Relation | MatrixBase):
+        return quantity
+    if isinstance(value, Relation) and value.mark == "=" and isinstance(value.left, Symbol):
+        right = explicit(value.right)
+        if not left_over(right, unknown_of("combination", value.left)):
+            return right
+    raise Rejected(Complaint("wrong-argument", f"`combination`: `{quantity.key}` is no number"))

@@ -1,0 +1,69 @@
+"""A formula of answers: an expression in declared letters and in the names of answers, `pi*rate/frequency`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from sympy import Dummy, Expr
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import Relation, explicit
+from derive.course.expression import Declared, names_in, read_expression
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.errors import rejected
+from derive.mechanics import combination
+from derive.steps.derivation import with_ancestors
+from derive.steps.homogeneity import dimension_of, dimension_table
+from derive.steps.step import Quantity
+
+
+@dataclass(frozen=True)
+class OfKnownDimension(Declared):
+    """The mark of an answer, whose dimension is that of its value."""
+
+    has: Dimension | None = None
+
+    @property
+    def dimension(self) -> Dimension:
+        assert self.has is not None
+        return self.has
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression whose names are letters or answers; a letter comes before an answer of its name."""
+
+    node: Scalar
+    letters: Mapping[str, Declared]
+
+    @property
+    def answers(self) -> tuple[Word, ...]:
+        """The names in it that are no letters."""
+        found = {str(name): name for name in names_in(self.node) if name not in self.letters}
+        return tuple(found.values())
+
+    def made(self, answers: Callable[[Word], Quantity], key: str, symbol: str | None) -> Quantity:
+        """The number that it is of those answers, once its terms are known to fit."""
+        found = {name: answers(name) for name in self.answers}
+        marks = {name: self._mark(name, quantity) for name, quantity in found.items()}
+        expression, _ = read_expression(self.node, {**self.letters, **{str(n): mark for n, mark in marks.items()}})
+        return combination(expression, {marks[name].symbol: found[name] for name in found}, key=key, symbol=symbol)
+
+    def _mark(self, name: Word, quantity: Quantity) -> OfKnownDimension:
+        """A letter for an answer, of its sign and dimension."""
+        value = explicit(quantity.value.right if isinstance(quantity.value, Relation) else quantity.value)
+        if not isinstance(value, Expr):
+            rejected("wrong-argument", f"`{name}` is no number", name.place)
+        declared = {letter.symbol: letter.dimension for letter in self.letters.values()}
+        table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
+        has = dimension_of(value, table)
+        mark = Dummy(str(name), real=True, positive=True if value.is_positive else None)
+        return OfKnownDimension(str(name), mark, "", has=has if has is not None else Dimension())
+
+
+def formula(node: Tree, letters: Mapping[str, Declared]) -> Formula:
+    """What is written, if it is an expression."""
+    if not isinstance(node, Scalar) or node.empty:
+        rejected("wrong-type", "a formula is told by an expression such as `pi*rate/frequency`", node.place)
+    return Formula(node, letters)
