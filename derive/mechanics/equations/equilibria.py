@@ -28,6 +28,7 @@ from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.reach import lies_within
 from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
+from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
@@ -124,7 +125,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     are counted in numbers, for some letters.
     Outcomes: always, where (it exists under a condition), only (there is no other); of the condition: generic, zero (no
     force along that coordinate).
-    Errors: a zero of the force has no closed form; there is no state of rest; it holds the time.
+    Errors: a zero of the force has no closed form; there is no state of rest; it holds the time; forces keep a
+    constraint on the coordinates.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
     Source: that of `equilibria`.
     """
@@ -133,6 +135,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
         raise Rejected(Complaint("changes", f"`{of.key}` holds the time itself, so that there is no state of rest"))
     potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
+    _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
         message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: there is rest anywhere"
@@ -146,6 +149,18 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     conditions = [_condition(potential, q, forces[q]) for q in sought]
     names = _names(potential, sought, len(states))
     return tuple(_rest(potential, conditions, sought, state, names, n, states) for n, state in enumerate(states))
+
+
+def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
+    """Refuse coordinates that conditions tie together: a force of constraint balances the others at rest."""
+    kept = of.fact(Kept)
+    tied = next(
+        (c for c in (kept.constraints if kept is not None else ()) if any(c.along(q) != 0 for q in sought)), None
+    )
+    if tied is not None:
+        message = f"`equilibria`: the coordinates are tied by {tied.left} = {tied.right}, which a force keeps"
+        help_line = "rest is sought in free coordinates: write the places by fewer of them, without this constraint"
+        raise Rejected(Complaint("constrained", message, help=help_line))
 
 
 @dataclass(frozen=True)
