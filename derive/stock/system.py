@@ -19,6 +19,7 @@ from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
 from derive.mechanics.systems.coordinates import kind_of_rate
+from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.parts import (
@@ -157,7 +158,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, known, faults)}
     with faults:
         own |= _steady_rates(written, letters, known)
-    with_own = InLetters({**symbols, **own})
+    with_own = InLetters({**_momenta(written.coordinates, letters), **symbols, **own})
     with_own.numbers = known.numbers
     return DescribedSystem(
         letters=own,
@@ -188,6 +189,12 @@ def _value(node: Tree | None, name: str, kind: str, letters: InLetters, faults: 
         with faults:
             return letters.value(node, name, kind) if kind != "energy" else letters.of_kind(node, name, kind)
     return None
+
+
+def _momenta(written: Mapping[Word, str], coordinates: Mapping[str, Declared]) -> dict[str, Declared]:
+    """The momenta of coordinates, which functions of both hold: `x*p_y - y*p_x`."""
+    kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind) for q in written if q in coordinates}
+    return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
 
 
 def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:

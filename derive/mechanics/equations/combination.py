@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from sympy import Expr, MatrixBase, Symbol
+from sympy import Expr, MatrixBase, Mul, Pow, Rational, Symbol, cancel, factor, sqrt
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit, scalar
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import lecture_form, left_over, unknown_of
@@ -16,6 +17,9 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["combination"]
 
+HALF = Rational(1, 2)
+LARGEST = 200  # operations of what is cancelled under roots
+
 
 def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
     """A number made of results, as a formula says it: pi Omega/omega, the angle from one apsis to the next.
@@ -24,6 +28,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
     values       mark -> the result that stands there; of an equation with a letter alone on its left, what that equals
     symbol       its letter; without it the key
     Nothing checks that it is what its letter says: it is a definition, and the page calls it one.
+    Outcomes: generic, named (a formula of letters alone).
     Errors: a result is no number, such as a vector or an equation that is not solved.
     Source: none needed: a definition.
     """
@@ -39,10 +44,23 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
         inputs,
         key=key,
         definition=True,
-        lines=Lines(arranged=lecture_form),
+        outcome="generic" if values else "named",
+        lines=Lines(arranged=_cancelled),
         parents=[q for q in values.values() if isinstance(q.value, Relation)],
         scope=Scope(differ=EVERYTHING),
     )
+
+
+def _cancelled(value: Expr) -> Expr:
+    """As one writes it down, with nothing under a root that cancels."""
+    plain = lecture_form(value)
+    if plain.count_ops() > LARGEST:
+        return plain
+
+    roots = [f for f in Mul.make_args(plain) if isinstance(f, Pow) and abs(f.exp) == HALF]
+    below = factor(cancel(Mul(*(f**2 for f in roots))))
+    rooted = lecture_form(Mul(*(f for f in Mul.make_args(plain) if f not in roots)) * sqrt(below))
+    return rooted if rooted.count_ops() < plain.count_ops() and equal(rooted, plain) else plain
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:

@@ -36,6 +36,10 @@ def _of_a_centre(facts: Judged) -> bool:
 
 
 _TABLE: dict[str, dict[str, Predicate]] = {
+    "combination.combination": {
+        "generic": lambda facts: bool(facts.inputs),
+        "named": lambda facts: not facts.inputs,
+    },
     "located.component": {"centre": _of_a_centre, "place": lambda facts: "centre" not in facts.inputs},
     "kept.constraint_force": {"generic": lasts, "zero": vanishes},
     "rigid.angular_velocity": {

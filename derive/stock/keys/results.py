@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, Integer, oo
 
 from derive.algebra.expressions import Relation, explicit
+from derive.course.expression import names_in
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
@@ -17,13 +18,16 @@ from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import (
     Coordinate,
     beats,
+    conjugate,
     frequency,
     frequency_squared_about,
     leaves_contact,
     limiting_case,
     maximum,
     minimum,
+    noether,
     period_by_energy,
+    poisson_bracket,
     put_in,
     rate_of,
     roots,
@@ -37,6 +41,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.formulas import Formula, formula
 
@@ -46,7 +51,7 @@ INFINITE = {"infinity": oo, "-infinity": -oo}
 VERBS = (
     "solve", "put_in", "roots", "limit", "where", "maximum", "minimum", "leaves", "solution", "amplitude", "speed",
     "period", "beats", "value", "rate", "steady",
-    "frequency",
+    "frequency", "bracket", "noether",
 )  # fmt: skip
 
 
@@ -88,6 +93,16 @@ class ResultKeys(Record):
         "letter that its condition takes out",
         NAMES,
     )
+    bracket: Tree | None = key(
+        "two answers, or formulas of coordinates and their momenta `p_x`, whose Poisson bracket is wanted",
+        as_written({"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}),
+    )
+    noether: Tree | None = key(
+        "a Lagrangian, for what is conserved because the shift of coordinates by `values` leaves it as it is: "
+        "`{x: -y, y: x}`",
+        NAMES,
+    )
+    gained: Tree | None = key("of `noether`: of which function the Lagrangian gains the rate; without it none", SCALAR)
     unknowns: Tree | None = key("a letter, a rate such as `theta_dot`, or several", EXPRESSIONS, called="for")
     results: Tree | None = key("answers that are put in", NAMES)
     values: Mapping[Word, Tree] = key("values of letters and coordinates that are put in", mapping_of(SCALAR))
@@ -113,7 +128,9 @@ class ResultKeys(Record):
             return Result(
                 name=str(name),
                 verb=verbs[0],
-                of=names(getattr(self, verbs[0])) if written is None else (),
+                of=names(getattr(self, verbs[0])) if verbs[0] not in OF_FORMULAS else (),
+                functions=tuple(_function(node, letters) for node in _nodes(self.bracket)),
+                gained=_end(self.gained, letters) if self.gained else None,
                 formula=written,
                 results=names(self.results),
                 unknowns=tuple(letters.read(node, "for")[0] for node in _nodes(self.unknowns)),
@@ -143,6 +160,8 @@ class Result:
     verb: str
     of: tuple[Word, ...]
     formula: Formula | None = None
+    functions: tuple[Word | Expr, ...] = ()
+    gained: Expr | None = None
     results: tuple[Word, ...] = ()
     unknowns: tuple[Expr, ...] = ()
     values: tuple[tuple[str, Expr], ...] = ()
@@ -159,10 +178,17 @@ class Result:
 
     def made(self, answers: Callable[[Word], tuple[Quantity, ...]], coordinates: Mapping[str, Coordinate]) -> Any:
         """By the verb, of the answers of those names."""
+        self._momenta_named(coordinates)
         if self.formula is not None:
             return self.formula.made(partial(_one_of, answers), self.name, **self.symbol or {"symbol": None})
         of = [quantity for name in self.of for quantity in answers(name)]
         more = [quantity for name in self.results for quantity in answers(name)]
+        if self.verb == "bracket":
+            both: list[Any] = [_one_of(answers, f) if isinstance(f, Word) else f for f in self.functions]
+            if len(both) != 2:
+                rejected("wrong-type", f"`bracket` is of two functions, but these are {len(both)}", self.place)
+            with told_at(self.place):
+                return poisson_bracket(both[0], both[1], *coordinates.values(), among=more, key=self.name)
         if self.symbols and self.verb not in LETTERED:
             letter = self.symbols[0]
             rejected("wrong-argument", f"what `{self.verb}` finds has no letter of its own", letter.place)
@@ -180,6 +206,14 @@ class Result:
         if self.place is None or matter is not None and tuple(matter.coordinates) == (q.symbol,):
             return []
         return list(answers(Word.at(f"motion_{q.symbol.name}", self.place)))
+
+    def _momenta_named(self, coordinates: Mapping[str, Coordinate]) -> None:
+        """From here on the momenta that stand in its formulas are known to move."""
+        held = {str(name) for name in (names_in(self.formula.node) if self.formula is not None else ())}
+        held |= {s.name for each in self.functions if isinstance(each, Expr) for s in each.free_symbols}
+        for q in coordinates.values():
+            if letter_of_momentum(q).name in held:
+                conjugate(q)
 
     def only(self, of: list[Quantity]) -> Quantity:
         """The one answer; of several of one name that whose key this name is."""
@@ -309,6 +343,22 @@ def _frequency(result: Result, of: list[Quantity], more: list[Quantity], q: Mapp
     return frequency(squared, key=result.name)
 
 
+def _noether(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    strange = next((name for name, _ in result.values if name not in q), None)
+    if strange is not None:
+        rejected("no-such-coordinate", f"`noether` shifts coordinates, but `{strange}` is none", result.place)
+    shift = {q[name]: value for name, value in result.values}
+    return noether(result.only(of), shift, key=result.name, **result.named({"gained": result.gained}), **result.symbol)
+
+
+def _function(node: Tree, letters: InLetters) -> Word | Expr:
+    """The name of an answer, or a formula in letters, coordinates and momenta."""
+    if isinstance(node, Scalar) and not node.empty and [*names_in(node)] == [node.text.strip()]:
+        if node.text.strip() not in letters.letters:
+            return node.word
+    return letters.read(node, "a function")[0]
+
+
 def _one_of(answers: Callable[[Word], tuple[Quantity, ...]], name: Word) -> Quantity:
     """The one answer of a name, or that whose key the name is."""
     found = answers(name)
@@ -325,7 +375,8 @@ def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
     return beats(slow, fast, key=result.name, **result.symbol)
 
 
-LETTERED = ("put_in", "roots", "limit", "amplitude", "period", "beats", "value", "frequency", "steady")
+LETTERED = ("put_in", "roots", "limit", "amplitude", "period", "beats", "value", "frequency", "steady", "noether")
+OF_FORMULAS = ("value", "bracket")
 
 _MAKERS: Mapping[str, Callable[..., Any]] = {
     "solve": _solve,
@@ -343,6 +394,7 @@ _MAKERS: Mapping[str, Callable[..., Any]] = {
     "beats": _beats,
     "rate": _rate,
     "steady": _steady,
+    "noether": _noether,
     "frequency": _frequency,
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Expr, Rational, exp, pi, sqrt, symbols
+from sympy import Rational, exp, pi, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit
@@ -39,7 +39,6 @@ solve: system
 symbols: {m: mass, R: length, g: acceleration, mu: 'number in (0, 2)', v_0: speed}
 given:
   coordinates: {x: length, phi: angle}
-  particles: {ball: {mass: m, at: [x, 0]}}
   bodies: {ball: {moments: 2*m*R**2/5, mass: m, turned: -phi, centre: [x, R]}}
   forces: [{components: [-mu*m*g, 0], at: [x, R]}, {torque: mu*m*g*R, on: phi}]
   results:
@@ -55,7 +54,7 @@ statement: A ball.
 parts:
   - ask: Find it.
     answer: [made, begin]
-""".replace("  particles: {ball: {mass: m, at: [x, 0]}}\n", "")
+"""
 
 
 def test_the_apsidal_angle_of_a_nearly_circular_orbit(tmp_path: Path) -> None:
@@ -80,12 +79,12 @@ def test_a_ball_slides_until_the_place_of_contact_is_at_rest(tmp_path: Path) -> 
 
 @pytest.mark.parametrize(
     ("made", "value"),
-    [("turning/2", None), ("about**2*r_0/3", None), ("-2*orbit_rate", None)],
+    [("turning/2", "Omega/2"), ("about**2*r_0/3", "omega_0**2*r_0/3"), ("-2*added", "-2*added")],
 )
-def test_a_formula_may_hold_letters_and_powers(made: str, value: Expr | None, tmp_path: Path) -> None:
+def test_a_formula_may_hold_letters_and_powers_and_another_formula(made: str, value: str, tmp_path: Path) -> None:
     text = edited(ORBIT, ('"pi*turning/about", symbol: psi', f'"{made}"'))
-    text = edited(text, ("  results:\n", "  results:\n    orbit_rate: {value: turning + about}\n"))
-    assert "made" in solved(tmp_path, text)
+    text = edited(text, ("  results:\n", "  results:\n    added: {value: turning + about}\n"))
+    assert str(solved(tmp_path, text)["made"].step.chain[0].expr) == value
 
 
 @pytest.mark.parametrize(
@@ -116,4 +115,53 @@ def test_what_cannot_be_meant_by_a_formula_is_told(made: str, said: str, tmp_pat
 )
 def test_what_is_no_steady_motion_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
     found = messages(tmp_path, edited(ORBIT, (old, new)))
+    assert any(said in message for message in found), found
+
+
+SPRING = """\
+title: A particle on a spring in space
+solve: system
+symbols: {m: mass, k: spring constant}
+given:
+  coordinates: {x: length, y: length, z: length}
+  places: {O: [0, 0, 0], P: [x, y, z]}
+  particles: {particle: {mass: m, at: P}}
+  springs: {constant: k, from: O, to: P}
+  results:
+    L_x: {value: y*p_z - z*p_y}
+    L_y: {value: z*p_x - x*p_z}
+    L_z: {value: x*p_y - y*p_x}
+    both: {bracket: [L_x, L_y], results: L_z}
+    kept: {bracket: [L_z, hamiltonian]}
+    plain: {bracket: [x**2, p_x]}
+    turning: {noether: lagrangian, values: {x: -y, y: x}, symbol: Q}
+statement: A particle.
+parts:
+  - ask: Find it.
+    answer: [both, kept, plain, turning]
+"""
+
+
+def test_brackets_of_formulas_in_coordinates_and_momenta(tmp_path: Path) -> None:
+    """Goldstein, section 9.7: {L_x, L_y} = L_z; an isotropic oscillator keeps L_z, by Noether's theorem too."""
+    steps = solved(tmp_path, SPRING)
+    assert str(steps["both"].step.chain[-1].expr) == "L_z"
+    assert steps["kept"].step.outcome == "conserved"
+    assert str(steps["plain"].value) == "2*x"
+    assert str(explicit(steps["turning"].value)) in {"m*x*y_dot - m*x_dot*y", "-m*x_dot*y + m*x*y_dot"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("[x**2, p_x]", "[x**2]", "`bracket` is of two functions, but these are 1"),
+        ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` stands for 3 answers"),
+        ("[x**2, p_x]", "[x**2, p_w]", "there is no answer `p_w`"),
+        ("[x**2, p_x]", "[x_dot, p_x]", "but x_dot holds x_dot"),
+        ("{x: -y, y: x}", "{x: -y, w: x}", "`noether` shifts coordinates, but `w` is none"),
+        ("{x: -y, y: x}", "{x: y, y: x}", "the shift is no symmetry"),
+    ],
+)
+def test_what_is_no_bracket_or_symmetry_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(SPRING, (old, new)))
     assert any(said in message for message in found), found
