@@ -180,7 +180,8 @@ class Result:
         """By the verb, of the answers of those names."""
         self._momenta_named(coordinates)
         if self.formula is not None:
-            return self.formula.made(partial(_one_of, answers), self.name, **self.symbol or {"symbol": None})
+            with told_at(self.place):
+                return self.formula.made(partial(_one_of, answers), self.name, self.symbol.get("symbol"))
         of = [quantity for name in self.of for quantity in answers(name)]
         more = [quantity for name in self.results for quantity in answers(name)]
         if self.verb == "bracket":
