@@ -41,6 +41,7 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         part = part if any(powers) else _level(part, part, moving)
         # Terms without rates stand side by side.
         parts += [_with_short_sums(term, moving) for term in Add.make_args(part)] if not any(powers) else [part]
+    parts = [part for part in parts if part != 0]  # sin^2 + cos^2 - 1 is seen to vanish only here
     return Add(*parts, evaluate=len(parts) < 2)
 
 
@@ -163,7 +164,9 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
         if _has_fractions_inside(inside) or int(inside.count_ops()) > int(whole.count_ops()):  # (3/4) m (R - a)^2
             return Mul(whole, *powers)
-        return Mul(Rational(1, 2), inside, *powers, evaluate=bool(inside.as_numer_denom()[1].free_symbols))
+        has_number = inside.is_Mul and not inside.args[0].is_Integer and inside.args[0].is_Rational
+        written = not has_number and not inside.as_numer_denom()[1].free_symbols
+        return Mul(Rational(1, 2), inside, *powers, evaluate=not written)
     found = _tidied(coefficient, Integer(1))
     spread_out = _spread(found.value)
     if _has_fractions_inside(spread_out):  # (3/20) m (1 + 5 cos^2 a), not 3 m (cos^2 a/4 + 1/20)

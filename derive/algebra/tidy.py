@@ -30,6 +30,8 @@ from sympy import (
     lcm,
     radsimp,
     sin,
+    sqrt,
+    sqrtdenest,
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
@@ -48,7 +50,9 @@ def tidied(value: Any) -> Any:
         return Relation(tidied(value.left), value.mark, tidied(value.right))
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(tidied))
-    return settled(_tidied_scalar(value))
+    tidy = _tidied_scalar(value)
+    known = settled(tidy)
+    return tidy if known == tidy else settled(_tidied_scalar(known))  # |sin a|/sin^2 a is 1/sin a where sin a > 0
 
 
 def _signs_squared(value: Any) -> Any:
@@ -70,9 +74,10 @@ def _tidied_scalar(value: Expr) -> Expr:
     if _has_roots(value):
         if value.atoms(Add) and vanishes(value):
             return Integer(0)
-        value = _roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value))))
+        value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
         return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
-    return min((_as_one_fraction(form) for form in (value, *_by_one_square(value), *_by_one_angle(value))), key=_length)
+    forms = (value, *_by_one_square(value), *_by_pairs(value), *_by_one_angle(value))
+    return min((_as_one_fraction(form) for form in forms), key=_length)
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -140,6 +145,25 @@ def _in_one_square(value: Expr) -> list[Expr]:
     return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
 
 
+def _by_pairs(value: Expr) -> list[Expr]:
+    """x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair, where other terms keep their squares."""
+    if not value.atoms(sin, cos):
+        return []
+    terms = dict(term.as_coeff_Mul()[::-1] for term in Add.make_args(value.expand()))
+    found = False
+    for term in list(terms):
+        for part in () if term not in terms else Mul.make_args(term):
+            base, power = part.as_base_exp()
+            plain = term / part
+            if isinstance(base, sin | cos) and power == 2 and plain in terms and terms[plain] == -terms[term]:
+                squared = plain * (cos if isinstance(base, sin) else sin)(base.args[0]) ** 2
+                terms[squared] = terms.get(squared, Integer(0)) + terms.pop(plain)
+                del terms[term]
+                found = True
+                break
+    return [Add(*(number * term for term, number in terms.items()))] if found else []
+
+
 def _by_one_angle(value: Expr) -> list[Expr]:
     """cos a cos b + sin a sin b written as cos(a - b), and the like."""
     angles = {function.args[0] for function in value.atoms(sin, cos)}
@@ -153,6 +177,21 @@ def _length(value: Expr) -> tuple[int, str]:
 
 def _has_roots(value: Expr) -> bool:
     return any(power.exp.is_Rational and not power.exp.is_Integer for power in value.atoms(Pow))
+
+
+def _denested(value: Expr) -> Expr:
+    """(8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 is sqrt(2 - sqrt(2))/2: roots of sums of roots by their square."""
+    number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
+    nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
+    if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):
+        return value
+    square = radsimp(expand(number**2)).expand()
+    if not square.is_real or not square.is_positive or len(Add.make_args(square)) > 2:
+        return value
+    content, rest = square.primitive()
+    found = sqrt(content) * sqrtdenest(sqrt(rest))
+    found = found if number.is_positive else -found
+    return min((value, found * letters), key=_length)
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
@@ -201,8 +240,9 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
         return Integer(1), part
     outside, inside = Integer(1), content
     for base, power in factors:
-        whole = power // q if base.is_nonnegative else 0
-        outside *= base**whole
+        is_size = q == 2 and power % 2 == 0 and base.is_real and not base.is_nonnegative
+        whole = power // q if base.is_nonnegative or is_size else 0
+        outside *= (abs(base) if is_size else base) ** whole
         inside *= base ** (power - q * whole)
     # A sum that lost no factor is left as it was written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
@@ -211,7 +251,21 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
 def _in_front(value: Expr) -> Expr:
     """Common factors of the terms in front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
     numerator, denominator = together(value).as_numer_denom()
-    return Mul(factor_terms(numerator), Pow(factor_terms(denominator), -1))
+    sign, below = _plus_below(factor_terms(denominator))
+    return Mul(factor_terms(sign * numerator), Pow(below, -1))
+
+
+def _plus_below(denominator: Expr) -> tuple[Expr, Expr]:
+    """-1 and 7 M + 7 m - 5 m c^2 of 5 m c^2 - 7 M - 7 m: below a line the terms with a plus are in the majority."""
+    sign: Expr = Integer(1)
+    factors = []
+    for part in Mul.make_args(denominator):
+        base, power = part.as_base_exp()
+        negative = sum(term.could_extract_minus_sign() for term in base.args) if base.is_Add else 0
+        if power.is_Integer and 2 * negative > len(base.args):
+            sign, part = sign * (-1) ** power, Pow(-base, power)
+        factors.append(part)
+    return sign, Mul(*factors)
 
 
 def common_factor(entries: list[Expr]) -> Expr:

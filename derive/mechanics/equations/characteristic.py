@@ -301,10 +301,18 @@ def _size(value: Expr) -> tuple[float, str]:
     return (float(number) if number.is_real else 0.0), str(value)
 
 
+def _is_power_of_one_sum(value: Expr) -> bool:
+    """m A^2/(l^2 + m c A)^(3/2), of which no other factor stands under the root."""
+    halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
+    return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
+
+
 def root_of(square: Expr) -> Expr:
     """sqrt(k/m) under one root; a rational root is drawn, and so is that of a sine."""
     drawn = tidied(sqrt(square))
     if drawn == 0 or square.has(sin) or not is_irrational(drawn):
+        return drawn
+    if _is_power_of_one_sum(drawn):
         return drawn
     number, letters = square.as_coeff_Mul()
     if number != 1 and sqrt(number).is_Rational and not is_irrational(letters):

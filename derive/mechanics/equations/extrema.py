@@ -175,7 +175,7 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
     if len(coefficients) == 3:
         a, b, c = coefficients
         if b == 0:
-            inside = lecture_form(-c / a)
+            inside = lecture_form(-c / a, in_sums=False)
             condition = None if sign_known(inside) == 1 else Relation(inside, ">", 0)
             return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
         inside = tidied(b**2 - 4 * a * c)

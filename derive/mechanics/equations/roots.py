@@ -357,8 +357,10 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
     under = sqrt(discriminant)
     if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
         return lecture_form((-b + sign * under) / (2 * a))
+    if b == 0:
+        return lecture_form(sign * under / (2 * a), in_sums=False)
     common = _common_root(b, discriminant)
-    inside = lecture_form(discriminant / common**2)
+    inside = lecture_form(discriminant / common**2, in_sums=False)
     both = Add(tidied(-b / common), sign * sqrt(inside))
     return Mul(tidied(common / (2 * a)), both)
 

@@ -212,8 +212,11 @@ def coordinates_of(*quantities: Quantity) -> dict[Symbol, str]:
     return {q: kind for quantity in quantities for q, kind in quantity.coordinates.items()}
 
 
-def lecture_form(value: Expr) -> Expr:
-    """The value as one writes it down: factored, or its terms apart, whichever is shorter."""
+def lecture_form(value: Expr, *, in_sums: bool = True) -> Expr:
+    """The value as one writes it down: factored, or its terms apart, whichever is shorter.
+
+    in_sums     products of sines and cosines may become sums of them; not under a root, out of which squares are drawn
+    """
     value = explicit(value)
     forms = [tidied(value)]
     if forms[0].count_ops() <= LARGEST:
@@ -222,7 +225,7 @@ def lecture_form(value: Expr) -> Expr:
         below = forms[0].as_numer_denom()[1]
         if not any(f.is_Add for f in Mul.make_args(below)):
             forms.append(by_terms(forms[0].expand()))
-        if forms[0].count_ops() <= SHORT and not below.has(sin, cos):
+        if in_sums and forms[0].count_ops() <= SHORT and not below.has(sin, cos) and not _turns_under_root(forms[0]):
             forms.append(tidied(TR8(forms[0].expand())))
         if below.has(sin):
             forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
@@ -251,6 +254,12 @@ def _is_power_of(sine: Expr, e: Expr) -> bool:
 def _by_cosine(c: Expr, power: Expr) -> Expr:
     """sin^2 as 1 - c^2, one sine left over of an odd power."""
     return (1 - c**2) ** (power.exp // 2) * power.base ** (power.exp % 2)
+
+
+def _turns_under_root(value: Expr) -> bool:
+    """Products of sines and cosines under a root stay, or no square could be drawn out of it."""
+    roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
+    return any(root.base.has(sin, cos) for root in roots)
 
 
 def _factored(value: Expr) -> Expr:

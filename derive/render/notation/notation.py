@@ -50,6 +50,7 @@ from derive.render.notation.layout import (
     MINUS,
     PLUS,
     THIN_SPACE,
+    TIMES,
     Applied,
     Array,
     Bracketed,
@@ -81,6 +82,7 @@ from derive.render.notation.products import (
     roots_together,
     side_by_side,
     sign_and_size,
+    times_ten_to,
 )
 
 PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
@@ -384,8 +386,7 @@ class Notation:
         items: list[Layout] = [MINUS] if negative else []
         items.append(Digits(digits))
         if power:
-            ten = Raised(Digits("10"), Digits(power) if not power.startswith("-") else row(MINUS, Digits(power[1:])))
-            items += [Operator("times"), ten]
+            items += [TIMES, times_ten_to(int(power))]
         return row(*items)
 
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (

@@ -7,7 +7,7 @@ from decimal import Decimal
 from enum import IntEnum, auto
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, factorint, gcd, ilcm
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, factorint, fraction, gcd, ilcm
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
@@ -18,6 +18,7 @@ from derive.render.notation.layout import (
     EITHER_SIGN,
     MINUS,
     THIN_SPACE,
+    TIMES,
     Applied,
     Array,
     Digits,
@@ -41,12 +42,30 @@ from derive.render.notation.layout import (
 
 
 def decimal(number: Rational) -> Layout:
-    """1.5, as it was written, not 3/2; a third stays a fraction."""
+    """1.5, as it was written, not 3/2; a third stays a fraction; 2.657*10^-26 with its power of ten."""
     sign = (MINUS,) if number < 0 else ()
     if set(factorint(number.q)) - {2, 5}:
         return row(*sign, Fraction(Digits(str(abs(number.p))), Digits(str(number.q))))
-    places = max(factorint(number.q).values(), default=0)
-    return row(*sign, Digits(f"{Decimal(abs(number.p)) / number.q:.{places}f}"))
+    power, front = _power_of_ten(abs(number))
+    places = max(factorint(front.q).values(), default=0)
+    digits = Digits(f"{Decimal(front.p) / front.q:.{places}f}")
+    return row(*sign, digits, TIMES, times_ten_to(power)) if power else row(*sign, digits)
+
+
+def _power_of_ten(number: Rational) -> tuple[int, Rational]:
+    """Of what is very small, or very large and round: the power of ten apart, one digit before the point."""
+    power = 0
+    while number and number * Integer(10) ** -power < 1:
+        power -= 1
+    while number * Integer(10) ** -power >= 10:
+        power += 1
+    front = number * Integer(10) ** -power
+    is_round = number.q == 1 and number.p % 10 ** max(power - 3, 0) == 0
+    return (power, front) if power < -4 or power > 6 and is_round else (0, number)
+
+
+def times_ten_to(power: int) -> Layout:
+    return Raised(Digits("10"), row(MINUS, Digits(str(-power))) if power < 0 else Digits(str(power)))
 
 
 def present(value: Any) -> Any:
@@ -138,7 +157,7 @@ def roots_together(expr: Expr) -> Expr:
     inside = Mul(*(f for square in squares for f in square), evaluate=False)
     others = Mul(*(f for f in factors if f not in roots))
     times, under = _below_under_root(others.as_coeff_Mul()[0], inside.as_coeff_Mul()[0])
-    if times != 1 and not inside.has(Add):
+    if times != 1 and (not inside.has(Add) or fraction(inside)[1] != 1):
         others, inside = others / times, Mul(under, *(f for f in inside.args if not f.is_Rational), evaluate=False)
     return Mul(others, ex.Root(inside))
 

@@ -57,7 +57,12 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
 
 def _alike(first: Layout, second: Layout) -> bool:
     """Whether they read the same, or have the same terms in another order."""
-    return first == second or sorted(map(plain, terms_of(first))) == sorted(map(plain, terms_of(second)))
+    return first == second or _terms_as_read(first) == _terms_as_read(second)
+
+
+def _terms_as_read(layout: Layout) -> list[str]:
+    """In some order, and without spaces: M/(2 pi a) as it was put together, and with its numbers side by side."""
+    return sorted("".join(plain(term).split()) for term in terms_of(layout))
 
 
 def answer_lines(answer: Answer, notation: Notation, limit: float = ANSWER_WIDTH) -> list[Printed]:
