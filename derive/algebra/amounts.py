@@ -10,6 +10,8 @@ from sympy.core.symbol import Str
 from derive.algebra.dimensions import Dimension
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, Value, explicit
 
+IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # a unit of angles that stays as it was written
+
 
 class Amount(ScalarNode):
     """A number with its unit, `2 cm`. Arguments: the number, the unit as text, the factor to the SI unit."""

@@ -34,6 +34,7 @@ from sympy import (
 from sympy.core.symbol import Str
 from sympy.matrices import ImmutableMatrix
 
+from derive.algebra.amounts import IN_DEGREES as IN_DEGREES
 from derive.algebra.amounts import Amount as Amount
 from derive.algebra.amounts import MatrixAmount as MatrixAmount
 from derive.algebra.derivatives import derivative

@@ -14,7 +14,7 @@ from sympy import Expr, Integer, Symbol
 
 from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import IN_DEGREES, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.drawn import drawing_files
@@ -170,6 +170,14 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
         raise Rejected(faults)
 
 
+def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension | None) -> tuple[str, Expr]:
+    """Degrees for an angle where an angle is given in degrees; else the coherent unit of the SI."""
+    given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
+    if given is not None:
+        return given.unit, given.factor
+    return (unit_of_kind(kind) if kind else unit_of_dimension(dimension)), Integer(1)
+
+
 def _value(
     problem: Problem, part: Question, answer: Quantity, asked: str, dimensions: Mapping[Any, Dimension | None]
 ) -> Quantity | None:
@@ -190,7 +198,7 @@ def _value(
         if wrong:
             raise Rejected(Complaint(wrong.code, f"`{answer.key}` {wrong.why}", unit.place, help=wrong.help))
         units.append((unit, read.factor))
-    first, *more = units or [(unit_of_kind(kind) if kind else unit_of_dimension(dimension), Integer(1))]
+    first, *more = units or [_usual_unit(problem, kind, dimension)]
     figures = form.figures or problem.figures
     # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
     compared = None if units else comparison_of(answer, problem.amounts)

@@ -16,7 +16,7 @@ from posixpath import normpath
 from sympy import Integer, Symbol
 
 from derive.algebra.dimensions import Dimension
-from derive.algebra.expressions import Amount, Relation, explicit
+from derive.algebra.expressions import IN_DEGREES, Amount, Relation, explicit
 from derive.algebra.kinds import Asked, about_kind, unit_of_kind
 from derive.algebra.ranges import Range, within
 from derive.course.declared import declared_letters
@@ -97,9 +97,14 @@ class Problem:
 
     @property
     def amounts(self) -> dict[Symbol, Amount]:
-        """The number behind each letter that has one, in the coherent SI unit."""
+        """The number behind each letter that has one, in the coherent SI unit; an angle in degrees stays so."""
         units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in self.measured}
-        return {m.symbol: Amount(m.si, units[m.symbol], Integer(1)) for m in self.measured}
+        return {
+            m.symbol: Amount(m.number, m.unit, m.factor)
+            if m.unit in IN_DEGREES
+            else Amount(m.si, units[m.symbol], Integer(1))
+            for m in self.measured
+        }
 
     @property
     def texts(self) -> tuple[Prose, ...]:

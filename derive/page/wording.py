@@ -19,7 +19,7 @@ from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.direction import Direction
-from derive.algebra.expressions import AXES, TIME, Amount, scalar
+from derive.algebra.expressions import AXES, IN_DEGREES, TIME, Amount, explicit, scalar
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
@@ -314,7 +314,7 @@ def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline
     nodes: list[Inline] = [Math(measured.symbol), Text(" = "), Math(written)]
     if measured.unit != amount.args[1].name:
         nodes += [Text(" = "), Math(amount)]
-    if not measured.si.is_Rational:
+    if not explicit(amount).is_Rational and amount.args[1].name not in IN_DEGREES:
         nodes += [Text(" \u2248 "), Math(Amount(rounded_form(measured.si, figures), amount.args[1], amount.args[2]))]
     return tuple(nodes)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from sympy import (
     Add,
+    Dummy,
     Expr,
     ImmutableDenseMatrix,
     Integer,
@@ -14,12 +15,26 @@ from sympy import (
     Mul,
     Rational,
     Symbol,
+    cos,
     pi,
     preorder_traversal,
     sign,
+    sin,
+    tan,
 )
 
-from derive.algebra.expressions import Amount, Factors, MatrixAmount, Ratio, Relation, Root, bound, explicit, scaled
+from derive.algebra.expressions import (
+    IN_DEGREES,
+    Amount,
+    Factors,
+    MatrixAmount,
+    Ratio,
+    Relation,
+    Root,
+    bound,
+    explicit,
+    scaled,
+)
 from derive.algebra.normal_form import vanishes
 from derive.algebra.rounding import rounded_form
 from derive.algebra.samples import value_at
@@ -59,7 +74,8 @@ def value_of(
         return None
     if not letters and all(entry.is_Integer for entry in _entries(value)):
         return None
-    numbers = {letter: amounts[letter] for letter in letters}
+    turning = _only_turning(value)
+    numbers = {letter: amounts[letter] if letter in turning else in_radians(amounts[letter]) for letter in letters}
     if isinstance(value, MatrixBase):
         common, rest = factored_matrix(value)
         substituted = bound(rest, numbers) if common == 1 else scaled(bound(common, numbers), bound(rest, numbers))
@@ -209,6 +225,18 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
         lines=Lines(after=[Form(Factors(rounded_form(number, figures), letters), "rounded")]),
         parents=[answer],
     )
+
+
+def in_radians(amount: Amount) -> Amount:
+    """pi/36 rad of 5 degrees; anything else as it is."""
+    return Amount(explicit(amount), "rad", Integer(1)) if amount.args[1].name in IN_DEGREES else amount
+
+
+def _only_turning(value: Any) -> set[Symbol]:
+    """Letters that stand in sines, cosines and tangents alone: there an angle may be in degrees."""
+    angles: dict[Expr, Expr] = {f: Dummy() for entry in _entries(value) for f in entry.atoms(sin, cos, tan)}
+    left = {letter for entry in _entries(value) for letter in entry.xreplace(angles).free_symbols}
+    return _free(value) - left
 
 
 def _amounts_in(expr: Any) -> int:

@@ -375,7 +375,7 @@ class Notation:
     def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
         number, unit, _ = expr.args
         inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
-        if unit.name in {"degree", "deg"}:
+        if unit.name in ex.IN_DEGREES:
             return row(inner, DEGREE_SIGN)
         return row(inner, THIN_SPACE, Upright(unit.name)) if unit.name else inner
 
