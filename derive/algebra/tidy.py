@@ -258,14 +258,15 @@ def _in_front(value: Expr) -> Expr:
 def _plus_below(denominator: Expr) -> tuple[Expr, Expr]:
     """-1 and 7 M + 7 m - 5 m c^2 of 5 m c^2 - 7 M - 7 m: below a line the terms with a plus are in the majority."""
     sign: Expr = Integer(1)
-    factors = []
+    factors, turned = [], False
     for part in Mul.make_args(denominator):
         base, power = part.as_base_exp()
         negative = sum(term.could_extract_minus_sign() for term in base.args) if base.is_Add else 0
         if power.is_Integer and 2 * negative > len(base.args):
             sign, part = sign * (-1) ** power, Pow(-base, power)
+            turned = True
         factors.append(part)
-    return sign, Mul(*factors)
+    return (sign, Mul(*factors)) if turned else (sign, denominator)
 
 
 def common_factor(entries: list[Expr]) -> Expr:

@@ -170,7 +170,7 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
         raise Rejected(faults)
 
 
-def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension | None) -> tuple[str, Expr]:
+def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
     """Degrees for an angle where an angle is given in degrees; else the coherent unit of the SI."""
     given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
     if given is not None:

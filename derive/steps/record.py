@@ -108,6 +108,12 @@ def established() -> list[Quantity]:
     return list(run.established) if run is not None else []
 
 
+def named_coordinates() -> tuple[Symbol, ...]:
+    """All coordinates of the run."""
+    run = current_run.get()
+    return tuple(run.coordinates) if run else ()
+
+
 def coordinates_in(result: Any) -> dict[Symbol, str]:
     """The coordinates of the run that a result contains, themselves or by a rate."""
     run = current_run.get()

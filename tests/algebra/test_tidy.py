@@ -11,6 +11,7 @@ from sympy import Expr, I, Integer, Matrix, Rational, acos, cos, pi, sin, sqrt, 
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Dot, column
+from derive.algebra.ranges import Range, within
 from derive.algebra.tidy import common_factor, factored_matrix, size_and_rest, tidied
 
 x, y = symbols("x y", real=True)
@@ -137,3 +138,30 @@ def test_two_products_of_sines_and_cosines_are_those_of_one_sum(sign: int, other
         found = tidied(sign * value[0] + other * value[1])
         assert equal(found, sign * value[0] + other * value[1])
         assert len(found.atoms(sin, cos)) == 1
+
+
+FORMS = [
+    # sin 22.5 degrees, as the axis of a plate of sides a and 2a about its corner has it (Fowles and Cassiday, 9.1)
+    ((8 * sqrt(2) - 11) * sqrt(146 + 103 * sqrt(2)) / 14, sqrt(2 - sqrt(2)) / 2),
+    (sqrt(146 + 103 * sqrt(2)) * sqrt(146 - 103 * sqrt(2)) / (7 * sqrt(2)), Integer(1)),
+    (sqrt((a + b) ** 2 - 4 * a * b), abs(a - b)),
+    (M * (cos(x) ** 2 - 1) / 2, -M * sin(x) ** 2 / 2),
+    (
+        a**2 - a**2 * cos(x) ** 2 + b * cos(x) ** 2 + M * sin(x) * cos(x),
+        a**2 * sin(x) ** 2 + b * cos(x) ** 2 + M * sin(x) * cos(x),
+    ),
+    (M / (x**2 - a - b), -M / (a + b - x**2)),
+]
+
+
+@pytest.mark.parametrize(("value", "form"), FORMS, ids=lambda value: str(value))
+def test_a_result_has_the_form_of_a_textbook(value: Expr, form: Expr) -> None:
+    assert tidied(value) == form
+    assert equal(tidied(value), value)
+
+
+def test_what_has_one_sign_in_its_range_leaves_the_root_and_cancels() -> None:
+    with within({x: Range(Integer(0), pi / 2)}):
+        assert tidied(sqrt(a * sin(x) ** 2 * cos(x)) / sin(x) ** 2) == sqrt(a) * sqrt(cos(x)) / sin(x)
+    with within({x: Range(-pi / 2, Integer(0))}):
+        assert tidied(sqrt(a * sin(x) ** 2 * cos(x)) / sin(x) ** 2) == -sqrt(a) * sqrt(cos(x)) / sin(x)

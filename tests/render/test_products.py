@@ -44,6 +44,32 @@ def test_a_number_is_decimal_where_it_can_be(number: Rational, text: str) -> Non
     assert plain(decimal(number)) == text
 
 
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Rational(2657, 10**29), "2.657×10⁻²⁶"),
+        (Rational(-1, 10**5), "-1×10⁻⁵"),
+        (Rational(1, 10**4), "0.0001"),
+        (Rational(2 * 10**30), "2×10³⁰"),
+        (Rational(5974, 1) * 10**21, "5.974×10²⁴"),
+        (Rational(299792458), "299792458"),
+        (Rational(384400), "384400"),
+        (Rational(0), "0"),
+    ],
+)
+def test_what_is_very_small_or_large_and_round_has_its_power_of_ten(number: Rational, text: str) -> None:
+    assert plain(decimal(number)) == text
+
+
+def test_below_the_root_of_a_fraction_goes_what_it_is_divided_by() -> None:
+    """A rod that swings at x from its middle: 2 pi sqrt((l^2 + 12 x^2)/(12 g x)). Source: Morin, section 8.4."""
+    a, g, x = symbols("a g x", positive=True)
+    assert plain(Notation().layout(pi * sqrt(3) * sqrt(a**2 + 12 * x**2) / (3 * sqrt(g * x)))) == (
+        "π √((a² + 12x²)/(3g x))"
+    )
+    assert plain(Notation().layout(2 * pi / 3 * sqrt(6 * a / g))) == "2π √(2a/(3g))"
+
+
 def test_a_common_factor_stands_before_a_vector_and_changes_nothing() -> None:
     vector = Matrix([2 * a * M, 4 * a * M, 0])
     shown = present(vector)

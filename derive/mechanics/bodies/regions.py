@@ -15,8 +15,21 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import MassIntegral, bound, column, scalar, vector
 from derive.errors import Complaint, Rejected
+from derive.steps.record import named_coordinates
 
 Bounds = tuple[tuple[Symbol, Expr, Expr], ...]
+
+OTHERS = {  # what a coordinate may be called besides
+    "x": ("xi",),
+    "y": ("eta",),
+    "z": ("zeta",),
+    "r": ("s", "q"),
+    "theta": ("phi", "chi", "beta"),
+    "phi": ("chi", "psi", "beta"),
+    "u": ("w",),
+    "v": ("nu",),
+    "s": ("q",),
+}
 
 COORDINATES = ("cartesian", "cylindrical")
 
@@ -82,11 +95,13 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Names of coordinates that no given letter looks like: r, or else s."""
-    letters = {letter.name for letter in taken}
-    others = {"x": "xi", "y": "eta", "z": "zeta", "r": "s", "theta": "phi", "u": "w"}
-    others |= {"phi": "chi", "s": "q", "v": "nu"}
-    found = [others[name] if name in letters else name for name in names]
+    """Names of coordinates that no given letter and no coordinate of a system looks like: r, or else s."""
+    letters = {letter.name for letter in (*taken, *named_coordinates())}
+    found: list[str] = []
+    wanted = list(names)
+    for name in wanted:
+        spoken_for = letters | {*found, *(other for other in wanted if other != name)}
+        found.append(next((other for other in (name, *OTHERS[name]) if other not in spoken_for), OTHERS[name][-1]))
     return [scalar(name) for name in found]
 
 

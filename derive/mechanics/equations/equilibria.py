@@ -343,6 +343,13 @@ def _level_where(force: Expr, q: Symbol) -> Relation | None:
     return Relation(left.left + Add(*away), left.mark, Add(*away))
 
 
+def _by_terms_if_shorter(value: Expr) -> Expr:
+    """l + m g/k, not (m g + k l)/k, where nothing but a product is divided by."""
+    if not value.as_numer_denom()[0].is_Add or value.as_numer_denom()[1].atoms(Add, sin, cos):
+        return value
+    return min((value, by_terms(value.expand())), key=lambda form: int(form.count_ops()))
+
+
 def _rest(
     potential: Quantity,
     conditions: Sequence[Quantity],
@@ -358,7 +365,7 @@ def _rest(
     Source: that of `equilibria`.
     """
     held = [q for q in sought if q in state.values]
-    values = [state.values[q] for q in held]
+    values = [_by_terms_if_shorter(state.values[q]) for q in held]
     single = len(held) == 1
     symbol: Any = names[held[0]][n] if single else ImmutableDenseMatrix([names[q][n] for q in held])
     told = steady_in(potential, sought)

@@ -372,7 +372,7 @@ def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: s
     """e^(-b t/2a) (C cos + D sin): the exponential that both have in common in front."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(lecture_form(C) * (e / common) for C, e in zip(values, basis, strict=True)))
-    inside = min((factor_terms(inside.expand()), inside), key=lambda form: int(form.count_ops()))
+    inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=lambda form: int(form.count_ops()))
     return Mul(common, inside, evaluate=False) if common != 1 and inside.is_Add else common * inside
 
 
@@ -386,5 +386,5 @@ def _joined(free: Expr, particular: Expr) -> Expr:
     marks = {f: Dummy(str(f)) for f in whole.atoms(sin, cos, exp, cosh, sinh) if f.has(TIME)}
     back = {mark: f for f, mark in marks.items()}
     factored = lecture_form(whole.xreplace(marks)).xreplace(back)
-    forms = (whole, factor_terms(whole.expand()), factored)
+    forms = (whole, factor_terms(whole.expand()), factor_terms(whole), factored)
     return min(forms, key=lambda form: int(form.count_ops()))

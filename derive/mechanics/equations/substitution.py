@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
 
-from derive.algebra.collect import by_accelerations
+from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
@@ -26,6 +26,7 @@ from derive.mechanics.systems.effective import Constant, SeenWith
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
@@ -274,7 +275,7 @@ def _arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(lecture_form))
     if not isinstance(value, Relation):
-        return lecture_form(value)
+        return _energy_by_terms(value) or lecture_form(value)
     fast = {rate(q, 2) for q in moving}
     if not is_zero(value.right) and all(side.free_symbols & fast for side in value.sides):
         return Relation(by_accelerations(value.residual, moving), value.mark, Integer(0))
@@ -286,6 +287,20 @@ def _arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
     core = Mul(*kept) if kept else left
     return Relation(lecture_form(core), value.mark, Integer(0))
+
+
+def _energy_by_terms(value: Expr) -> Expr | None:
+    """(1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a bracket: kinetic and potential energy stay apart."""
+    moving = list(coordinates_in(value))
+    squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
+    if not squares or value.as_numer_denom()[1].free_symbols:
+        return None
+    terms = Add.make_args(value.expand())
+    kinetic = [term for term in terms if any(term.has(square) for square in squares)]
+    if not kinetic or len(kinetic) == len(terms):
+        return None
+    found: Expr = by_rates(value, moving, 1, halves=True)
+    return found
 
 
 def _is_identity(result: Any) -> bool:
