@@ -33,7 +33,7 @@ from derive.page.wording import (
     Phrases,
     Ref,
     Text,
-    conversion,
+    conversions,
     filled,
     given_words,
     joined,
@@ -47,7 +47,6 @@ from derive.page.wording import (
 )
 from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
-from derive.steps.numeric import in_radians
 from derive.steps.step import NUMBERS, Form, Level, Step
 
 HOMOGENEITY = "look in the script for one quantity given in another's place"
@@ -355,11 +354,8 @@ class _Writer:
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """The numbers that a step puts in for the first time, in the units in which it does."""
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
-        given = [(m, self.problem.amounts[m.symbol]) for m in self.problem.measured]
-        put_in = [(m, amount) for m, written in given for amount in dict.fromkeys((written, in_radians(written)))]
-        items = [conversion(m, amount, self.problem.figures) for m, amount in put_in if amount in used - self.converted]
-        self.converted |= used
-        return joined(items, self._and)
+        new, self.converted = used - self.converted, self.converted | used
+        return joined(conversions(self.problem, new), self._and)
 
     def _lines(self, step: Step, mode: str) -> tuple[ChainLine, ...]:
         level = Level.FULL if mode == "full" else self.level

@@ -7,7 +7,7 @@ so prose cannot point at anything else: an unknown name is an error.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -31,6 +31,7 @@ from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, read_phrases
 from derive.page.template import environment
 from derive.steps.derivation import Derivation
+from derive.steps.numeric import in_radians
 from derive.steps.step import Step
 
 
@@ -306,6 +307,13 @@ def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
         if alone:
             del kept[-2:]
     return tuple(kept)
+
+
+def conversions(problem: Problem, put_in: Collection[Any]) -> list[tuple[Inline, ...]]:
+    """Those of the given numbers that are among what was put in; an angle in degrees may be put in as radians."""
+    given = [(m, problem.amounts[m.symbol]) for m in problem.measured]
+    written = [(m, amount) for m, own in given for amount in dict.fromkeys((own, in_radians(own)))]
+    return [conversion(m, amount, problem.figures) for m, amount in written if amount in put_in]
 
 
 def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline, ...]:

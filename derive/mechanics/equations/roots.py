@@ -367,8 +367,6 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
 
 def _common_root(b: Expr, discriminant: Expr) -> Expr:
     """The largest k of positive factors for which b/k and D/k^2 have no new denominators."""
-    if b == 0:
-        return Integer(1)
     try:
         content, factors = factor_list(gcd(b**2, discriminant))
     except PolynomialError:
