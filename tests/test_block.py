@@ -292,11 +292,20 @@ def test_two_equal_moments_make_every_axis_in_their_plane_principal(tmp_path: Pa
     assert answers(solution)["torque"] == Matrix([0, 0, 0])
 
 
-@pytest.mark.parametrize("letter", ["rho", "T", "theta"])
-def test_a_letter_that_a_step_uses_for_its_result_is_refused(tmp_path: Path, letter: str) -> None:
-    edits = {"[a, 2*a, 3*a]": f"[{letter}, 2*{letter}, 3*{letter}]", "{a: length,": f"{{{letter}: length,"}
+def with_sides_of(letter: str) -> dict[str, str]:
+    return {"[a, 2*a, 3*a]": f"[{letter}, 2*{letter}, 3*{letter}]", "{a: length,": f"{{{letter}: length,"}
+
+
+@pytest.mark.parametrize(("letter", "key"), [("rho", "density"), ("T", "kinetic_energy")])
+def test_a_result_has_another_letter_where_the_problem_has_its_own(tmp_path: Path, letter: str, key: str) -> None:
+    page = json.loads(solved(tmp_path, with_sides_of(letter)).texts["json"])
+    (symbol,) = (step["symbol"]["sympy"] for step in page["steps"] if step["key"] == key)
+    assert symbol != letter
+
+
+def test_a_letter_that_a_step_uses_for_its_result_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Rejected, match="letter-clash"):
-        solved(tmp_path, edits)
+        solved(tmp_path, with_sides_of("theta"))
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ HELP_IN_KEYS: Mapping[str, str | None] = {
         "keep it by a force: add `force: F` under `rolling`"
     ),
     "give the equation of motion as `motion=...`": "add `results: motion_theta`, its equation of motion",
-    "the equations of motion to first order tell, `linearised(motion, at=...)`": "ask for `linearised`",
+    "to first order the equations of motion tell, `linear_stability(linearised(motion))`": "ask for `linearised`",
     "give an equation of motion, a condition or a `let`": "name an equation of motion or a condition",
     'name what varies with `coordinate("theta")`': "give what varies under `coordinates`",
     'say `across="x"`, "y" or "z"': "say `across: x`, `y` or `z`",

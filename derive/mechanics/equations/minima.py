@@ -341,7 +341,7 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         if not is_zero(turned.xreplace(still).subs(dict(place.values), simultaneous=True)):
             message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
             message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
-            help_line = "the equations of motion to first order tell, `linear_stability(linearised(motion, at=...))`"
+            help_line = "to first order the equations of motion tell, `linear_stability(linearised(motion))`"
             raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
