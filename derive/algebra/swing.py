@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from sympy import Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, nan, sin, sqrt
+from sympy import Add, Dummy, Expr, Integer, Mul, Rational, Symbol, cos, diff, nan, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5
 
@@ -52,7 +52,7 @@ def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
     (leading, *rest) = inside
     if leading.has(ANGLE) or leading == 0:
         raise NoExpansion(f)
-    corrections = [tidied(c / leading) for c in rest]
+    corrections = [TR5(tidied(c / leading).expand(), max=2 * HIGHEST).expand() for c in rest]
     terms = [_mean(term) * amplitude**k for k, term in enumerate(_inverse_root(corrections, order))]
     return tidied(1 / sqrt(leading)) * Add(*terms)
 
@@ -102,6 +102,8 @@ def _mean(term: Expr) -> Expr:
     total = Integer(0)
     for part in Add.make_args(term.expand()):
         outside, inside = part.as_independent(ANGLE, as_Add=False)
-        n = inside.exp if isinstance(inside, Pow) else Integer(inside.has(ANGLE))
+        base, n = inside.as_base_exp() if inside.has(ANGLE) else (cos(ANGLE), Integer(0))
+        if base != cos(ANGLE) or not n.is_Integer:
+            raise NoExpansion(term)
         total += Mul(outside, sine_and_cosine_integral(0, int(n))) / 2
     return tidied(total)

@@ -28,8 +28,6 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.rotation.principal:principal_moments: number: 3 -> 4",
         "mechanics.rotation.principal:principal_moments: order: (1, 2, 3) -> [1, 3, 2]",
         "mechanics.rotation.principal:principal_moments: order: (1, 2, 3) -> [2, 1, 3]",
-        "mechanics.bodies.regions:coordinates: comparison: name in letters -> name not in letters",
-        "mechanics.bodies.regions:coordinates: condition: others[name] if name in letters else name -> others[name] if not name in letters else name",
         "mechanics.bodies.solids:volume: comparison: Symbol('V', positive=True) not in body.mass.free_symbols -> Symbol('V', positive=True) in body.mass.free_symbols",
         "mechanics.bodies.solids:volume: condition: 'V' if Symbol('V', positive=True) ... ody.mass.free_symbols else 'V_0' -> 'V' if not Symbol('V', positive=T ... ody.mass.free_symbols else 'V_0'",
     ),

@@ -1,0 +1,70 @@
+"""Whether a force changes its sign as often as places of rest were found: zeros counted in numbers for the letters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+from sympy import Expr, Rational, Symbol, diff, lambdify
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import explicit
+from derive.algebra.ranges import Range, range_of
+from derive.algebra.samples import points
+from derive.steps.step import Quantity
+
+STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters
+
+
+def is_countable(sought: Sequence[Symbol]) -> bool:
+    """Changes of sign are those of the force of one coordinate, which has no place at an end of its range."""
+    known = range_of(sought[0])
+    return len(sought) == 1 and (known is None or True not in known.closed)
+
+
+def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found: Expr) -> Verdict:
+    """Whether the force changes its sign as often as there are values, for some numbers in place of the letters."""
+    force = diff(explicit(potential.value), q)
+    letters = {s for s in force.free_symbols if s != q}
+    angle = potential.coordinates.get(q) == "angle"
+    drawn = points(letters, 4099)
+    for _, point in zip(range(TRIALS), drawn, strict=False):
+        there = [value.xreplace(point).evalf() for value in (*values, found)]
+        *numbers, own = [float(value) if value.is_real else None for value in there]
+        expected = sorted(number for number in numbers if number is not None)
+        curve = lambdify([q], force.xreplace(point), "math")
+        scale = max([abs(x) for x in expected if x] or [1.0])
+        known = range_of(q)
+        grid = _grid(angle, bool(q.is_positive), scale) if known is None else _grid_within(known)
+        signs = [s for s in (_sign(curve, x) for x in grid) if s]
+        changes = sum(1 for one, other in pairwise(signs) if one != other)
+        if changes != len(expected) or own is not None and own not in expected:
+            where = tuple((str(s), str(x)) for s, x in point.items())
+            return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
+        if any(not math.isfinite(x) for x in expected):
+            return Verdict(Grade.REFUTED, "a value is not finite")
+    return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
+
+
+def _grid(angle: bool, positive: bool, scale: float) -> list[float]:
+    """Once round, from no likely zero; else from one end to the other, finest where zeros are expected."""
+    if angle:
+        return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
+    ends = [
+        (i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)
+    ]
+    return [scale * math.tan(u) for u in ends]
+
+
+def _grid_within(known: Range) -> list[float]:
+    return [float(known.at(Rational(2 * i + 1, 2 * STEPS))) for i in range(STEPS)]
+
+
+def _sign(curve: Any, x: float) -> int:
+    try:
+        value = curve(x)
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return 0
+    return 0 if isinstance(value, complex) or value == 0 else 1 if value > 0 else -1
