@@ -27,6 +27,7 @@ from derive.mechanics import (
     minimum,
     period_by_energy,
     point,
+    potential,
     potential_energy_of,
     put_in,
     roots,
@@ -415,6 +416,14 @@ def test_a_harmonic_period_does_not_depend_on_the_amplitude() -> None:
     period = period_by_energy(rate)
     assert equal(period.value, 2 * pi * sqrt(m / k))
     assert period.step.outcome == "exact"
+
+
+def test_the_period_in_a_well_whose_depth_may_have_either_sign() -> None:
+    """Landau, Lifshitz, section 11, problem 2b: tau = pi c sqrt(2 m/A) cos(x_0/c) for U = A tan^2(x/c)."""
+    x, A = along(), symbols("A", real=True)
+    well = System(Particle(m, point(x, 0)), potential(A * tan(x.symbol / h) ** 2))
+    period = period_by_energy(speed_from_energy(energy_of(well), x, x0))
+    assert equal(period.value**2, 2 * pi**2 * h**2 * m / A * (1 - x0**2 / (2 * h**2)) ** 2)
 
 
 def test_a_stone_thrown_upwards_slows_down() -> None:

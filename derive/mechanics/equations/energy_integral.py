@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -235,7 +236,10 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
     from mpmath import mp
 
     letters = (letters_of(value) | letters_of(found)) - {q, amplitude}
-    point = next(islice(points(letters, seed_of(value)), 1))
+    drawn = islice(points(letters, seed_of(value)), 40)
+    point = next((p for p in drawn if _swings(found, {**p, amplitude: Rational(1, 40)})), None)
+    if point is None:
+        return Verdict(Grade.REFUTED, "the period is real for no numbers that were tried")
     with mp.workdps(FIGURES + 5 * order):  # what is left is compared with that power of a small amplitude
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
@@ -250,3 +254,8 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
     if rests[1] > rests[0] * 0.6 and rests[1] > NOISE:
         return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")
     return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, in numbers")
+
+
+def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
+    """Whether the period is real there, and the force drives back."""
+    return bool(found.subs(point).evalf().is_positive)
