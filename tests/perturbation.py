@@ -32,6 +32,16 @@ EXCEPTIONS = {
     ("principal.axis", "sign"): "an axis has a direction and no sign: e and -e are the same axis",
     ("principal.axis", "sign of an entry"): "the same, or any axis across that of a round body, which is as good",
     ("principal.axis", "order"): "where all moments are equal every axis is as good; elsewhere a route refuses",
+    ("equilibria.rest", "sign"): "the mirror image of a state of rest is another one, where the energy is even",
+    **dict.fromkeys(
+        [
+            (rule, "sign")
+            for rule in ("modes.frequency", "modes.period", "modes.beats", "linear_motion.steady_amplitude")
+        ],
+        "the routes see its square; that it is not negative is asked of it by its word",
+    ),
+    ("systems.potential_energy", "plus"): "work tells a potential energy but for a constant",
+    ("systems.potential_energy", "minus"): "work tells a potential energy but for a constant",
     ("principal.principal_moments", "order"): "which moment of a tensor that is not diagonal is the first is a name",
 }
 

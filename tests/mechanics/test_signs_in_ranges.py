@@ -379,3 +379,9 @@ def test_two_atoms_are_bound_if_the_energy_is_positive(tmp_path: Path) -> None:
     A, S = symbols("A S", positive=True)
     assert equal(found["frequency"].value ** 2, 2 * A / (m * S**2))
     assert found["stability"].step.outcome == "stable"
+
+
+@pytest.mark.parametrize(("bound", "right"), [(m, True), (-m, False)])
+def test_the_other_root_is_no_bound_of_a_positive_letter(bound: Expr, right: bool) -> None:
+    """M >= -m says nothing of a positive M, though M^2 = m^2 there too."""
+    assert bool(equal(*conditions._beside(Relation(M, ">=", bound), M**2 - m**2, ">="))) is right

@@ -133,3 +133,9 @@ def test_the_component_along_the_axis_is_that_along_z() -> None:
     assert told_rightly("bodies.centre_component", "on_axis", Judged(R, **FROM_CENTRE))
     assert told_rightly("bodies.centre_component", "generic", wrong)
     assert not told_rightly("bodies.centre_component", "on_axis", wrong)
+
+
+@pytest.mark.parametrize("rule", ["modes.period", "modes.beats", "linear_motion.steady_amplitude"])
+def test_what_is_a_size_is_not_negative(rule: str) -> None:
+    assert told_rightly(rule, "generic", Judged(a / R))
+    assert not told_rightly(rule, "generic", Judged(-a / R))

@@ -172,7 +172,7 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
         on_the_way = tidied(with_unknown(pushing, unknown, there + u * (explicit(start) - there)))
         at_place = tidied(with_unknown(pushing, unknown, there))
         expected = u * at_start
-        return on_the_way + 7 * at_place, expected
+        return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", expected)
 
     return establish(
         "conditions.leaves_contact",
@@ -369,6 +369,8 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     """The difference a little above the bound and at it, and what the solved relation says of its sign there."""
     alone, place = found.sides
     d = Dummy("d", positive=True)
+    if alone.is_positive and sign_known(place) == -1:  # of x^2 > a the other root, which a positive letter never has
+        return Integer(1), Integer(0)
     unknown = alone.base if alone.is_Pow else alone
     power = 2 if alone.is_Pow else 1
     above = tidied(with_unknown(difference, unknown, _nth(place + d, power)))

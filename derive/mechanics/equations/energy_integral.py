@@ -114,7 +114,8 @@ def _energy_kept(energy: Quantity, q: Coordinate, first: Expr, initial: Expr, ac
         """It holds at the start, and its rate vanishes along the motion; the right side is a constant."""
         there = found.residual.xreplace({letter: first, speed: initial})
         changing = explicit(TimeRate(found.residual, letter)).xreplace({q.acceleration: acceleration})
-        return ImmutableDenseMatrix([there, changing, found.left]), ImmutableDenseMatrix([ZERO, ZERO, value])
+        is_equation = int(found.mark == "=")
+        return ImmutableDenseMatrix([there, changing, found.left, is_equation]), ImmutableDenseMatrix([0, 0, value, 1])
 
     return establish(
         "energy_integral.energy_kept",

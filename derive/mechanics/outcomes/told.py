@@ -12,6 +12,7 @@ from typing import Any
 from sympy import Integer, Symbol, diff, integrate, pi
 
 from derive.algebra.expressions import Relation, explicit, rate
+from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, told_by
 from derive.steps.step import is_zero
 
@@ -83,6 +84,11 @@ def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
     )
 
 
+def _not_negative(facts: Judged, outcome: str) -> bool:
+    """A period, a frequency or an amplitude; where its sign depends on the letters its condition is told."""
+    return sign_known(facts.result) != -1
+
+
 def _axis_as_named(facts: Judged, outcome: str) -> bool:
     return outcome != "diagonal" or facts.words["axis"] == outcome
 
@@ -130,6 +136,9 @@ _TABLE: dict[str, Told] = {
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
     "lagrangian.lagrangian": _difference,
+    "modes.period": _not_negative,
+    "modes.beats": _not_negative,
+    "linear_motion.steady_amplitude": _not_negative,
 }
 
 for _rule, _told in _TABLE.items():

@@ -116,13 +116,18 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
     return tuple(found)
 
 
+def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
+    """What a route compares of an equation, and that it is one."""
+    return ImmutableDenseMatrix([*values, int(found.mark == "=")])
+
+
 def _equation_of_rate(of: Quantity, q: Coordinate) -> Quantity:
     space, p = of.needed(PhaseSpace), letter_of_momentum(q)
     solved = next(parent for parent in of.parents if parent.symbol == q.rate)
 
     def by_momenta(found: Relation) -> tuple[Any, Any]:
         sides = [found.left, bound(explicit(found.right), space.in_rates)]
-        return ImmutableDenseMatrix(sides), ImmutableDenseMatrix([q.rate, q.rate])
+        return _with_mark(found, sides), ImmutableDenseMatrix([q.rate, q.rate, 1])
 
     return establish(
         "canonical.hamilton_equation",
@@ -147,7 +152,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         changing = by_functions_of_time(in_rates[p], [each.symbol for each in space.coordinates])
         lost = changing - bound(explicit(found.right), in_rates)
         work = matter.inertia_along(q.symbol) - matter.force_along(q.symbol)
-        return ImmutableDenseMatrix([found.left, lost]), ImmutableDenseMatrix([rate(p), work])
+        return _with_mark(found, [found.left, lost]), ImmutableDenseMatrix([rate(p), work, 1])
 
     cyclic = not explicit(of.value).has(q.symbol)
     acted, kept = space.lagrangian.fact(ActedOn), space.lagrangian.fact(Kept)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from sympy import Expr, Integer, Rational, Symbol, cos, sin
+from sympy import Expr, Integer, Matrix, Rational, Symbol, cos, sin
 
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.taylor import slope
@@ -56,23 +56,22 @@ class MagneticForce:
     field: Vector
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        turned = _across(_rates_of(self.place, tuple(moving), 1), self.field)
-        return Load(tuple(self.charge * c for c in turned), self.place)
+        """By the vector product of SymPy, of which the potential makes no use: the one is checked by the other."""
+        v = _rates_of(self.place, tuple(moving), 1)
+        velocity, field = (Matrix([*v, 0][:3]), Matrix([0, 0, *self.field] if len(v) == 2 else self.field))
+        return Load(tuple(self.charge * c for c in list(velocity.cross(field))[: len(v)]), self.place)
 
     @property
     def vector_potential(self) -> Vector:
-        return tuple(-c / 2 for c in _across(self.place, self.field))
+        if len(self.place) == 2:
+            (b,), (x, y) = self.field, self.place
+            return -b * y / 2, b * x / 2
+        (bx, by, bz), (x, y, z) = self.field, self.place
+        return (by * z - bz * y) / 2, (bz * x - bx * z) / 2, (bx * y - by * x) / 2
 
     def momentum_along(self, q: Symbol) -> Expr:
         """q A . dr/dq"""
         return self.charge * _dot(self.vector_potential, _along(self.place, q))
-
-
-def _across(v: Vector, field: Vector) -> Vector:
-    """v x B"""
-    if len(v) == 2:
-        return v[1] * field[0], -v[0] * field[0]
-    return tuple(v[i - 2] * field[i - 1] - v[i - 1] * field[i - 2] for i in range(3))
 
 
 @dataclass(frozen=True)

@@ -135,7 +135,8 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
         work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # which vanishes
         by_time = by_functions_of_time(of.value, moving)
-        return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([by_time, by_time - Add(*work)])
+        both = [found.left, found.right, int(found.mark == "=")]
+        return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])
 
     return establish(
         "energy.energy_function_rate",
