@@ -244,6 +244,13 @@ def test_a_verb_can_be_found_in_the_notation(name: str) -> None:
     assert re.search(rf"`{name}\b", notation) or name in of_engine
 
 
+def test_the_notation_names_verbs_that_there_are() -> None:
+    table = [line.split("|") for line in (ROOT / "NOTATION.md").read_text(encoding="utf-8").splitlines()]
+    named = {name for row in table if len(row) == 7 for name in re.findall(r"`(\w+)`", row[4])}
+    assert len(named) > 80
+    assert sorted(name for name in named - {*verbs()} if not hasattr(derive.mechanics, name)) == []
+
+
 def test_a_verb_is_named_for_what_it_yields() -> None:
     assert [name for name in verbs() if re.match(r"(compute|get|make|calculate|find|do)_", name)] == []
 

@@ -12,9 +12,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
-from sympy import Expr, Integer, Matrix, Rational, Symbol, cos, sin
+from sympy import Expr, Integer, Matrix, Symbol
 
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.taylor import slope
@@ -183,28 +182,3 @@ def _dot(u: Vector, v: Vector) -> Expr:
 
 def _along(v: Vector, q: Symbol) -> Vector:
     return tuple(slope(x, q) for x in v)
-
-
-def plane_body(mass: Expr, place: Sequence[Any], inertia: Expr, angle: Expr, coordinates: Sequence[Symbol]) -> Matter:
-    """A body that moves in a plane: its mass at the centre of mass, and its moment of inertia about that on a pointer.
-
-    Two points of half the mass at the distances +-k along the pointer, with M k^2 = I, have the same moment of inertia.
-    """
-    at = tuple(explicit(x) for x in place)
-    return Matter((MassPoint(mass, at), *_pointer(inertia, angle)), (), tuple(coordinates))
-
-
-def _pointer(inertia: Expr, angle: Expr) -> tuple[MassPoint, ...]:
-    return (MassPoint(inertia, (cos(angle), sin(angle))),) if inertia != 0 else ()
-
-
-def symmetric_body(across: Expr, along: Expr, axes: Sequence[Sequence[Expr]], coordinates: Sequence[Symbol]) -> Matter:
-    """A body with an axis of symmetry, from its moments of inertia about a fixed point and its axes in space.
-
-    across, along   moments of inertia across the axis of symmetry and along it, kg m^2
-    axes            the body's unit vectors x, y, z in space, z along the axis
-    The second moments, sum of m x^2 = sum of m y^2 = along/2 and sum of m z^2 = across - along/2, give these moments.
-    """
-    weights = (along * Rational(1, 2), along * Rational(1, 2), across - along / 2)
-    points = tuple(MassPoint(w, tuple(e)) for w, e in zip(weights, axes, strict=True))
-    return Matter(points, (), tuple(coordinates))
