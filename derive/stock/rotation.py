@@ -10,7 +10,9 @@ from typing import Any
 from sympy import Expr
 
 from derive.algebra.expressions import column
+from derive.algebra.kinds import Asked
 from derive.course.expression import Declared
+from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
@@ -45,6 +47,7 @@ from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn_turning
 
 AXES = "xyz"
+KINDS = {"moments": "moment of inertia", "rate": "angular speed", "rates": "angular speed", "torque": "torque"}
 CENTRE_OF_MASS, FIXED_POINT = "centre_of_mass", "fixed_point"
 
 
@@ -100,13 +103,13 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
             rejected("missing-key", message, written.places["along"], "write `rate: omega`")
     with faults:
         found["body"] = Bodies(known).body(written.body) if written.body else None
-    for name, kind in (("moments", "moment of inertia"), ("rates", "angular speed"), ("torque", "torque")):
+    for name in ("moments", "rates", "torque"):
         with faults:
             read_one = known.value if name == "moments" else known.of_kind
             nodes = getattr(written, name)
-            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind) for node in nodes]))
+            found[name] = tuple(each([partial(read_one, node, f"each of {name}", KINDS[name], 3) for node in nodes]))
     with faults:
-        found["rate"] = known.of_kind(written.rate, "rate", "angular speed") if written.rate else None
+        found["rate"] = known.of_kind(written.rate, "rate", KINDS["rate"]) if written.rate else None
     with faults:
         found["along"] = Directions(known).axis(written.along, "along") if written.along else None
     with faults:
@@ -117,7 +120,11 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
                 RigidBody(moments=found["moments"])
     found["moments"] = found.get("moments") or None
     return DescribedRotation(
-        chosen=known.chosen, measured=tuple(known.numbers.measured), place=written.places[""], **found
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        told=tuple(Given(name, Asked(kind), found[name]) for name, kind in KINDS.items() if found.get(name)),
+        place=written.places[""],
+        **found,
     )
 
 
