@@ -52,6 +52,7 @@ DEFINITIONS = {
     "any_angular_velocity",
     "changing_angular_velocity",
     "constant_angular_velocity",
+    "momentary_angular_velocity",
     "principal_tensor",
     "let",
     "combination",

@@ -43,6 +43,7 @@ from derive.mechanics.equations.values import *
 from derive.mechanics.equations.wobble import *
 from derive.mechanics.rotation.added_moments import *
 from derive.mechanics.rotation.assembly import *
+from derive.mechanics.rotation.cones import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.steady import *

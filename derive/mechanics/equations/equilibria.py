@@ -17,7 +17,7 @@ from sympy.polys.polyerrors import PolynomialError
 from derive.algebra.amplitudes import Amplitudes
 from derive.algebra.collect import by_terms
 from derive.algebra.equality import Verdict
-from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import range_of
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -71,7 +71,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     matter = of.needed(Matter)
 
     def work(found: Expr) -> tuple[Expr, Expr]:
-        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        marks = [stand_in(f"delta_{q.name}") for q in moving]
         lost = (-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True))
         done = (_force_at_rest(matter, q, still) * mark for q, mark in zip(moving, marks, strict=True))
         return Add(*lost), Add(*done)
@@ -315,7 +315,7 @@ def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
 
 def expanded(value: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
     """The coefficient of u^n where each coordinate is at its place and u times its direction away."""
-    u = Symbol("u_small", real=True)
+    u = stand_in("u_small")
     moved = value.subs({q: at + u * direction[q] for q, at in place.items()}, simultaneous=True)
     return moved.series(u, 0, order + 1).removeO().expand().coeff(u, order)
 
@@ -373,7 +373,7 @@ def _rest(
         told["excluded"] = (excluded, Relation(excluded.right, "!=", excluded.left))
 
     def no_force(_: Any) -> tuple[Expr, Expr]:
-        marks = [Symbol(f"u_{i}", real=True) for i in range(len(sought))]
+        marks = [stand_in(f"u_{i}") for i in range(len(sought))]
         left = [slope_otherwise(potential, q).subs(dict(state.values), simultaneous=True) for q in sought]
         return Add(*(tidied(force) * mark for force, mark in zip(left, marks, strict=True))), ZERO
 
