@@ -41,7 +41,7 @@ def linear_stability(
     Turning may hold what the potential energy alone would let fall; drag, however small, takes this away again.
     Second route: on the border of the condition two roots of the determinant meet, or one vanishes, where the
     determinant is that of cosines and sines put into the equations.
-    Outcomes: stable, unstable, depends; where there are several conditions, further for each but the first.
+    Outcomes: stable, unstable, depends; where there are several conditions first, further, and last for the last one.
     Errors: there is drag; the determinant does not factor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """
@@ -130,7 +130,7 @@ def _condition(
 ) -> Quantity:
     """One condition.
 
-    Outcomes: depends, further.
+    Outcomes: depends, first, further, last.
     Source: that of `linear_stability`.
     """
     letter = characteristic.step.coordinates[-1][0]
@@ -156,11 +156,18 @@ def _condition(
             put_in=None, law=Level.FULL, result=False, after=[Form(condition, "solved")], arranged=lambda _: condition
         ),
         routes={"border": at_border},
-        outcome="depends" if i == 0 else "further",
+        outcome=_place_among(i, len(conditions)),
         telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together, conditions)),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )
+
+
+def _place_among(i: int, number: int) -> str:
+    """What is said of stability is said of all conditions together, behind the last."""
+    if i == number - 1:
+        return "last" if i else "depends"
+    return "further" if i else "first"
 
 
 def _without_squares(value: Expr, square: Symbol) -> Expr:

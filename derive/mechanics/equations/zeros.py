@@ -43,6 +43,7 @@ from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume
 
 HIGHEST = 6  # power of a coordinate
+LARGEST_PRODUCT = 60  # operations of a sum that may be a product
 ONE = Integer(1)
 
 
@@ -203,7 +204,16 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     above = [t for t in terms if not t.could_extract_minus_sign()]
     if len(below) == 1 and len(above) == 1 or not below:
         return Relation(spread(Add(*above)), ">", spread(Add(*below)))
-    return Relation(tidied(core), ">", 0)
+    return Relation(_in_factors(core), ">", 0)
+
+
+def _in_factors(core: Expr) -> Expr:
+    """The product that a sum is, (k - m w^2) (c - m w^2), if it is one."""
+    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
+        return tidied(core)
+    number, factors = factor_list(core)
+    sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]
+    return tidied(core) if len(sums) < 2 else number * Mul(*(tidied(factor) ** times for factor, times in factors))
 
 
 def different_from_zero(value: Expr) -> Relation | None:

@@ -41,9 +41,10 @@ from derive.mechanics import (
     stability,
     weight,
 )
+from derive.mechanics.equations.linearised import Rest
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
-from derive.steps.step import Quantity
+from derive.steps.step import Quantity, is_zero
 from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
@@ -228,8 +229,12 @@ class Answers:
         except Rejected as refused:
             if any(each.code != "not-decided" for each in refused.complaints):
                 raise
-        key = at.key.replace("rest", "stability") if isinstance(at, Quantity) else "stability"
-        return tuple(returned_quantities(linear_stability(self._linearised_at(at), key=key)))
+        if not isinstance(at, Quantity):
+            return tuple(returned_quantities(linear_stability(self._linearised_at(at))))
+        rest = at.needed(Rest)
+        is_plain = self.state is None and rest.exists is None and all(is_zero(value) for value in rest.values.values())
+        small = self.linearised if is_plain else self._linearised_at(at, at.key.replace("rest", "linearised"))
+        return tuple(returned_quantities(linear_stability(small, key=at.key.replace("rest", "stability"))))
 
     @property
     def state(self) -> dict[Any, Expr] | Quantity | None:
@@ -243,7 +248,7 @@ class Answers:
     def linearised(self) -> tuple[Quantity, ...]:
         return self._linearised_at(self.state)
 
-    def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None) -> tuple[Quantity, ...]:
+    def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None, key: str = "linearised") -> tuple[Quantity, ...]:
         motions = tuple(self.motions.values())
         if self.reduced is not self.lagrangian:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
@@ -251,7 +256,7 @@ class Answers:
             at = at or self.equilibria[0]
         elif at is None and self.system.given_forces and len(self.equilibria) == 1:
             at = self.equilibria[0]
-        found = linearised(motions, at=at)
+        found = linearised(motions, at=at, key=key)
         return found if isinstance(found, tuple) else (found,)
 
     @cached_property
