@@ -48,7 +48,7 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
 
 
 def _sign_by_means(total: Expr) -> int | None:
-    """1 where each negative term is a product of two square roots of positive ones, twice or less: a^2 - 2 a b + b^2 + c.
+    """1 where each negative term is at most twice a product of square roots of positive ones: a^2 - 2 a b + b^2 + c.
 
     Each positive term may serve once, and one that serves for none must be left.
     """
