@@ -160,7 +160,8 @@ def test_a_motion_starts_as_its_sentence_says() -> None:
     start = {"start": Relation(x, "=", R), "start_rate": Relation(rate(x), "=", a)}
     assert told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, of | start))
     assert not told_rightly("linear_motion.solution", "uniform", Judged(a + R * TIME, of | start))
-    assert not told_rightly(
+    other = of | start | {"q": Relation(x, "=", 0)}
+    assert not told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, other))
         "linear_motion.solution", "uniform", Judged(R + a * TIME, of | start | {"q": Relation(x, "=", 0)})
     )
 
