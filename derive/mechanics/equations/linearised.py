@@ -18,10 +18,8 @@ from derive.algebra.collect import spread
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations import oscillations
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with, is_zero
 
@@ -61,6 +59,8 @@ class Linear(Fact):
         """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta."""
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
         above = [together(entry).as_numer_denom()[0] for entry in (*entries, self.driven[i]) if entry != 0]
+        if len(above) == 1:
+            return Integer(1)  # I theta_ddot = 0 stays as it is
         found = common_factor(above)
         return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
 
@@ -80,12 +80,11 @@ def linearised(
     Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
     Outcomes: generic, displaced (some coordinate is not 0 at rest), and with a drag or what drives them damped,
     displaced_damped, driven, displaced_driven.
-    Errors: a force is left at that place; a value is missing; the coefficients change in time.
+    Errors: a force is left at that place; a value, or the equation of a coordinate, is missing; the coefficients change
+    in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
     """
     if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
-        if _is_of_energies_alone(motion):
-            return oscillations.linearised(motion, at, key)
         q = motion.needed(OfCoordinate).coordinate
         return _together((motion,), {q: ZERO if at is None else at}, [key])[0]
     equations = (motion,) if isinstance(motion, Quantity) else tuple(motion)
@@ -95,6 +94,7 @@ def linearised(
 def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
     """The linear equations of all coordinates."""
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
+    _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
@@ -140,6 +140,8 @@ def _one(
     whole = Relation(left, "=", tidied(linear.driven[i] / common))
     if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
         counted["as_it_is"] = (whole, equations[i].value)
+    if len(moving) == 1:
+        counted["alone"] = (moving[0].symbol, moving[0].symbol)
     return establish(
         "linearised.equation",
         None,
@@ -170,11 +172,6 @@ def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
     return found
 
 
-def _is_of_energies_alone(equation: Quantity) -> bool:
-    """Whether it comes from a Lagrangian that does not hold the time."""
-    return equation.fact(FromLagrangian) is not None and not explicit(equation.value).has(TIME)
-
-
 def _outcome(linear: Linear, own: int, displaced: bool) -> str:
     if linear.driven[own] != 0:
         return "displaced_driven" if displaced else "driven"
@@ -187,6 +184,18 @@ def _loss(linear: Linear) -> dict[str, Expr]:
     """Twice the rate at which small motions lose their energy: what of G is symmetric."""
     rates = [s.rate for s in linear.displacements]
     return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
+
+
+def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) -> None:
+    """No equation holds a coordinate of which the equation is missing."""
+    known = {q.symbol for q in moving}
+    for equation in equations:
+        value = explicit(equation.value).residual
+        others = [q for q in equation.coordinates if q not in known and value.has(q, rate(q), rate(q, 2))]
+        if others:
+            message = f"`linearised`: `{equation.key}` also has {others[0].name}, of which there is no equation"
+            help_line = "give all equations together, as `equations_of_motion` yields them"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:

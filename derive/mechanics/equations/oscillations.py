@@ -1,22 +1,20 @@
-"""Small oscillations about an equilibrium: the linear equation of motion and its frequency."""
+"""Small oscillations of one coordinate about an equilibrium: their frequency, by the linear equation of motion."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, exp, prime, sqrt
+from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, cos, diff, exp, prime, sqrt
 
 from derive.algebra.collect import spread
-from derive.algebra.equality import equal
-from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import Ratio, Root, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import OfCoordinate, T
-from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Quantity, compared_with
+from derive.steps.step import Fact, Quantity
 
 __all__ = ["frequency", "frequency_squared"]
 
@@ -27,56 +25,6 @@ class SquareOf(Fact):
 
     missing = "is not the square of a frequency"
     letter: str
-
-
-def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearised") -> Quantity:
-    """Equation of motion to first order in the displacement q from equilibrium, m q_ddot + k q = 0.
-
-    equation   of one coordinate, as `equation_of_motion` yields it
-    at         the value of the coordinate in equilibrium, 0 unless given; q is then measured from there
-    Second route: mass and stiffness as second derivatives of the Lagrangian, by the rate and by the coordinate.
-    Outcomes: generic, displaced (the equilibrium is not at 0).
-    Errors: the value is no equilibrium; another coordinate occurs in the equation.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
-    """
-    q, place = equation.needed(OfCoordinate).coordinate.symbol, at if at is not None else Integer(0)
-    others = [c for c in equation.coordinates if c != q and equation.value.left.has(c, rate(c), rate(c, 2))]
-    if others:
-        message = f"`linearised` needs an equation of {q.name} alone, but `{equation.key}` also has {others[0].name}"
-        raise Rejected(Complaint("wrong-argument", message))
-    small = stand_in("epsilon")
-    moved = equation.value.left.xreplace(
-        {q: place + small * q, rate(q): small * rate(q), rate(q, 2): small * rate(q, 2)}
-    )
-    if not equal(moved.subs(small, 0), 0):
-        message = f"`{equation.key}` is not in equilibrium at {q.name} = {place}"
-        raise Rejected(Complaint("no-equilibrium", message))
-    first = diff(moved, small).subs(small, 0)
-
-    def of_second_order() -> Relation:
-        energies = explicit(equation.needed(FromLagrangian).lagrangian.value)
-        at_rest = {q: place, rate(q): Integer(0)}
-        mass, stiffness = energies.diff(rate(q), 2).subs(at_rest), -energies.diff(q, 2).subs(at_rest)
-        return Relation(mass * rate(q, 2) + stiffness * q, "=", 0)
-
-    return establish(
-        "oscillations.linearised",
-        None,
-        lambda _: Relation(_mass_and_stiffness(first, q), "=", 0),
-        {"q": q},
-        lines=Lines(put_in=None, arranged=explicit),
-        routes={"second_order": compared_with(of_second_order)},
-        outcome="generic" if place == 0 else "displaced",
-        telling=Telling(judged_by={"place": place}),
-        key=key,
-        parents=[equation],
-        facts=[equation.needed(OfCoordinate)],
-    )
-
-
-def _mass_and_stiffness(left: Expr, q: Symbol) -> Expr:
-    terms = [spread(diff(left, rate(q, 2))) * rate(q, 2), spread(diff(left, q)) * q]
-    return Add(*(term for term in terms if term != 0), evaluate=False)
 
 
 def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "frequency_squared") -> Quantity:

@@ -86,10 +86,6 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},
     "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
-    "oscillations.linearised": {
-        "generic": lambda facts: is_zero(facts.inputs["place"]),
-        "displaced": lambda facts: not is_zero(facts.inputs["place"]),
-    },
     "oscillations.frequency_squared": _SIGNS,
     "oscillations.frequency": {
         "stable": _of_square(1),
