@@ -6,25 +6,30 @@ from dataclasses import dataclass
 
 from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, cos, diff, exp, prime, sqrt
 
-from derive.algebra.collect import spread
-from derive.algebra.expressions import Ratio, Root, explicit, rate, scalar, stand_in
+from derive.algebra.collect import spread, spread_or_by_terms
+from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.characteristic import root_of
+from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.zeros import sign_where
 from derive.mechanics.systems.coordinates import OfCoordinate, T
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Quantity
+from derive.steps.step import Fact, Form, Quantity
 
 __all__ = ["frequency", "frequency_squared"]
 
 
 @dataclass(frozen=True)
 class SquareOf(Fact):
-    """The letter of what this is the square of."""
+    """The letter of what this is the square of, and where the state exists about which it is."""
 
     missing = "is not the square of a frequency"
     letter: str
+    exists: Relation | None = None
 
 
 def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "frequency_squared") -> Quantity:
@@ -44,6 +49,9 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         raise Rejected(Complaint("wrong-argument", message))
     for role, coefficient in (("stiffness", stiffness), ("inertia", mass)):
         require_constant("frequency_squared", role, coefficient)
+    whole = linear.fact(Linear)
+    exists = whole.exists if whole is not None else None
+    entries = (whole.stiffness[0], whole.mass[0]) if whole is not None else (stiffness, mass)
     trial = stand_in("w", positive=True)
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
@@ -54,29 +62,42 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     return establish(
         "oscillations.frequency_squared",
         Pow(scalar(symbol), 2),
-        lambda _: Ratio(stiffness, mass),
+        lambda _: Ratio(stiffness, mass) if mass != 1 else stiffness,
         {"q": q},
         lines=Lines(
             put_in=None,
-            arranged=explicit if stiffness.has(Add) else tidied,
+            arranged=_squared_form if not mass.has(Add) or not stiffness.has(Add) else explicit,
             means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
         ),
         routes={"put_back": put_back},
-        outcome=sign_of,
+        outcome=lambda value: _sort_of(value, entries, exists),
         key=key,
         kind="squared angular speed",
         parents=[linear],
-        telling=Telling(points_to={"linear": linear}),
-        facts=[SquareOf(symbol)],
+        telling=Telling(
+            formulas={} if mass == 1 else {"inertia": (mass, mass)},
+            points_to={"linear": linear},
+            judged_by={"exists": exists} if exists is not None else {},
+        ),
+        facts=[SquareOf(symbol, exists)],
     )
 
 
-def sign_of(value: Expr) -> str:
-    """What is known of the sign of omega_0^2, or of the curvature of a potential."""
+def _squared_form(value: Expr) -> Expr:
+    """g/l - omega^2, not (g - l omega^2)/l, where that is shorter."""
+    forms = [tidied(value), spread_or_by_terms(tidied(value))]
+    return min(forms, key=lambda form: int(form.count_ops()))
+
+
+def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
+    """What is known of the sign of omega_0^2 = k/m, where there is that state of rest."""
     value = tidied(value)
     if value == 0:
         return "neutral"
-    return {1: "stable", -1: "unstable", None: "conditional"}[strict_sign_within(value)]
+    sign = strict_sign_within(value) or sign_where(value, exists)
+    if sign is None:
+        sign = 1 if all(sign_by_factors(tidied(each)) == 1 for each in entries) else None
+    return {1: "stable", -1: "unstable"}.get(sign or 0, "conditional")
 
 
 def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequency") -> Quantity:
@@ -87,9 +108,12 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
-    outcome = sign_of(squared.value)
+    known = squared.needed(SquareOf)
+    outcome = squared.step.outcome
     grows = outcome == "unstable"
-    name = symbol or ("kappa" if grows else squared.needed(SquareOf).letter)
+    name = symbol or ("kappa" if grows else known.letter)
+    size = -squared.value if grows else squared.value
+    shown = Root(size) if size.has(Add) else root_of(size)
     trial = stand_in("w", positive=True)
 
     def satisfies(found: Expr) -> tuple[Expr, Expr]:
@@ -110,9 +134,10 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
-        lines=Lines(put_in=None, arranged=explicit),
+        lines=Lines(put_in=None, after=[Form(shown, "result")], result=False, arranged=explicit),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,
+        telling=Telling(judged_by={"exists": known.exists} if known.exists is not None else {}),
         key=key,
         kind="angular speed",
     )

@@ -299,7 +299,7 @@ def frequency_squared_about(
             },
             points_to={"where": at},
         ),
-        facts=[SquareOf(symbol)],
+        facts=[SquareOf(symbol, exists)],
     )
 
 

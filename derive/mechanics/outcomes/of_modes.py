@@ -118,16 +118,6 @@ def _repeated(facts: Judged) -> bool:
     return _is_root(facts.inputs["squared"], facts, 2)
 
 
-def _degree(wanted: int | None) -> Predicate:
-    """One coordinate has one squared frequency, several have as many."""
-
-    def is_so(facts: Judged) -> bool:
-        degree = Poly(facts.result.left, facts.inputs["omega"]).degree()
-        return bool(degree == 2 if wanted == 1 else degree > 2)
-
-    return is_so
-
-
 def _displaced(facts: Judged) -> bool:
     return any(not is_zero(value) for value in facts.inputs["place"])
 
@@ -151,7 +141,6 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "driven": _linear(displaced=False, lossy=None, driven=True),
         "displaced_driven": _linear(displaced=True, lossy=None, driven=True),
     },
-    "modes.characteristic": {"one": _degree(1), "several": _degree(None)},
     "modes.frequency": {
         f"{word}{suffix}": _frequency(sign, repeated)
         for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))

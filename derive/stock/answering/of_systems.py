@@ -266,7 +266,7 @@ class Answers:
     def period(self) -> Quantity:
         if len(self.normal_modes) != 1:
             raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
-        if self.normal_modes[0].step.outcome == "free":
+        if self.normal_modes[0].value == 0:
             message = "nothing drives the system back to this state, so that it does not oscillate about it"
             raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
         return period(self.normal_modes[0])
