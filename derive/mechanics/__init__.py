@@ -49,6 +49,7 @@ from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.steady import *
 from derive.mechanics.rotation.tensors import *
 from derive.mechanics.rotation.vectors import *
+from derive.mechanics.systems.blow import *
 from derive.mechanics.systems.brackets import *
 from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraint import *
@@ -58,6 +59,7 @@ from derive.mechanics.systems.energies import *
 from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
+from derive.mechanics.systems.impulses import *
 from derive.mechanics.systems.in_letters import *
 from derive.mechanics.systems.kept_momentum import *
 from derive.mechanics.systems.lagrangian import *

@@ -48,6 +48,8 @@ OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "H": ("calH",),
     "R": ("calR",),
     "h": ("J", "calE"),
+    "v": ("u", "w"),
+    "u": ("w",),
     "tau": ("tau_0",),
     "omega": ("Omega",),
     "lambda": ("mu", "lambda_0"),

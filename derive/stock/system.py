@@ -22,6 +22,7 @@ from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
+from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
 from derive.stock.keys.parts import (
     CENTRAL,
     CHARGES,
@@ -84,6 +85,7 @@ class SystemKeys(Record):
     damping: Sequence[DampingKeys] = key("drag against a velocity, in proportion to it", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
+    blow: BlowKeys | None = key("what happens in a moment: impulses and collisions", BLOW)
     conserved: Mapping[Word, Tree] = key(
         "letters for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or what they are, "
         "`psi: C*s`",
@@ -109,6 +111,7 @@ class DescribedSystem(Described):
     at: tuple[tuple[str, Expr], ...] = ()
     at_rest: Word | None = None
     results: tuple[Result, ...] = ()
+    blow: DescribedBlow | None = None
     brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
     named: tuple[Location, ...] = ()
@@ -155,7 +158,12 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kept: list[tuple[str, Expr]] = []
     with faults:
         kept = _kept(written.conserved, letters, known)
-    own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, known, faults)}
+    forces = _multipliers(parts)
+    own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
+    blow: DescribedBlow | None = None
+    with faults:
+        blow = written.blow.read(letters, forces, places, known) if written.blow else None
+    own |= blow.letters if blow else {}
     with faults:
         own |= _steady_rates(written, letters, known)
     with_own = InLetters({**_momenta(written.coordinates, letters), **symbols, **own})
@@ -178,6 +186,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
+        blow=blow,
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),

@@ -9,6 +9,7 @@ from derive.mechanics.outcomes import of_bodies as of_bodies
 from derive.mechanics.outcomes import of_conditions as of_conditions
 from derive.mechanics.outcomes import of_equilibria as of_equilibria
 from derive.mechanics.outcomes import of_gyroscopic as of_gyroscopic
+from derive.mechanics.outcomes import of_impulses as of_impulses
 from derive.mechanics.outcomes import of_lagrangians as of_lagrangians
 from derive.mechanics.outcomes import of_modes as of_modes
 from derive.mechanics.outcomes import of_motion as of_motion

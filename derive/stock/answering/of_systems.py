@@ -44,6 +44,8 @@ from derive.mechanics import (
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity
+from derive.stock.answering.of_blows import BlowAnswers
+from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
@@ -71,6 +73,8 @@ class OfSystem(Protocol):
     @property
     def results(self) -> tuple[Result, ...]: ...
     @property
+    def blow(self) -> DescribedBlow | None: ...
+    @property
     def brought(self) -> Mapping[str, Place]: ...
     @property
     def place(self) -> Place | None: ...
@@ -92,6 +96,7 @@ class Answers:
         self._on_the_way: list[str] = []
         self._known: dict[str, Any] = {}
         self._moving: dict[str, Quantity] = {}
+        self._blow: BlowAnswers | None = None
 
     @cached_property
     def system(self) -> System:
@@ -313,9 +318,16 @@ class Answers:
             found[f"acceleration_{name}"] = partial(self._one_of, "accelerations", f"acceleration_{name}")
         for constraint in self.system.constraints:
             found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
+        if self.described.blow is not None:
+            found |= self.blow_of(self.described.blow).asks()
         for result in self.described.results:
             found[result.name] = partial(result.made, self.named, self.coordinates)
         return found
+
+    def blow_of(self, described: DescribedBlow) -> BlowAnswers:
+        if self._blow is None:
+            self._blow = BlowAnswers(described, self.coordinates, lambda: self.system, lambda: self.kinetic_energy)
+        return self._blow
 
     def check_letters(self) -> None:
         """What a letter of the description is found to be, and what else a step calls so, are of one kind."""
