@@ -14,6 +14,7 @@ from typing import Any
 from sympy import Expr, MatrixSymbol, Symbol
 
 from derive.algebra.expressions import TIME, Relation, component_names, explicit, rate
+from derive.algebra.ranges import own_meaning
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Quantity, same_value, value_behind
 
@@ -64,7 +65,8 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
     run = run or Run()
     token = current_run.set(run)
     try:
-        yield run
+        with own_meaning():
+            yield run
     finally:
         current_run.reset(token)
 

@@ -26,6 +26,7 @@ from derive.mechanics import (
     energy_function_rate,
     equation_of_motion,
     equilibria,
+    given_lagrangian,
     hamilton_equations,
     hamiltonian,
     kinetic_energy_of,
@@ -75,6 +76,8 @@ class OfSystem(Protocol):
     def brought(self) -> Mapping[str, Place]: ...
     @property
     def place(self) -> Place | None: ...
+    @property
+    def given(self) -> tuple[Expr, str | None] | None: ...
 
 
 def constant(name: str, positive: bool = False) -> Symbol:
@@ -97,6 +100,9 @@ class Answers:
     @cached_property
     def system(self) -> System:
         described = self.described
+        if described.given is not None:
+            message = "this needs bodies and forces, but the Lagrangian is given in place of them"
+            raise Rejected(Complaint("given-lagrangian", message))
         parts = [part.made() for part in described.parts if part.maker not in ("body", "rolling")]
         if described.gravity is not None:
             parts.append(weight(described.gravity))
@@ -134,7 +140,11 @@ class Answers:
 
     @cached_property
     def lagrangian(self) -> Quantity:
-        return lagrangian(self.system)
+        if self.described.given is None:
+            return lagrangian(self.system)
+        function, kind = self.described.given
+        with told_at(self.described.place):
+            return given_lagrangian(function, *(part.made() for part in self.described.parts), kind=kind)
 
     @cached_property
     def cyclic(self) -> dict[str, Quantity]:
@@ -203,6 +213,8 @@ class Answers:
     @cached_property
     def potential_at_rest(self) -> Quantity:
         """The effective potential where something turns or a momentum is constant, else the potential energy."""
+        if self.described.given is not None:
+            return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
         for momentum in self.cyclic.values():
@@ -254,10 +266,14 @@ class Answers:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
             at = at or self.equilibria[0]
-        elif at is None and self.system.given_forces and len(self.equilibria) == 1:
+        elif at is None and self._is_pushed and len(self.equilibria) == 1:
             at = self.equilibria[0]
         found = linearised(motions, at=at, key=key)
         return found if isinstance(found, tuple) else (found,)
+
+    @property
+    def _is_pushed(self) -> bool:
+        return self.described.given is not None or bool(self.system.given_forces)
 
     @cached_property
     def normal_modes(self) -> tuple[Quantity, ...]:
@@ -316,7 +332,7 @@ class Answers:
             if name in dict(self.described.kept):
                 found[f"constant_{name}"] = partial(self._one_kept, name)
             found[f"acceleration_{name}"] = partial(self._one_of, "accelerations", f"acceleration_{name}")
-        for constraint in self.system.constraints:
+        for constraint in self.system.constraints if self.described.given is None else ():
             found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
         for result in self.described.results:
             found[result.name] = partial(result.made, self.named, self.coordinates)
