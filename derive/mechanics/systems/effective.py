@@ -27,7 +27,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.kept_momentum import value_kept
-from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
 from derive.mechanics.systems.phase_space import (
     beside_potential,
     kind_of_momentum,

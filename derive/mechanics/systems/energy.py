@@ -19,7 +19,7 @@ from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.forced import ActedOn, applied_force
 from derive.mechanics.systems.given_lagrangian import Varied, energy_of, rate_of_energy
-from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of, energies_of
+from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
 from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, part_of_degree
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter
