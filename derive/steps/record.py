@@ -91,6 +91,12 @@ def free_letter(name: str, *indices: str) -> str:
     return name
 
 
+def given_letters() -> set[str]:
+    """The letters that the problem has for what is given, for coordinates and for forces."""
+    run = current_run.get()
+    return set(run.letters) if run is not None else set()
+
+
 def assume(condition: Relation) -> None:
     """A condition that the letters leave open: the page says that it is taken to hold."""
     run = current_run.get()

@@ -33,7 +33,7 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
 from derive.mechanics.systems.forced import ActedOn
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.record import changes
+from derive.steps.record import changes, given_letters
 from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
 
 __all__ = ["equilibria", "potential_at_rest"]
@@ -328,12 +328,14 @@ def expanded(value: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbo
 
 
 def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
-    """theta_0, or theta_1, theta_2, ... where there are several; dashed where these letters are given."""
-    taken = {s.name for s in explicit(potential.value).free_symbols}
+    """theta_0, or theta_1, theta_2, ... where there are several; theta_eq where these letters are given."""
+    taken = {s.name for s in explicit(potential.value).free_symbols} | given_letters()
 
     def letters(q: Symbol) -> list[Symbol]:
-        base = q.name if count < 2 or f"{q.name}_1" not in taken else f"{q.name}_eq"
-        return [scalar(f"{base}_{n}") for n in (range(1, count + 1) if count > 1 else [0])]
+        numbers = range(1, count + 1) if count > 1 else [0]
+        if not taken & {f"{q.name}_{n}" for n in numbers}:
+            return [scalar(f"{q.name}_{n}") for n in numbers]
+        return [scalar(f"{q.name}_eq_{n}" if count > 1 else f"{q.name}_eq") for n in numbers]
 
     return {q: letters(q) for q in sought}
 

@@ -194,16 +194,17 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
     What is added stands on one side, what is subtracted on the other: R omega^2 > g.
     """
-    core = Mul(*(f for f in Mul.make_args(tidied(value)) if strict_sign_within(f) != 1)).as_numer_denom()[0]
-    core = expand(core)
+    above, below = tidied(value).as_numer_denom()
+    open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
+    core = expand(Mul(*open_))  # a quotient has the sign of the product
     chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
     if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
         return solved
     terms = Add.make_args(core)
-    below = [-t for t in terms if t.could_extract_minus_sign()]
-    above = [t for t in terms if not t.could_extract_minus_sign()]
-    if len(below) == 1 and len(above) == 1 or not below:
-        return Relation(spread(Add(*above)), ">", spread(Add(*below)))
+    less = [-t for t in terms if t.could_extract_minus_sign()]
+    more = [t for t in terms if not t.could_extract_minus_sign()]
+    if len(less) == 1 and len(more) == 1 or not less:
+        return Relation(spread(Add(*more)), ">", spread(Add(*less)))
     return Relation(_in_factors(core), ">", 0)
 
 
@@ -220,7 +221,7 @@ def different_from_zero(value: Expr) -> Relation | None:
     """What must be so that a value by which one divides does not vanish, omega^2 != k/m; nothing where it cannot."""
     if sign_known(value) is not None:
         return None
-    condition = positive(value)
+    condition = positive(tidied(value).as_numer_denom()[0])
     return Relation(condition.left, "!=", condition.right)
 
 
