@@ -59,6 +59,7 @@ from derive.mechanics.systems.energies import *
 from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
+from derive.mechanics.systems.given_lagrangian import *
 from derive.mechanics.systems.impulses import *
 from derive.mechanics.systems.in_letters import *
 from derive.mechanics.systems.kept_momentum import *

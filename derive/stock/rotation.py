@@ -10,7 +10,9 @@ from typing import Any
 from sympy import Expr
 
 from derive.algebra.expressions import column, component_names
+from derive.algebra.kinds import Asked
 from derive.course.expression import Declared
+from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
@@ -129,7 +131,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         with faults:
             read_one = known.value if name == "moments" else known.of_kind
             nodes = getattr(written, name)
-            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind) for node in nodes]))
+            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind, 3) for node in nodes]))
     with faults:
         found["rate"] = known.of_kind(written.rate, "rate", "angular speed") if written.rate else None
     with faults:
@@ -149,7 +151,15 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         r for name, keys in written.results.items() if (r := keys.read(name, with_components, faults))
     )
     return DescribedRotation(
-        chosen=known.chosen, measured=tuple(known.numbers.measured), place=written.places[""], **found
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        told=tuple(
+            Given(name, Asked(kind), found[name])
+            for name, kind in {"rate": "angular speed", **KINDS_OF_COMPONENTS}.items()
+            if found.get(name)
+        ),
+        place=written.places[""],
+        **found,
     )
 
 

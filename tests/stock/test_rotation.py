@@ -38,6 +38,21 @@ def test_moments_and_components_that_are_given(tmp_path: Path) -> None:
     assert equal(found["torque"].value, ImmutableDenseMatrix([0, 0, (B - A) * omega**2]))
 
 
+def test_prose_may_say_what_is_given_by_its_key(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [A, A, C]"), ("rate: omega", "rate: 2*omega"), ("along: diagonal", "along: x")
+    statement = ("statement: A block.", "statement: A body with the moments <<moments>> turns at <<rate>>.")
+    course = course_with(tmp_path, edited(BLOCK, *edits, statement, asked("kinetic_energy")))
+    page = rendered(course, "trial/one").texts["text"]
+    assert "A body with the moments A, A and C turns at 2ω." in page
+
+
+def test_moments_given_as_numbers_have_the_letters_of_three_moments(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"), ("along: diagonal", "along: x")
+    letters = "A: moment of inertia, B: moment of inertia, C: moment of inertia, ", ""
+    found = solved(tmp_path, edited(BLOCK, *edits, letters, asked("inertia_tensor")))
+    assert found["inertia_tensor"].value == ImmutableDenseMatrix.diag(A, B, C)
+
+
 def test_moments_and_an_axis(tmp_path: Path) -> None:
     edits = (BLOCK_IS, "moments: [A, B, C]"), ("along: diagonal", "along: [1, 0, 1]")
     found = solved(tmp_path, edited(BLOCK, *edits, asked("kinetic_energy")))

@@ -33,7 +33,7 @@ from sympy import (
 )
 from sympy.simplify.fu import TR8
 
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
@@ -41,6 +41,7 @@ from derive.mechanics.equations.zeros import different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
+from derive.steps.record import changes, require_constant
 from derive.steps.step import Level, Quantity, is_zero, value_behind
 
 __all__ = ["solution"]
@@ -98,6 +99,9 @@ def solution(
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
+    for role, value in (("start", start), ("start_rate", start_rate)):
+        if value is not None:
+            require_constant("solution", role, value)
     first = explicit(value_behind(start))
     initial = None if linear.order == 1 else explicit(value_behind(ZERO if start_rate is None else start_rate))
     if linear.order == 1 and start_rate is not None:
@@ -155,16 +159,25 @@ def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
     state = (q.acceleration, q.rate, q.symbol)
     a, b, c = (tidied(diff(left, s)) for s in state)
     rest = left.xreplace(dict.fromkeys(state, ZERO))
-    others = [s for s in coordinates_of(equation) if s != q.symbol and left.has(s)]
+    _check_alone(equation, left, q)
     if a == 0 and c == 0 and b.has(TIME) and not rest.has(*state) and is_zero(left - b * state[1] - rest):
         return Linear(ZERO, ONE, ZERO, tidied(-rest / b))
     constant = not any(k.has(*state, TIME) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
-    if others or not constant or not whole or (a == 0 and b == 0):
+    if not constant or not whole or (a == 0 and b == 0):
         message = f"`{equation.key}` is no linear equation of {q.symbol.name} alone with constant coefficients"
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
     return Linear(sign * a, sign * b, sign * c, -sign * rest)
+
+
+def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
+    """Another coordinate is no constant, nor is its rate or its acceleration: they move as q does."""
+    other = changes(left.xreplace({TIME: ONE}), [s for s in coordinates_of(equation) if s != q.symbol])
+    if other is not None:
+        message = f"`{equation.key}` is no equation of {q.symbol.name} alone: it has {other.name}, which moves too"
+        help_line = f"put in what {other.name} is, from another equation"
+        raise Rejected(Complaint("not-linear", message, help=help_line))
 
 
 def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Relation | None]:
@@ -285,7 +298,7 @@ def _of_power(linear: Linear, power: Expr) -> Expr:
     """Undetermined coefficients: a polynomial, times t or t^2 where the free motion has constants or powers itself."""
     degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
-    unknown = [scalar(f"u_{n}") for n in range(degree + 1)]
+    unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
     trial = Add(*(u * TIME ** (n + lowest) for n, u in enumerate(unknown)))
     free = Linear(linear.a, linear.b, linear.c, power)
     rows = expand(free.residual(trial)).as_poly(TIME).all_coeffs()

@@ -15,7 +15,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread_or_by_terms
-from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
+from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import (
@@ -248,7 +248,7 @@ def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
 def _small_force(place: Place, q: Symbol) -> Expr:
     """What a unit of displacement adds to the force that drives back."""
     if matter_behind(place.potential) is not None:
-        u = Symbol("u_small", real=True)
+        u = stand_in("u_small")
         moved = {s: at + (u if s == q else 0) for s, at in place.values.items()}
         force = slope_otherwise(place.potential, q)
         added = diff(force.subs(moved, simultaneous=True), u).subs(u, 0)
@@ -280,7 +280,7 @@ def _of_several(place: Place, key: str) -> Quantity:
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
-        marks = {q: Symbol(f"u_{q.name}", real=True) for q in moving}
+        marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = expanded(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[diff(energy, marks[p], marks[q]) for q in moving] for p in moving])
         return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
