@@ -37,6 +37,7 @@ from derive.mechanics.equations.stability import *
 from derive.mechanics.equations.stable_where import *
 from derive.mechanics.equations.steady import *
 from derive.mechanics.equations.substitution import *
+from derive.mechanics.equations.superposition import *
 from derive.mechanics.equations.turning_stability import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
