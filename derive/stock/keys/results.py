@@ -19,6 +19,7 @@ from derive.mechanics import (
     Coordinate,
     beats,
     conjugate,
+    equation_in_limit,
     frequency,
     frequency_squared_about,
     leaves_contact,
@@ -278,6 +279,8 @@ def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     given = result.named({"to": result.to, "order": result.order})
+    if isinstance(result.only(of).value, Relation):
+        return equation_in_limit(result.only(of), result.letter, key=result.name, **given)
     return limiting_case(result.only(of), result.letter, key=result.name, **given, **result.symbol)
 
 
