@@ -1,7 +1,8 @@
 """Taylor series of a formula along a motion: each letter goes by its own series, and these are added and multiplied.
 
 No derivative is taken anywhere: if x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
-x_j y_(k-j), and those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s.
+x_j y_(k-j), and those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s; those of a power
+y = x^a from x y' = a x' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
 """
@@ -11,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import reduce
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, sin
 
 __all__ = ["NoSeries", "slope", "taylor"]
 
@@ -67,6 +68,12 @@ class _Arithmetic:
             if not any(x[1:]):
                 return self._constant(expr)
             return reduce(self._product, [x if expr.exp > 0 else self._one_over(x)] * abs(int(expr.exp)))
+        if isinstance(expr, Pow) and not expr.exp.free_symbols & self._letters.keys():
+            x = self.of(expr.base)
+            return self._power(x, expr) if any(x[1:]) else self._constant(expr)
+        if isinstance(expr, exp):
+            u = self.of(expr.args[0])
+            return self._growing(u) if any(u[1:]) else self._constant(expr)
         if isinstance(expr, sin | cos):
             return self._turning(self.of(expr.args[0]))[isinstance(expr, cos)]
         if not expr.free_symbols & self._letters.keys():
@@ -99,6 +106,21 @@ class _Arithmetic:
         found = [1 / x[0]]
         for k in self._orders[1:]:
             found.append(-Add(*(x[j] * found[k - j] for j in range(1, k + 1))) / x[0])
+        return tuple(found)
+
+    def _power(self, x: Series, of: Pow) -> Series:
+        """Of y = x^a, by x y' = a x' y."""
+        found: list[Expr] = [of.func(x[0], of.exp)]
+        for k in self._orders[1:]:
+            steps = [(of.exp * j - (k - j)) * x[j] * found[k - j] for j in range(1, k + 1) if x[j]]
+            found.append(Add(*steps) / (k * x[0]))
+        return tuple(found)
+
+    def _growing(self, u: Series) -> Series:
+        """The exponential y, by y' = u' y."""
+        found: list[Expr] = [exp(u[0])]
+        for k in self._orders[1:]:
+            found.append(Add(*(Rational(j, k) * u[j] * found[k - j] for j in range(1, k + 1) if u[j])))
         return tuple(found)
 
     def _turning(self, u: Series) -> tuple[Series, Series]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Symbol, cos, diff, exp, factorial, sin, sqrt, symbols
+from sympy import Expr, Integer, Symbol, cos, diff, exp, factorial, log, sin, sqrt, symbols
 
 from derive.algebra.normal_form import vanishes
 from derive.algebra.taylor import NoSeries, slope, taylor
@@ -25,6 +25,9 @@ VALUES = [
     sqrt(a) * q,
     Integer(0),
     exp(-a) * q,
+    exp(a * q) * (1 + q),
+    sqrt(a**2 + q**2) * sin(q),
+    (a + q**2) ** b,
 ]
 
 
@@ -35,7 +38,7 @@ def test_coefficients_are_the_derivatives_along_the_motion(value: Expr) -> None:
         assert vanishes(coefficient - diff(along, s, n).subs(s, 0) / factorial(n))
 
 
-@pytest.mark.parametrize("value", [sqrt(q), exp(q), abs(q) + q])
+@pytest.mark.parametrize("value", [q**q, log(q), abs(q) + q])
 def test_a_function_without_a_series_here_is_refused(value: Expr) -> None:
     with pytest.raises(NoSeries):
         taylor(value, LINE, 1)
