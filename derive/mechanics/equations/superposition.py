@@ -113,8 +113,11 @@ def _swings(
     modes: Sequence[Quantity], together: Linear, first: Sequence[Expr], initial: Sequence[Expr], case: str | None
 ) -> list[Swing]:
     M, C = together.mass, together.turning
-    columns = [c for root in Pencil(together.stiffness, M, together.exists).roots for c in root.columns]
+    roots = Pencil(together.stiffness, M, together.exists).roots
+    columns = [c for root in roots for c in root.columns]
     frequencies = {c: (q, m.root.sign) for q in modes if (m := q.fact(Mode)) is not None for c in m.root.columns}
+    if len(columns) == 1:
+        frequencies = {columns[0]: (modes[0], roots[0].sign)}
     if not is_zero(C) and (is_zero(C + C.T) or not _separates(C, columns)):
         message = "with forces of the rates that mix the modes, their shapes are not those without these forces"
         help_line = "drag that goes with the masses or with the springs does not mix them"
