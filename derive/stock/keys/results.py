@@ -19,11 +19,9 @@ from derive.mechanics import (
     Coordinate,
     beats,
     conjugate,
-    equation_in_limit,
     frequency,
     frequency_squared_about,
     leaves_contact,
-    limiting_case,
     maximum,
     minimum,
     noether,
@@ -40,6 +38,7 @@ from derive.mechanics import (
     unknown,
     where,
 )
+from derive.mechanics.equations.approximate import in_limit
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
@@ -279,9 +278,7 @@ def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     given = result.named({"to": result.to, "order": result.order})
-    if isinstance(result.only(of).value, Relation):
-        return equation_in_limit(result.only(of), result.letter, key=result.name, **given)
-    return limiting_case(result.only(of), result.letter, key=result.name, **given, **result.symbol)
+    return in_limit(result.only(of), result.letter, key=result.name, **given, **result.symbol)
 
 
 def _where(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
