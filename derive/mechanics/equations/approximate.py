@@ -13,7 +13,7 @@ from derive.algebra.expansion import NoExpansion, expanded, small_of, tidied_ter
 from derive.algebra.expressions import TIME, Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.limits import limiting_case, rest_vanishes
+from derive.mechanics.equations.limits import rest_vanishes
 from derive.mechanics.equations.substitution import arranged
 from derive.mechanics.equations.unknowns import coordinates_of, letter_of, residual_of, unknown_of
 from derive.mechanics.systems.coordinates import OfCoordinate
@@ -80,15 +80,6 @@ def equation_in_limit(
         key=key or f"{equation.key}_limit",
         facts=[fact] if (fact := equation.fact(OfCoordinate)) is not None else [],
     )
-
-
-def in_limit(of: Quantity, letter: Any, symbol: str | None = None, **given: Any) -> Quantity:
-    """The limiting case of a value, or of an equation, which has no letter of its own."""
-    if not isinstance(of.value, Relation):
-        return limiting_case(of, letter, symbol=symbol, **given)
-    if symbol is not None:
-        raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter of its own"))
-    return equation_in_limit(of, letter, **given)
 
 
 def _ratio(found: Relation, kept: Any) -> Any:

@@ -38,12 +38,12 @@ from derive.mechanics import (
     unknown,
     where,
 )
-from derive.mechanics.equations.approximate import in_limit
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.formulas import Formula, formula
+from derive.stock.keys.limits import in_limit
 from derive.stock.keys.starts import from_start
 
 NAMES = as_written(one_or_more(TEXT.schema))
