@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, together
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lcm, together
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
@@ -58,10 +59,15 @@ class Linear(Fact):
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta."""
+        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
+
+        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
-        above = [together(entry).as_numer_denom()[0] for entry in (*entries, self.driven[i]) if entry != 0]
-        found = common_factor(above)
+        parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
+        found = common_factor([above for above, _ in parts])
+        if all(below.free_symbols for _, below in parts):
+            found /= factor(reduce(lcm, (below for _, below in parts)))
         return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
 
 
