@@ -17,6 +17,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import oscillations
@@ -132,7 +133,11 @@ def _one(
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
     common = linear.common(i)
-    terms = [spread(tidied(matrix[i, j] / common)) * s for matrix, letters in ordered for j, s in enumerate(letters)]
+    terms = [
+        with_squares(spread(tidied(matrix[i, j] / common))) * s
+        for matrix, letters in ordered
+        for j, s in enumerate(letters)
+    ]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     named = _letters_of(rests)

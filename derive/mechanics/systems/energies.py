@@ -24,6 +24,7 @@ from derive.algebra.expressions import (
     scalar,
     stand_in,
 )
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.coordinates import by_functions_of_time, rate_of
@@ -348,8 +349,15 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         kind="energy",
         routes={"deflection": deflection},
         outcome="several" if len(matter.fields) > 1 else "alone",
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
+        lines=Lines(put_in=None, arranged=lambda value: _with_common_factor(by_rates(value, moving))),
         telling=Telling(judged_by={"fields": len(matter.fields)}),
         facts=[matter],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+def _with_common_factor(value: Expr) -> Expr:
+    """(1/2) q B (x y_dot - y x_dot): what all terms have in common in front."""
+    terms = Add.make_args(value)
+    common = common_factor(list(terms)) if len(terms) > 1 else Integer(1)
+    return value if common == 1 else Mul(common, Add(*(tidied(term / common) for term in terms)), evaluate=False)

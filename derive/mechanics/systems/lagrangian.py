@@ -217,14 +217,28 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
-    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: no number that all have in common."""
+    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: no number that all have in common.
+
+    But I + M a^2/4 stays what it is, a moment of inertia.
+    """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:
-        parts = [each.primitive() if each.is_Add else each.as_coeff_Mul() for each in Mul.make_args(term)]
+        parts = [
+            each.primitive() if each.is_Add and not _has_some_fractions(each) else each.as_coeff_Mul()
+            for each in Mul.make_args(term)
+        ]
         apart.append((Mul(*(number for number, _ in parts)), [rest for _, rest in parts if rest != 1]))
-    below = ilcm(*(number.q for number, _ in apart))
-    shared = Rational(igcd(*(int(number * below) for number, _ in apart)), below)
+    below = ilcm(1, 1, *(number.q for number, _ in apart))
+    shared = Rational(igcd(0, *(int(number * below) for number, _ in apart)), below)
+    if below > 1 and any(map(_has_some_fractions, (f for _, factors in apart for f in factors))):
+        return list(terms)
     return [_product(number / shared, *factors) for number, factors in apart]
+
+
+def _has_some_fractions(factor: Expr) -> bool:
+    """A sum in which some terms have a number below and some have none."""
+    below = {term.as_coeff_Mul()[0].q > 1 for term in Add.make_args(factor)} if factor.is_Add else set()
+    return len(below) == 2
 
 
 def _product(*factors: Expr) -> Expr:
