@@ -33,8 +33,8 @@ from sympy import (
 )
 from sympy.simplify.fu import TR8
 
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.collect import by_terms
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
