@@ -29,6 +29,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
 from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import Pencil, root_of
@@ -36,7 +37,7 @@ from derive.mechanics.equations.characteristic import Root as RootOfPencil
 from derive.mechanics.equations.damped import DampedModes
 from derive.mechanics.equations.gyroscopic import TurningModes
 from derive.mechanics.equations.linearised import Linear
-from derive.mechanics.equations.oscillations import frequency, frequency_squared
+from derive.mechanics.equations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter, require_constant
@@ -93,7 +94,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
         return TurningModes(linear, together, letter, before).found()
     if len(linear) == 1:
         squared = frequency_squared(linear[0], symbol or f"{letter.name}_0", f"{before}frequency_squared")
-        return (frequency(squared, key=f"{before}frequency"),)
+        return (frequency(squared, key=f"{before}frequency", condition=True),)
     characteristic = _characteristic(linear, together, pencil, letter, before)
     frequencies = [
         _frequency(characteristic, together, pencil, n, letter.name, before) for n in range(len(pencil.roots))
@@ -127,7 +128,7 @@ def _characteristic(
     Source: that of `normal_modes`.
     """
     matrix = together.rows_of(together.stiffness - letter**2 * together.mass)
-    factored = pencil.factored(letter**2)
+    factored = pencil.factored(letter**2).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
@@ -196,7 +197,11 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back, "rayleigh": rayleigh, "trace": trace},
         outcome=outcome,
-        telling=Telling(points_to={"characteristic": characteristic}, judged_by=_judged_by(together)),
+        telling=Telling(
+            points_to={"characteristic": characteristic},
+            judged_by=_judged_by(together),
+            formulas=told_where_positive(root.value) if root.sign is None else {},
+        ),
         key=f"{start}frequency_{n + 1}",
         kind="angular speed",
         parents=[characteristic],

@@ -14,13 +14,15 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import root_of
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Linear
-from derive.mechanics.equations.zeros import sign_where
+from derive.mechanics.equations.zeros import positive, sign_where
 from derive.mechanics.systems.coordinates import OfCoordinate, T
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Quantity
 
 __all__ = ["frequency", "frequency_squared"]
+
+SHORT = 4  # a condition of more terms is not told
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     return establish(
         "oscillations.frequency_squared",
         Pow(scalar(symbol), 2),
-        lambda _: Ratio(stiffness, mass) if mass != 1 else stiffness,
+        lambda _: _quotient(stiffness, mass),
         {"q": q},
         lines=Lines(
             put_in=None,
@@ -83,6 +85,14 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     )
 
 
+def _quotient(stiffness: Expr, mass: Expr) -> Expr:
+    """k/m over one line."""
+    above, below = stiffness.as_numer_denom()
+    if below.free_symbols:
+        return Ratio(above, below * mass)
+    return stiffness if mass == 1 else Ratio(stiffness, mass)
+
+
 def _squared_form(value: Expr) -> Expr:
     """g/l - omega^2, not (g - l omega^2)/l, where that is shorter."""
     forms = [tidied(value), spread_or_by_terms(tidied(value))]
@@ -100,10 +110,21 @@ def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -
     return {1: "stable", -1: "unstable"}.get(sign or 0, "conditional")
 
 
-def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequency") -> Quantity:
+def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
+    """Where the square of a frequency is positive, if that can be told in short."""
+    has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
+    if has_roots or len(Add.make_args(square.expand())) > SHORT:
+        return {}
+    return {"condition": (positive(square), Relation(square, ">", Integer(0)))}
+
+
+def frequency(
+    squared: Quantity, symbol: str | None = None, key: str = "frequency", condition: bool = False
+) -> Quantity:
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
 
-    squared   as `frequency_squared` yields it, 1/s^2
+    squared     as `frequency_squared` yields it, 1/s^2
+    condition   whether the sentence says for which letters there is an oscillation
     Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
@@ -137,7 +158,10 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
         lines=Lines(put_in=None, after=[Form(shown, "result")], result=False, arranged=explicit),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,
-        telling=Telling(judged_by={"exists": known.exists} if known.exists is not None else {}),
+        telling=Telling(
+            formulas=told_where_positive(squared.value) if condition and outcome == "conditional" else {},
+            judged_by={"exists": known.exists} if known.exists is not None else {},
+        ),
         key=key,
         kind="angular speed",
     )
