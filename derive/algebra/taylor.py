@@ -16,7 +16,7 @@ from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp
 
 from derive.algebra.normal_form import vanishes
 
-__all__ = ["NoSeries", "coefficient_along", "slope", "taylor"]
+__all__ = ["NoSeries", "coefficient_along", "series_along", "slope", "taylor"]
 
 ZERO = Integer(0)
 DEEPEST = 8  # order to which a numerator and a denominator may vanish together
@@ -46,17 +46,25 @@ def slope(expr: Expr | int, letter: Symbol) -> Expr:
 
 def coefficient_along(expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
     """The coefficient of s^n where each letter is at its place and s times its direction away."""
+    return series_along(expr, place, direction, order)[order]
+
+
+def series_along(
+    expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
+) -> Sequence[Expr]:
+    """The coefficients of s^0, ..., s^n in that direction."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     try:
-        found = taylor(expr, paths, order)[order]
-        return _of_quotient(expr, paths, order) if found.has(nan, zoo) else found
+        found = taylor(expr, paths, order)
+        return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
     except NoSeries:
         s = Symbol("s_small", real=True)
         moved = expr.subs({q: at + s * direction[q] for q, at in place.items()}, simultaneous=True)
-        return series(moved, s, 0, order + 1).removeO().expand().coeff(s, order)
+        terms = series(moved, s, 0, order + 1).removeO().expand()
+        return [terms.coeff(s, n) for n in range(order + 1)]
 
 
-def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Expr:
+def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
     """The same where what is divided by vanishes at the place, and what is divided too."""
     above, below = together(expr).as_numer_denom()
     under = taylor(below, paths, order + DEEPEST)
@@ -70,7 +78,7 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
     for k in range(order + 1):
         carried = Add(*(under[lowest + k - j] * found[j] for j in range(k)))
         found.append((over[lowest + k] - carried) / under[lowest])
-    return found[order]
+    return found
 
 
 class _Arithmetic:

@@ -16,7 +16,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
-from derive.algebra.taylor import coefficient_along
+from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import (
@@ -223,8 +223,8 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
 def _order(energy: Expr, place: Place) -> int:
     """The first order beyond the first that does not vanish there; 0 if there is none."""
     (q,) = place.coordinates
-    at = place.values[q]
-    return next((n for n in range(2, HIGHEST + 1) if not is_zero(diff(energy, q, n).subs(q, at))), 0)
+    terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
+    return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
 
 
 def _by_higher_order(place: Place, energy: Expr) -> str:
