@@ -31,6 +31,8 @@ def course_in(
     heading = (PINNED / "set.yaml").read_text(encoding="utf-8")
     (problems / "set.yaml").write_text(heading.replace("- block", f"- {problem}"), encoding="utf-8")
     for name, changes in ((f"{problem}.yaml", edits), (f"{problem}.py", script)):
+        if not changes and not (PINNED / name).exists():  # a problem of a stock script
+            continue
         text = (PINNED / name).read_text(encoding="utf-8")
         for old, new in (changes or {}).items():
             assert text.count(old) == 1, f"{old!r} occurs {text.count(old)} times in {name}"

@@ -50,8 +50,10 @@ PRINTING = {"cli.options", "cli.commands", "cli.terminal", "building.doctor"}
 VERB_MODULES = sorted(name for name in MODULES if name.startswith("mechanics."))
 DEFINITIONS = {
     "any_angular_velocity",
+    "given_lagrangian",
     "changing_angular_velocity",
     "constant_angular_velocity",
+    "momentary_angular_velocity",
     "principal_tensor",
     "let",
     "combination",
@@ -244,6 +246,13 @@ def test_a_verb_can_be_found_in_the_notation(name: str) -> None:
     assert re.search(rf"`{name}\b", notation) or name in of_engine
 
 
+def test_the_notation_names_verbs_that_there_are() -> None:
+    table = [line.split("|") for line in (ROOT / "NOTATION.md").read_text(encoding="utf-8").splitlines()]
+    named = {name for row in table if len(row) == 7 for name in re.findall(r"`(\w+)`", row[4])}
+    assert len(named) > 80
+    assert sorted(name for name in named - {*verbs()} if not hasattr(derive.mechanics, name)) == []
+
+
 def test_a_verb_is_named_for_what_it_yields() -> None:
     assert [name for name in verbs() if re.match(r"(compute|get|make|calculate|find|do)_", name)] == []
 
@@ -341,6 +350,22 @@ def test_every_rule_has_words_for_each_second_route() -> None:
         if isinstance(table, ast.Dict)
         for key in table.keys
         if isinstance(key, ast.Constant)
+    }
+    claims |= {
+        (rule, f"given_{key.value}")
+        for _, rule, call in establishing_calls()
+        for keyword in call.keywords
+        for named in ast.walk(keyword.value)
+        if isinstance(named, ast.Call) and re.search(r"\bnamed(_by)?$", ast.unparse(named.func))
+        for table in ast.walk(named)
+        if isinstance(table, ast.Dict)
+        for key in table.keys
+        if isinstance(key, ast.Constant)
+    }
+    claims |= {
+        (rule, "energy_identity")
+        for _, rule, call in establishing_calls()
+        if "further_routes" in ast.unparse(call)  # of a Lagrangian that is given
     }
     claims |= {
         (rule, claim)

@@ -65,6 +65,12 @@ def scalar(name: str, **assumptions: bool) -> Symbol:
     return Symbol(name, **{"real": True, **assumptions})
 
 
+def stand_in(name: str, **assumptions: bool) -> Symbol:
+    """A letter of a check alone, under a name that no problem can give: a mark would be the only other way to keep the
+    letters of a problem out of it."""
+    return scalar(f"{name}\u2032", **assumptions)
+
+
 PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign that is either: its square is 1, so b + PLUS_MINUS*c is b +- c
 
 TIME = scalar("t")  # there is one time: what contains it changes as it passes

@@ -64,6 +64,12 @@ KINDS: Mapping[str, Kind] = {
     "coupling constant": Kind(dimension(1, 3, -2), "J m", positive=True),  # of an energy k/r
     "damping constant": Kind(dimension(1, 0, -1), "kg/s", positive=True),
     "current": Kind(dimension(0, 0, 0, 1), "A"),
+    "rate of current": Kind(dimension(0, 0, -1, 1), "A/s"),
+    "voltage": Kind(dimension(1, 2, -3, -1), "V"),
+    "resistance": Kind(dimension(1, 2, -3, -2), "ohm", positive=True),
+    "inductance": Kind(dimension(1, 2, -2, -2), "H", positive=True),
+    "capacitance": Kind(dimension(-1, -2, 4, 2), "F", positive=True),
+    "magnetic flux": Kind(dimension(1, 2, -2, -1), "Wb"),
     "charge": Kind(dimension(0, 0, 1, 1), "C"),
     "electric field": Kind(dimension(1, 1, -3, -1), "V/m"),
     "magnetic field": Kind(dimension(1, 0, -2, -1), "T"),

@@ -14,6 +14,7 @@ from functools import reduce
 
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, together, zoo
 
+from derive.algebra.expressions import stand_in
 from derive.algebra.normal_form import vanishes
 
 __all__ = ["NoSeries", "coefficient_along", "series_along", "slope", "taylor"]
@@ -58,7 +59,7 @@ def series_along(
         found = taylor(expr, paths, order)
         return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
     except NoSeries:
-        s = Symbol("s_small", real=True)
+        s = stand_in("s_small")
         moved = expr.subs({q: at + s * direction[q] for q, at in place.items()}, simultaneous=True)
         terms = series(moved, s, 0, order + 1).removeO().expand()
         return [terms.coeff(s, n) for n in range(order + 1)]
@@ -108,7 +109,7 @@ class _Arithmetic:
             if not any(x[1:]):
                 return self._constant(x[0] ** expr.exp)
             return reduce(self._product, [x if expr.exp > 0 else self._one_over(x)] * abs(int(expr.exp)))
-        if isinstance(expr, Pow) and expr.exp.is_Rational:
+        if isinstance(expr, Pow) and not expr.exp.free_symbols & self._letters.keys():
             return self._power(self.of(expr.base), expr.exp)
         if isinstance(expr, exp):
             return self._exponential(self.of(expr.args[0]))
@@ -146,9 +147,9 @@ class _Arithmetic:
             found.append(-Add(*(x[j] * found[k - j] for j in range(1, k + 1))) / x[0])
         return tuple(found)
 
-    def _power(self, x: Series, a: Rational) -> Series:
-        """x y' = a x' y, term by term; no whole power of what vanishes has a series."""
-        if x[0] == 0:
+    def _power(self, x: Series, a: Expr) -> Series:
+        """x y' = a x' y, term by term; a power of what vanishes that is no whole one has no series."""
+        if x[0] == 0 and any(x[1:]):
             raise NoSeries
         found = [x[0] ** a]
         for k in self._orders[1:]:

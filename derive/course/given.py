@@ -356,23 +356,24 @@ class NumbersAsLetters:
         self.known: dict[tuple[str, Expr], Expr] = {}
         self.measured: list[Measured] = []
 
-    def letter(self, scalar: Scalar, name: str, kind: str) -> Expr | None:
-        """The letter, or an exact angle, of a number with its unit; nothing for an expression."""
+    def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
+        """The letter, or an exact angle, of a number with its unit, one `of` several; nothing for an expression."""
         if _is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
         if number is None:
             return None
         if (kind, number.si) not in self.known:
-            given = _given(name, _asked_of_kind(kind), (number,), self.letters)
+            given = _given(name, _asked_of_kind(kind, of), (number,), self.letters)
             self.known[kind, number.si] = given.value
             self.measured += given.measured
         return self.known[kind, number.si]
 
 
-def _asked_of_kind(kind: str) -> Asked:
-    """How a script asks for one of that kind: by its usual letters."""
-    usual = next((asked for asked in ANNOTATIONS.values() if asked.each == kind), None)
+def _asked_of_kind(kind: str, count: int) -> Asked:
+    """How a script asks for one of that kind, or of so many: by its usual letters."""
+    known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
+    usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))
 
 

@@ -266,7 +266,8 @@ def _described_by(
     described = script.stock.read(written, symbols, faults)
     symbols |= described.chosen
     givens = tuple(Given(name, Asked(known.kind), known.symbol) for name, known in symbols.items())
-    return Pinned(symbols, givens, (*values, *described.measured), described)
+    told = (given for given in described.told if given.name not in symbols)
+    return Pinned(symbols, (*givens, *told), (*values, *described.measured), described)
 
 
 def _check_names(given: Table[Word, Tree], asked: Table[str, Parameter], place: Place, faults: Faults) -> None:

@@ -20,7 +20,7 @@ from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.expression import Declared, read_expression
-from derive.course.given import Measured, NumbersAsLetters
+from derive.course.given import Given, Measured, NumbersAsLetters
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import DeriveError, Faults, Place, rejected
@@ -57,11 +57,13 @@ class Described:
 
     letters   those that it brings in itself, coordinates and their rates
     chosen    those that stand for its numbers, which are `measured`
+    told      what prose may mention by its key, besides letters
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
     chosen: Mapping[str, Declared] = field(default_factory=dict)
     measured: tuple[Measured, ...] = ()
+    told: tuple[Given, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -134,17 +136,20 @@ class InLetters:
             rejected("letter-clash", message, name.place, help_line)
         return str(name)
 
-    def value(self, node: Tree, name: str, kind: str) -> Expr:
+    def value(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
         """An expression of a kind; where letters of that kind are positive it cannot be known to be negative."""
-        found = self.of_kind(node, name, kind)
+        found = self.of_kind(node, name, kind, of)
         if found.is_nonpositive and about_kind(kind).positive and not about_kind(kind).signed:
             rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
         return found
 
-    def of_kind(self, node: Tree, name: str, kind: str) -> Expr:
-        """An expression of the dimension of a kind, with either sign, or a number; zero has any dimension."""
+    def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
+        """An expression of the dimension of a kind, with either sign, or a number; zero has any dimension.
+
+        of   how many of them there are, on which the letters of numbers depend
+        """
         wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
-        if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind)) is not None:
+        if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind, of)) is not None:
             return letter
         expr, dimension = self.read(node, name, is_a)
         if dimension != wanted and not expr.is_zero:

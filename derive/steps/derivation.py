@@ -131,10 +131,18 @@ def standing_in(steps: Iterable[Step]) -> dict[str, str]:
 
 
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
-    """The keys of the steps that answer what is asked for, with the word that asks for each."""
+    """The keys of the steps that answer what is asked for, with the word that asks for each.
+
+    A name that is the first key of several asks for all of them: of two conditions one alone would say too much.
+    """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)
-    each = [(str(key), name) for name in asked for key in ((name,) if name in own else groups.get(name, (name,)))]
+
+    def keys_of(name: str) -> tuple[str, ...]:
+        group = groups.get(name, (name,))
+        return (name,) if name in own and name not in group else group
+
+    each = [(str(key), name) for name in asked for key in keys_of(name)]
     return {instead.get(key, key): name for key, name in each}
 
 

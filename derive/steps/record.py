@@ -14,6 +14,7 @@ from typing import Any
 from sympy import Expr, MatrixSymbol, Symbol
 
 from derive.algebra.expressions import TIME, Relation, component_names, explicit, rate
+from derive.algebra.ranges import own_meaning
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Quantity, same_value, value_behind
 
@@ -48,6 +49,8 @@ OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "H": ("calH",),
     "R": ("calR",),
     "h": ("J", "calE"),
+    "v": ("u", "w"),
+    "u": ("w",),
     "tau": ("tau_0",),
     "omega": ("Omega",),
     "lambda": ("mu", "lambda_0"),
@@ -64,7 +67,8 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
     run = run or Run()
     token = current_run.set(run)
     try:
-        yield run
+        with own_meaning():
+            yield run
     finally:
         current_run.reset(token)
 
@@ -87,6 +91,12 @@ def free_letter(name: str, *indices: str) -> str:
         if not {found, *(f"{found}_{index}" for index in indices)} & set(run.letters):
             return found
     return name
+
+
+def given_letters() -> set[str]:
+    """The letters that the problem has for what is given, for coordinates and for forces."""
+    run = current_run.get()
+    return set(run.letters) if run is not None else set()
 
 
 def assume(condition: Relation) -> None:

@@ -11,10 +11,10 @@ from enum import StrEnum
 from functools import cached_property
 from typing import Any, ClassVar, NoReturn, TypeVar
 
-from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol, nan
+from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol
 
 from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade, Verdict
-from derive.algebra.expressions import AXES, Relation, component_names, explicit
+from derive.algebra.expressions import AXES, Relation, explicit
 from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
@@ -179,11 +179,6 @@ def lettered(quantity: Quantity) -> Quantity:
     return replace(quantity, value=quantity.symbol, parents=(quantity,))
 
 
-def only_equation(relation: Any) -> Any:
-    """The relation, where it is an equation; what is undefined, and equal to nothing, where it is none."""
-    return relation if isinstance(relation, Relation) and relation.mark == "=" else Relation(nan, "=", nan)
-
-
 Law = Callable[..., Any]
 
 
@@ -230,11 +225,6 @@ def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
 def value_behind(given: Any) -> Any:
     """The value of a quantity; anything else is its own value."""
     return given.value if isinstance(given, Quantity) else given
-
-
-def scalar_component(quantity: Quantity, i: int) -> Symbol:
-    """The name of a vector quantity's component: c -> c_x."""
-    return component_names(quantity.symbol.name)[i]
 
 
 def entry_name(name: str, i: int, j: int) -> Symbol:

@@ -30,10 +30,12 @@ from derive.mechanics import (
 )
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity
+from derive.stock.answering.by_name import ByName
 from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn
+from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
@@ -64,6 +66,7 @@ class GivenBody(Questions):
     bodies: Mapping[Word, OneOfManyKeys] = key(
         "several bodies by name, in place of one", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
     )
+    results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,7 @@ class DescribedBodies(Described):
     """Bodies in their letters."""
 
     bodies: tuple[Asked, ...] = ()
+    results: tuple[Result, ...] = ()
 
 
 def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) -> DescribedBodies:
@@ -90,7 +94,10 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
     found: list[Asked] = []
     with faults:
         found = _bodies(written, known)
-    return DescribedBodies(chosen=known.chosen, measured=tuple(known.numbers.measured), bodies=tuple(found))
+    made = tuple(r for name, keys in written.results.items() if (r := keys.read(name, known, faults)))
+    return DescribedBodies(
+        chosen=known.chosen, measured=tuple(known.numbers.measured), bodies=tuple(found), results=made
+    )
 
 
 def _bodies(written: GivenBody, known: InLetters) -> list[Asked]:
@@ -240,7 +247,9 @@ def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object
         answers = Answers(one)
         drawn(answers.body)
         asks |= {f"{prefix}{name}": answer for name, answer in answers.asks().items()}
-    return answered(asked, asks, "a body")
+    by_name = ByName(asks, "a body")
+    asks |= {result.name: partial(result.made, by_name.named, {}) for result in described.results}
+    return answered(asked, by_name)
 
 
 STOCK = Stock(GivenBody, read, solve)

@@ -9,8 +9,10 @@ from typing import Any
 
 from sympy import Expr
 
-from derive.algebra.expressions import column
+from derive.algebra.expressions import column, component_names
+from derive.algebra.kinds import Asked
 from derive.course.expression import Declared
+from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
@@ -19,6 +21,7 @@ from derive.mechanics import (
     RigidBody,
     angle_between,
     angular_momentum,
+    axis_of_symmetry,
     body_cone_rate,
     changing_angular_velocity,
     constant_angular_velocity,
@@ -27,24 +30,38 @@ from derive.mechanics import (
     kinetic_energy,
     linearised_rotation,
     magnitude,
+    momentary_angular_velocity,
     period,
+    precession_rate,
     rate_in_body,
     rate_in_space,
     rate_under,
     spin,
     squared_magnitude,
+    tangent_between,
     torque,
+    vector_component,
     wobble_rate,
     wobble_squared,
 )
 from derive.mechanics.bodies.body import Body, axis_vector
 from derive.steps.step import Quantity
+from derive.stock.answering.by_name import ByName
 from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn_turning
+from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 AXES = "xyz"
+CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their letters
+MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # of a rotation that changes
+KINDS_OF_COMPONENTS = {
+    "moments": "moment of inertia",
+    "rates": "angular speed",
+    "start": "angular speed",
+    "torque": "torque",
+}
 CENTRE_OF_MASS, FIXED_POINT = "centre_of_mass", "fixed_point"
 
 
@@ -64,10 +81,15 @@ class RotationKeys(Record):
         "the components of a constant angular velocity, in place of `rate` and `along`",
         list_of(SCALAR, "three angular speeds", length=3),
     )
+    start: tuple[Tree, ...] = key(
+        "the components of the angular velocity at one moment, of a body on which no torque acts",
+        list_of(SCALAR, "three angular speeds", length=3),
+    )
     torque: tuple[Tree, ...] = key(
         "the torque on a body that turns in any way, along its axes; without it none",
         list_of(SCALAR, "three torques", length=3),
     )
+    results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
 
 
 @dataclass(frozen=True)
@@ -80,7 +102,9 @@ class DescribedRotation(Described):
     rate: Expr | None = None
     along: Axis | None = None
     rates: tuple[Expr, ...] = ()
+    start: tuple[Expr, ...] = ()
     torque: tuple[Expr, ...] = ()
+    results: tuple[Result, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
 
@@ -94,17 +118,20 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         _one_way(written, "rates", "rate")
     with faults:
         _one_way(written, "rates", "along")
+    for other in ("rates", "along", "torque"):
+        with faults:
+            _one_way(written, "start", other)
     with faults:
         if written.along is not None and written.rate is None:
             message = "a rotation along an axis needs its `rate`"
             rejected("missing-key", message, written.places["along"], "write `rate: omega`")
     with faults:
         found["body"] = Bodies(known).body(written.body) if written.body else None
-    for name, kind in (("moments", "moment of inertia"), ("rates", "angular speed"), ("torque", "torque")):
+    for name, kind in KINDS_OF_COMPONENTS.items():
         with faults:
             read_one = known.value if name == "moments" else known.of_kind
             nodes = getattr(written, name)
-            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind) for node in nodes]))
+            found[name] = tuple(each([partial(read_one, node, f"each of {name}", kind, 3) for node in nodes]))
     with faults:
         found["rate"] = known.of_kind(written.rate, "rate", "angular speed") if written.rate else None
     with faults:
@@ -116,8 +143,23 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
             with told_at(written.places["moments"]):
                 RigidBody(moments=found["moments"])
     found["moments"] = found.get("moments") or None
+    with_components = InLetters(
+        {**{name: Declared(name, letter, "angular speed") for name, letter in MOVING}, **symbols}
+    )
+    with_components.numbers = known.numbers
+    found["results"] = tuple(
+        r for name, keys in written.results.items() if (r := keys.read(name, with_components, faults))
+    )
     return DescribedRotation(
-        chosen=known.chosen, measured=tuple(known.numbers.measured), place=written.places[""], **found
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        told=tuple(
+            Given(name, Asked(kind), found[name])
+            for name, kind in {"rate": "angular speed", **KINDS_OF_COMPONENTS}.items()
+            if found.get(name)
+        ),
+        place=written.places[""],
+        **found,
     )
 
 
@@ -163,18 +205,21 @@ class Answers:
             return RigidBody(moments=self.described.moments, about=self.about).tensor
 
     @property
-    def is_steady(self) -> bool:
-        return bool(self.described.along or self.described.rates)
+    def is_given(self) -> bool:
+        """Whether the angular velocity is, for good or for one moment."""
+        return bool(self.described.along or self.described.rates or self.described.start)
 
     @cached_property
     def spin(self) -> Quantity:
-        """The constant angular velocity."""
+        """The constant angular velocity, or that of one moment."""
+        if self.described.start:
+            return momentary_angular_velocity(self.described.start, self.about, key="spin")
         if self.described.rates:
             return constant_angular_velocity(self.described.rates, self.about, key="spin")
         rate, along = self.described.rate, self.described.along
         if rate is None or along is None:
             message = "nothing says how this body turns"
-            rejected("missing-key", message, self.described.place, "give `rate` and `along`, or `rates`")
+            rejected("missing-key", message, self.described.place, "give `rate` and `along`, `rates`, or `start`")
         if self.body is not None:
             return spin(rate, along=self.body.direction(along.named), through=self.about)
         if along.named.name == "diagonal":
@@ -191,25 +236,54 @@ class Answers:
 
     @cached_property
     def angular_momentum(self) -> Quantity:
-        return angular_momentum(self.inertia_tensor, self.spin if self.is_steady else self.changing)
+        return angular_momentum(self.inertia_tensor, self.spin if self.is_given else self.changing)
 
     @cached_property
     def kinetic_energy(self) -> Quantity:
-        return kinetic_energy(self.inertia_tensor, self.spin if self.is_steady else self.changing)
+        return kinetic_energy(self.inertia_tensor, self.spin if self.is_given else self.changing)
 
     @cached_property
     def torque(self) -> Quantity:
         return torque(self.spin, self.angular_momentum)
 
+    # -- a free symmetric body ------------------------------------------------------------------------------------
+
+    @cached_property
+    def axis_of_symmetry(self) -> Quantity:
+        return axis_of_symmetry(self.inertia_tensor)
+
+    def between(self, name: str) -> tuple[Quantity, Quantity]:
+        """The two vectors that make an angle of that name."""
+        axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
+        return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
+
+    def cone(self, name: str) -> Quantity:
+        return angle_between(*self.between(name), symbol=CONES[name], key=name)
+
+    def cone_tangent(self, name: str) -> Quantity:
+        return tangent_between(*self.between(name), angle=CONES[name], key=f"{name}_tangent")
+
+    def precession_rate(self) -> Quantity:
+        if not self.described.start:
+            message = "free precession is that of a body on which no torque acts"
+            rejected("missing-key", message, self.described.place, "give its angular velocity at one moment, `start`")
+        return precession_rate(self.inertia_tensor, self.angular_momentum)
+
     # -- a rotation that changes ----------------------------------------------------------------------------------
+
+    @cached_property
+    def changing_momentum(self) -> Quantity:
+        if not self.described.start:
+            return self.angular_momentum
+        return angular_momentum(self.inertia_tensor, self.changing, "L_t", "momentum_at_all_times")
 
     @cached_property
     def equations(self) -> tuple[Quantity, Quantity, Quantity]:
         self._along_principal_axes()
-        if self.is_steady:
+        if self.described.along or self.described.rates:
             message = "Euler's equations are about a body that turns in any way, but its rotation is given"
             rejected("is-steady", message, None, "leave out `along` and `rates`")
-        rate = rate_in_space(self.angular_momentum, self.changing)
+        rate = rate_in_space(self.changing_momentum, self.changing)
         acting = self.described.torque
         return euler_equations(rate, acting) if acting else euler_equations(rate)
 
@@ -220,18 +294,22 @@ class Answers:
 
     @cached_property
     def energy_rate(self) -> Quantity:
-        return rate_under(self.kinetic_energy, self.equations)
+        if not self.described.start:
+            return rate_under(self.kinetic_energy, self.equations)
+        return rate_under(
+            kinetic_energy(self.inertia_tensor, self.changing, "T_t", "energy_at_all_times"), self.equations
+        )
 
     @cached_property
     def squared_momentum_rate(self) -> Quantity:
-        return rate_under(squared_magnitude(self.angular_momentum, key="squared_momentum"), self.equations)
+        return rate_under(squared_magnitude(self.changing_momentum, key="squared_momentum"), self.equations)
 
     @cached_property
     def rate_in_body(self) -> Quantity:
-        return rate_in_body(self.angular_momentum, self.changing, self.equations)
+        return rate_in_body(self.changing_momentum, self.changing, self.equations)
 
     def rate_in_space(self) -> Quantity:
-        return rate_in_space(self.angular_momentum, self.changing, self.rate_in_body, key="momentum_rate_in_space")
+        return rate_in_space(self.changing_momentum, self.changing, self.rate_in_body, key="momentum_rate_in_space")
 
     def linear(self, axis: str) -> tuple[Quantity, Quantity]:
         rate = self.described.rate
@@ -271,6 +349,9 @@ class Answers:
     def wobble_period(self, axis: str) -> Quantity:
         return period(self.wobble(axis), f"tau_{axis}", key=f"wobble_period_{axis}")
 
+    def component(self, vector: str, axis: str) -> Quantity:
+        return vector_component(getattr(self, vector), axis, key=f"{vector}_{axis}")
+
     def asks(self) -> dict[str, Callable[[], object]]:
         """Every name that a part may ask by."""
         of_axes: dict[str, Callable[[], object]] = {}
@@ -278,6 +359,8 @@ class Answers:
             of_axes[f"stability_{axis}"] = partial(self.stability, axis)
             of_axes[f"wobble_{axis}"] = partial(self.wobble, axis)
             of_axes[f"wobble_period_{axis}"] = partial(self.wobble_period, axis)
+            for vector in ("spin", "angular_momentum", "torque"):
+                of_axes[f"{vector}_{axis}"] = partial(self.component, vector, axis)
         return {
             "inertia_tensor": lambda: self.inertia_tensor,
             "spin": lambda: self.spin,
@@ -294,13 +377,20 @@ class Answers:
             "momentum_rate_in_space": self.rate_in_space,
             **of_axes,
             "body_cone_rate": lambda: body_cone_rate(self.equations),
+            "axis_of_symmetry": lambda: self.axis_of_symmetry,
+            **{name: partial(self.cone, name) for name in CONES},
+            **{f"{name}_tangent": partial(self.cone_tangent, name) for name in CONES},
+            "precession_rate": self.precession_rate,
         }
 
 
 def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for."""
     answers = Answers(described)
-    found = answered(asked, answers.asks(), "a rotation")
+    asks = answers.asks()
+    by_name = ByName(asks, "a rotation")
+    asks |= {result.name: partial(result.made, by_name.named, {}) for result in described.results}
+    found = answered(asked, by_name)
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
     return found

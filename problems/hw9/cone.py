@@ -1,17 +1,8 @@
 """A circular cone: its principal moments and axes about its centre of mass, reached from the apex and from the base."""
 
 from derive.figures import drawing, outline, point_mark
-from derive.given import Length, Mass
-from derive.mechanics import (
-    Cone,
-    agreement,
-    centre_of_mass,
-    inertia_tensor,
-    isotropic_where,
-    moved_to,
-    principal_axes,
-    principal_moments,
-)
+from derive.given import *
+from derive.mechanics import *
 
 
 def solve(radius: Length, height: Length, mass: Mass):

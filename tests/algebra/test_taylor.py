@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Rational, Symbol, cos, diff, exp, factorial, sin, sqrt, symbols
+from sympy import Expr, Integer, Rational, Symbol, cos, diff, exp, factorial, log, sin, sqrt, symbols
 
 from derive.algebra.normal_form import vanishes
 from derive.algebra.taylor import NoSeries, coefficient_along, slope, taylor
@@ -25,7 +25,8 @@ VALUES = [
     sqrt(a) * q,
     Integer(0),
     exp(-a) * q,
-    sqrt(a**2 + q**2),
+    sqrt(a**2 + q**2) * sin(q),
+    (a + q**2) ** b,
     (a + q) ** Rational(-3, 2),
     exp(-a * q) / (a + q),
 ]
@@ -38,7 +39,7 @@ def test_coefficients_are_the_derivatives_along_the_motion(value: Expr) -> None:
         assert vanishes(coefficient - diff(along, s, n).subs(s, 0) / factorial(n))
 
 
-@pytest.mark.parametrize("value", [abs(q) + q, q**a])
+@pytest.mark.parametrize("value", [abs(q) + q, q**q, log(q)])
 def test_a_function_without_a_series_here_is_refused(value: Expr) -> None:
     with pytest.raises(NoSeries):
         taylor(value, LINE, 1)

@@ -11,6 +11,7 @@ from sympy import Expr, ImmutableDenseMatrix, cos, sin, sqrt, symbols
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME as t
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.ranges import POSITIVE, within
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Particle,
@@ -137,10 +138,22 @@ def test_a_potential_energy_that_knows_no_field_does_not_say_unstable() -> None:
         stability(potential_energy_of(ridge), {x: 0})
 
 
+def test_a_table_turns_a_puck_off_between_its_two_frequencies() -> None:
+    """(k - m W^2)(c - m W^2) > 0; the squares are real at all rates: (k - c)^2 + 8 (k + c) m W^2 > 0."""
+    found = linear_stability(on_table(lambda x, y: (k * x**2 + c * y**2) / 2))
+    assert isinstance(found, Quantity) and found.step.outcome == "depends"
+    assert found.value.mark == ">" and equal(found.value.residual, (k - m * W**2) * (c - m * W**2))
+
+
+def test_a_letter_of_which_only_the_sign_is_known_may_stand_in_a_field() -> None:
+    with within({B: POSITIVE}):
+        assert outcomes(normal_modes(in_field(k)), "frequency") == ["oscillating", "oscillating"]
+
+
 def test_the_triangle_points_are_stable_for_unequal_masses() -> None:
     """Routh's condition 27 mu (1 - mu) < 1: Goldstein, section 3.12."""
     found = linear_stability(triangle_point())
-    assert isinstance(found, tuple) and [each.step.outcome for each in found] == ["depends", "further"]
+    assert isinstance(found, tuple) and [each.step.outcome for each in found] == ["first", "last"]
     routh, share = (explicit(each.value) for each in found)
     assert routh.mark == ">" and equal(routh.left - routh.right, 1 - 27 * mu * (1 - mu))
     assert share.mark == ">" and equal(share.left - share.right, 1 - mu)

@@ -233,3 +233,32 @@ def test_what_is_known_at_one_moment_has_no_rate() -> None:
     with pytest.raises(Rejected, match="known only where theta was put in"):
         rate_of(again)
     assert rate_of(put_in(U, {g: 2 * g}, key="elsewhere", symbol="W")).value != 0
+
+
+class TestAloneInItsEquation:
+    """A puck on a turntable: Taylor, problem 9.20. The other coordinate moves, so its rate is no constant."""
+
+    def turntable(self) -> tuple[Any, Any, tuple[Quantity, ...]]:
+        x, y = coordinate("x", "length"), coordinate("y", "length")
+        table = space.turned(Z, w * t)
+        return x, y, equations_of_motion(lagrangian(System(Particle(m, table.place(x, y, 0)))))
+
+    def test_rate_of_another_coordinate_is_no_constant(self) -> None:
+        x, _, (along_x, _) = self.turntable()
+        with pytest.raises(Rejected, match="it has y_dot, which moves too"):
+            solution(along_x, x, a)
+
+    def test_nor_is_its_acceleration(self) -> None:
+        """A bead on a helical track of a cylinder that turns: Goldstein, problem 8.24."""
+        theta, phi = coordinate("theta"), coordinate("phi")
+        helix = space.turned(Z, theta).place(a * cos(phi), a * sin(phi), -l * phi)
+        motion = equations_of_motion(lagrangian(System(Particle(m, helix), weight(g))))[1]
+        with pytest.raises(Rejected, match="it has theta_ddot"):
+            solution(motion, phi, 0)
+
+    def test_start_that_moves_is_refused(self) -> None:
+        x, y, (along_x, _) = self.turntable()
+        still = put_in(along_x, {y.rate: 0})
+        with pytest.raises(Rejected, match="constant start"):
+            solution(still, x, y.symbol)
+        assert equal(solution(still, x, a).value, a * (t * 0 + (exp(w * t) + exp(-w * t)) / 2))

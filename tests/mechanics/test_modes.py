@@ -27,6 +27,7 @@ from derive.mechanics import (
     normal_modes,
     period,
     point,
+    potential,
     space,
     spring,
     weight,
@@ -309,3 +310,13 @@ def test_what_is_displaced_is_counted_from_rest() -> None:
     assert {str(s) for s in explicit(first.value).free_symbols} >= {"eta_1", "eta_1_ddot", "eta_2_ddot"}
     counted = explicit(dict(second.step.roles)["counted_1"])
     assert counted == Relation(theta.symbol, "=", pi + symbols("eta_1", real=True))
+
+
+@pytest.mark.parametrize("name", ["w", "u", "s", "epsilon", "a_0", "u_0"])
+def test_letters_of_a_problem_are_not_those_of_a_check(name: str) -> None:
+    """Landau and Lifshitz, section 23, problem 1, whatever the frequency of the two oscillators is called."""
+    own, c = symbols(f"{name} c", positive=True)
+    x, y = coordinate("x", "length"), coordinate("y", "length")
+    stiff = potential(m * own**2 * (x.symbol**2 + y.symbol**2) / 2 - m * c * x.symbol * y.symbol)
+    found = normal_modes(linearised(motion(Particle(m, point(x, y)), stiff)))
+    assert {explicit(each.value**2) for each in found[:2]} == {own**2 - c, own**2 + c}

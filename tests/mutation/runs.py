@@ -80,6 +80,20 @@ class LibraryRun(Run):
         return load_problem(ROOT, f"library/{self.name}")
 
 
+@dataclass(frozen=True)
+class OwnRun(Run):
+    """A problem that is here for its verbs alone."""
+
+    @cached_property
+    def problem(self) -> Problem:
+        with tempfile.TemporaryDirectory() as folder:
+            course = Path(folder)
+            (course / "templates").symlink_to(ROOT / "templates")
+            (course / "problems").mkdir()
+            (course / "problems" / "own").symlink_to(OWN)
+            return load_problem(course, f"own/{self.name}")
+
+
 def _of_transcripts() -> dict[str, Run]:
     """One run for each set of edits that some transcript has."""
     found: dict[tuple[str, tuple[tuple[str, str], ...]], Run] = {}
@@ -138,13 +152,8 @@ RATES = Run(  # the top without its last part, in a third of the time
     ),
     (("    p_phi, p_psi =", "    return slow, fast, condition\n    p_phi, p_psi ="),),
 )
-# one problem for each verb of systems: constraints, rolling, modes, canonical equations, central motion, turning axes
-LIBRARY = (
-    "hoop_oscillations", "turning_hoop", "atwood_disc", "coupled_pendulums", "double_pendulum", "damped_oscillator",
-    "driven_oscillator", "off_a_sphere", "cylinder_inside", "disc_incline", "kepler", "pendulum_canonical", "cyclotron",
-    "watt_governor", "steady_precession", "tennis_racket", "earth", "half_disc", "leaning_rod", "ball_with_hole",
-    "simple_pendulum", "table_edge", "rolling_cone",
-)  # fmt: skip
+LIBRARY = tuple(sorted(path.stem for path in (ROOT / "problems" / "library").rglob("*.yaml") if path.stem != "set"))
+OWN = Path(__file__).parent / "problems"  # of verbs that no problem of the library asks for
 CHEAP = ("block", "cone", "euler")  # these first: what they refuse need not be tried on others
 _found = _of_transcripts()
 RUNS: dict[str, Run] = {
@@ -152,4 +161,5 @@ RUNS: dict[str, Run] = {
     **{run.name: run for run in (*BODIES, RATES)},
     **_found,
     **{name: LibraryRun(name) for name in LIBRARY},
+    **{path.stem: OwnRun(path.stem) for path in sorted(OWN.glob("*.yaml")) if path.stem != "set"},
 }

@@ -9,13 +9,13 @@ import pytest
 from sympy import Expr, Integer, MatrixSymbol, Rational, cos, sin, symbols
 
 from derive.algebra.equality import Compared, Grade
-from derive.algebra.expressions import Dot, Truncated, column, scalar, vector
+from derive.algebra.expressions import Dot, Truncated, column, component_names, scalar, vector
 from derive.algebra.rounding import Rounded
 from derive.errors import Unverified
 from derive.mechanics import let
 from derive.steps.establish import Lines, establish
 from derive.steps.outcomes import _PREDICATES, outcomes_of
-from derive.steps.step import Form, Level, Quantity, compared_with, scalar_component
+from derive.steps.step import Form, Level, Quantity, compared_with
 
 a, b, x = symbols("a b x", positive=True)
 
@@ -134,7 +134,7 @@ def test_the_law_is_read_with_names_and_with_values() -> None:
 
 def test_a_vector_brings_the_names_of_its_components_along() -> None:
     v = establish("test.v", vector("v"), lambda: column(a, b, 0), {}, definition=True)
-    v_x, v_y, _ = (scalar_component(v, i) for i in range(3))
+    v_x, v_y, _ = component_names("v")
     product = establish(
         "test.product",
         scalar("p"),

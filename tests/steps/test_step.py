@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from sympy import Integer, Matrix, Symbol
 
-from derive.algebra.equality import equal
-from derive.algebra.expressions import Dot, Relation, column
+from derive.algebra.expressions import Dot, column
 from derive.errors import Rejected
 from derive.mechanics import let
 from derive.steps.step import (
@@ -20,7 +19,6 @@ from derive.steps.step import (
     compared_with,
     entry_name,
     is_zero,
-    only_equation,
     require_kind,
     same_value,
 )
@@ -124,11 +122,3 @@ def test_a_quantity_of_another_kind_is_refused_by_what_it_is() -> None:
         require_kind("torque", "m", sum_of_squares(kind="length"), "mass")
     with pytest.raises(Rejected, match="`torque` needs a mass as its `m`, but it is Symbol"):
         require_kind("torque", "m", a, "mass")
-
-
-def test_an_inequality_is_no_equation_and_equal_to_nothing() -> None:
-    equation = Relation(a, "=", b)
-    assert only_equation(equation) is equation
-    for other in (Relation(a, "<", b), a):
-        assert not is_zero(only_equation(other))
-        assert not equal(only_equation(other), only_equation(other))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import ImmutableDenseMatrix, Rational, sqrt, symbols
+from sympy import Abs, ImmutableDenseMatrix, Rational, cos, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -36,6 +36,21 @@ def test_moments_and_components_that_are_given(tmp_path: Path) -> None:
     edits = (BLOCK_IS, "moments: [A, B, C]"), ("rate: omega\n  along: diagonal", "rates: [omega, omega, 0]")
     found = solved(tmp_path, edited(BLOCK, *edits))
     assert equal(found["torque"].value, ImmutableDenseMatrix([0, 0, (B - A) * omega**2]))
+
+
+def test_prose_may_say_what_is_given_by_its_key(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [A, A, C]"), ("rate: omega", "rate: 2*omega"), ("along: diagonal", "along: x")
+    statement = ("statement: A block.", "statement: A body with the moments <<moments>> turns at <<rate>>.")
+    course = course_with(tmp_path, edited(BLOCK, *edits, statement, asked("kinetic_energy")))
+    page = rendered(course, "trial/one").texts["text"]
+    assert "A body with the moments A, A and C turns at 2ω." in page
+
+
+def test_moments_given_as_numbers_have_the_letters_of_three_moments(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [2 kg m^2, 3 kg m^2, 4 kg m^2]"), ("along: diagonal", "along: x")
+    letters = "A: moment of inertia, B: moment of inertia, C: moment of inertia, ", ""
+    found = solved(tmp_path, edited(BLOCK, *edits, letters, asked("inertia_tensor")))
+    assert found["inertia_tensor"].value == ImmutableDenseMatrix.diag(A, B, C)
 
 
 def test_moments_and_an_axis(tmp_path: Path) -> None:
@@ -71,6 +86,51 @@ def test_the_three_axes_of_a_block(tmp_path: Path) -> None:
 def test_the_wobble_of_the_earth(tmp_path: Path) -> None:
     edits = (BLOCK_IS, "moments: [A, A, C]"), ("  along: diagonal\n", ""), asked("body_cone_rate")
     assert equal(solved(tmp_path, edited(BLOCK, *edits))["body_cone_rate"].value, (C - A) / A * z)
+
+
+COIN = """\
+title: A coin
+solve: rotation
+symbols: {A: moment of inertia, C: moment of inertia, omega: angular speed, alpha: 'angle in (0, pi/2)'}
+given:
+  moments: [A, A, C]
+  start: [omega*sin(alpha), 0, omega*cos(alpha)]
+  results:
+    ratio: {value: precession_rate/spin_z}
+    now: {put_in: body_cone_rate, values: {omega_z: omega*cos(alpha)}}
+statement: A coin.
+parts:
+  - ask: Find what is asked.
+    answer: [body_cone, tilt_tangent, space_cone_tangent, ratio, now]
+"""
+
+
+def test_the_cones_of_a_free_symmetric_body(tmp_path: Path) -> None:
+    """Goldstein, section 5.6: omega at alpha from e, L at tan = (A/C) tan(alpha), Omega_b = (C - A) omega_z/A."""
+    found = solved(tmp_path, COIN)
+    alpha = found["body_cone"].value
+    assert alpha.name == "alpha"
+    assert equal(found["tilt_tangent"].value, A / C * tan(alpha))
+    apart = Abs((A - C) * sin(alpha) * cos(alpha)) / (A * sin(alpha) ** 2 + C * cos(alpha) ** 2)
+    assert equal(found["space_cone_tangent"].value, apart)
+    assert equal(found["ratio"].value, sqrt(A**2 * sin(alpha) ** 2 + C**2 * cos(alpha) ** 2) / (A * cos(alpha)))
+    assert equal(found["now"].value, (C - A) / A * omega * cos(alpha))
+
+
+def test_free_precession_is_that_of_a_free_body(tmp_path: Path) -> None:
+    edits = (BLOCK_IS, "moments: [A, A, C]"), asked("precession_rate")
+    assert messages(tmp_path, edited(BLOCK, *edits, ("  along: diagonal", "  along: [1, 0, 1]"))) == [
+        "5: free precession is that of a body on which no torque acts"
+    ]
+    text = edited(COIN, ("  results:\n", "  torque: [0, 0, A*omega**2]\n  results:\n"))
+    assert messages(tmp_path, text) == ["6: `torque` is given, and `start` too"]
+
+
+def test_components_of_vectors(tmp_path: Path) -> None:
+    """By hand, as above: L_y = (20/12) M a^2 omega/sqrt 14, tau_y = M a^2 omega^2/7."""
+    found = solved(tmp_path, edited(BLOCK, asked("[angular_momentum_y, torque_y]")))
+    assert equal(found["angular_momentum_y"].value, Rational(5, 3) * M * a**2 * omega / sqrt(14))
+    assert equal(found["torque_y"].value, M * a**2 * omega**2 / 7)
 
 
 def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:

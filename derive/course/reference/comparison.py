@@ -83,18 +83,23 @@ def comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
 
 
 def _comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
-    derived: list[tuple[dict[str, Any], Steps]] = [(given_values(problem), known)]
+    derived: list[tuple[object, Steps]] = [(_what_is_given(problem), known)]
     found = []
     for pinned, entries in stated_groups(problem):
-        given = given_values(pinned)
+        given = _what_is_given(pinned)
         steps = next((steps for other, steps in derived if other == given), None)
         if steps is None:
             steps = _derived_again(pinned)
             derived.append((given, steps))
-        here = given == given_values(problem)
+        here = given == _what_is_given(problem)
         compared = (_comparison(one, steps, pinned) for entry in entries for one in _one_by_one(entry, steps))
         found += [replace(comparison, here=here) for comparison in compared]
     return tuple(found)
+
+
+def _what_is_given(problem: Problem) -> object:
+    """What its steps are derived from: the system that it describes, or the values that its script asks for."""
+    return problem.described or given_values(problem)
 
 
 def _derived_again(pinned: Problem) -> Steps:

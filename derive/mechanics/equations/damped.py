@@ -15,7 +15,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread
-from derive.algebra.expressions import Relation, Root, explicit, scalar
+from derive.algebra.expressions import Relation, Root, explicit, scalar, stand_in
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.gyroscopic import judged_by, with_motion
@@ -117,7 +117,7 @@ def _characteristic(
     whole = Determinant(tidy) if len(linear) > 1 else tidy[0]
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
-        amplitudes = [Symbol(f"a_{n}", real=True) for n in range(len(linear))]
+        amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
         course = exp(letter * T)
         left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
         rows = [[diff(value.expand(), a) for a in amplitudes] for value in left]
@@ -222,7 +222,7 @@ def _frequency(
 
     def motion(found: Expr) -> tuple[Expr, Expr]:
         """e^(-beta t) cos(omega t), or with a hyperbolic cosine, in a eta_ddot + b eta_dot + c eta."""
-        w = Symbol("w", positive=True)
+        w = stand_in("w", positive=True)
         course = exp(-own.value * T) * (cos(w * T) if turned > 0 else (exp(w * T) + exp(-w * T)) / 2)
         left = (a * diff(course, T, 2) + b * diff(course, T) + c * course) / exp(-own.value * T)
         return left.expand().subs(w**2, turned * (turned * found**2)), 0

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, Symbol, atan, cos, diff, expand, pi, sin, sqrt, tan
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, atan, cos, diff, expand, pi, sin, sqrt, tan
 
-from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar
+from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation
@@ -62,7 +62,7 @@ def steady_amplitude(
 
     def in_step(lag: Expr) -> tuple[Any, Any]:
         """Where the stiffness is the greater, the oscillation with the positive amplitude has the sign of the force."""
-        size = Symbol("s", positive=True)
+        size = stand_in("s", positive=True)
         there = stiff if sign is not None else size
         return cos(lag) * there, Abs(there)
 

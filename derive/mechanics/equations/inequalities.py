@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Abs, Expr, Integer, Mul, nan
+from sympy import Abs, Add, Expr, Integer, Mul, nan
 
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import strict_sign_within
@@ -32,7 +32,11 @@ def sign_by_factors(value: Expr) -> int | None:
                 continue
             if _is_square_that_lasts(base, power):
                 continue
-            return None
+            by_means = _sign_by_means(forms[-1])
+            if by_means is None:
+                return None
+            found *= by_means
+            continue
         found *= -1 if any(form.is_negative for form in forms) else 1
     return found
 
@@ -41,3 +45,22 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
     """An even power of a real letter that stands below a fraction, or is assumed not to vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
+
+
+def _sign_by_means(total: Expr) -> int | None:
+    """1 where each negative term is at most twice a product of square roots of positive ones: a^2 - 2 a b + b^2 + c.
+
+    Each positive term may serve once, and one that serves for none must be left.
+    """
+    terms = Add.make_args(total)
+    above = [term for term in terms if term.is_positive]
+    below = [term for term in terms if term.is_negative]
+    if len(above) + len(below) < len(terms) or not 0 < len(below) < len(terms) / 2:
+        return None
+    for term in below:
+        pairs = ((a, b) for i, a in enumerate(above) for b in above[i + 1 :])
+        pair = next((pair for pair in pairs if (4 * Mul(*pair) / term**2 - 1).is_nonnegative), None)
+        if pair is None:
+            return None
+        above = [each for each in above if each not in pair]
+    return 1 if above else None

@@ -33,7 +33,7 @@ from sympy import (
 )
 from sympy.simplify.fu import TR8
 
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
@@ -41,6 +41,7 @@ from derive.mechanics.equations.zeros import different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
+from derive.steps.record import assume, changes, require_constant
 from derive.steps.step import Level, Quantity, is_zero, value_behind
 
 __all__ = ["solution"]
@@ -98,6 +99,9 @@ def solution(
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
+    for role, value in (("start", start), ("start_rate", start_rate)):
+        if value is not None:
+            require_constant("solution", role, value)
     first = explicit(value_behind(start))
     initial = None if linear.order == 1 else explicit(value_behind(ZERO if start_rate is None else start_rate))
     if linear.order == 1 and start_rate is not None:
@@ -131,6 +135,15 @@ def solution(
     )
 
 
+def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) -> Expr:
+    """The motion that nothing drives, from its value and its rate; the page tells the condition of the case."""
+    sort, condition = _sort(linear, case, None)
+    if condition is not None:
+        assume(condition)
+    basis = _basis(linear, sort)
+    return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
+
+
 def _told(
     linear: Linear, condition: Relation | None, first: Expr, initial: Expr | None, q: Coordinate
 ) -> dict[str, tuple[Any, Any]]:
@@ -155,21 +168,31 @@ def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
     state = (q.acceleration, q.rate, q.symbol)
     a, b, c = (tidied(diff(left, s)) for s in state)
     rest = left.xreplace(dict.fromkeys(state, ZERO))
-    others = [s for s in coordinates_of(equation) if s != q.symbol and left.has(s)]
+    _check_alone(equation, left, q)
     if a == 0 and c == 0 and b.has(TIME) and not rest.has(*state) and is_zero(left - b * state[1] - rest):
         return Linear(ZERO, ONE, ZERO, tidied(-rest / b))
     constant = not any(k.has(*state, TIME) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
-    if others or not constant or not whole or (a == 0 and b == 0):
+    if not constant or not whole or (a == 0 and b == 0):
         message = f"`{equation.key}` is no linear equation of {q.symbol.name} alone with constant coefficients"
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
     return Linear(sign * a, sign * b, sign * c, -sign * rest)
 
 
-def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Relation | None]:
+def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
+    """Another coordinate is no constant, nor is its rate or its acceleration: they move as q does."""
+    other = changes(left.xreplace({TIME: ONE}), [s for s in coordinates_of(equation) if s != q.symbol])
+    if other is not None:
+        message = f"`{equation.key}` is no equation of {q.symbol.name} alone: it has {other.name}, which moves too"
+        help_line = f"put in what {other.name} is, from another equation"
+        raise Rejected(Complaint("not-linear", message, help=help_line))
+
+
+def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
     """What kind of motion it is, and the condition under which it is so, where the letters leave it open."""
     a, b, c = linear.a, linear.b, linear.c
+    key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:
         message = f"`solution`: there is no case `{case}`"
         raise Rejected(Complaint("wrong-argument", message, help=f"the cases are {', '.join(CASES)}"))
@@ -180,21 +203,21 @@ def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Re
     if b == 0:
         sign = sign_known(c / a)
         if sign is None:
-            raise Rejected(Complaint("open-case", f"`{equation.key}`: the sign of {tidied(c / a)} is not known"))
+            raise Rejected(Complaint("open-case", f"{key}: the sign of {tidied(c / a)} is not known"))
         return ("oscillates" if sign > 0 else "runs_away"), None
     sign = sign_known(linear.discriminant)
     known = next((name for name, wanted in CASES.items() if wanted == sign), None)
     if known is None and case is None:
-        message = f"`{equation.key}`: the sign of {linear.discriminant} is not known"
+        message = f"{key}: the sign of {linear.discriminant} is not known"
         raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
     if known is not None and case not in (None, known):
-        raise Rejected(Complaint("open-case", f"`{equation.key}` is {known.replace('_', ' ')}"))
+        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
     if known is not None:
         return known, None
     if case == "critically_damped":
-        message = f"`{equation.key}` is critically damped only where {linear.discriminant} = 0"
+        message = f"{key} is critically damped only where {linear.discriminant} = 0"
         raise Rejected(Complaint("open-case", message, help="put that case in first, with `put_in`"))
     mark = "<" if case == "underdamped" else ">"
     return str(case), _compared(tidied(b**2), mark, tidied(4 * a * c))
@@ -285,7 +308,7 @@ def _of_power(linear: Linear, power: Expr) -> Expr:
     """Undetermined coefficients: a polynomial, times t or t^2 where the free motion has constants or powers itself."""
     degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
-    unknown = [scalar(f"u_{n}") for n in range(degree + 1)]
+    unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
     trial = Add(*(u * TIME ** (n + lowest) for n, u in enumerate(unknown)))
     free = Linear(linear.a, linear.b, linear.c, power)
     rows = expand(free.residual(trial)).as_poly(TIME).all_coeffs()

@@ -146,7 +146,9 @@ def _one(
         lambda *_: whole,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
+        routes=equations[i]
+        .needed(Matter)
+        .named({"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))}),
         outcome=_outcome(linear, i, bool(away)),
         telling=Telling(
             points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},

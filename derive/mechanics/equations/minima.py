@@ -15,7 +15,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread_or_by_terms
-from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar
+from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -274,7 +274,7 @@ def _of_several(place: Place, key: str) -> Quantity:
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
-        marks = {q: Symbol(f"u_{q.name}", real=True) for q in moving}
+        marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = coefficient_along(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[diff(energy, marks[p], marks[q]) for q in moving] for p in moving])
         return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])

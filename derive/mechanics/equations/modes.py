@@ -27,7 +27,7 @@ from sympy import (
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
-from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar
+from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -130,7 +130,7 @@ def _characteristic(
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
-        amplitudes = [Symbol(f"a_{n}", real=True) for n in range(len(linear))]
+        amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
         swing = cos(letter * T)
         left = [_with_motion(each, together, [a * swing for a in amplitudes]) / swing for each in linear]
         rows = [[diff(value, a) for a in amplitudes] for value in map(expand, left)]
@@ -241,7 +241,7 @@ def _shape(
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """The motion put into the linear equations, at any time."""
-        w = Symbol("w", positive=True)
+        w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         turned = -squared if root.sign == -1 else squared
         left = [_with_motion(each, together, [a * course for a in found]) / course for each in linear]
@@ -249,7 +249,7 @@ def _shape(
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 
     def across(found: MatrixBase) -> tuple[Expr, Expr]:
-        marks = [Symbol(f"u_{i}", real=True) for i in range(len(before))]
+        marks = [stand_in(f"u_{i}") for i in range(len(before))]
         products = [(other.value.T * together.mass * found)[0] for other in before]
         return Add(*(mark * product for mark, product in zip(marks, products, strict=True))), ZERO
 
@@ -313,7 +313,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
     def same_again(found: Expr) -> tuple[Expr, Expr]:
         """Once round, counted by what a turn adds to the phase: cos and sin of it, and cos of its half."""
         turn = tidied(of.value * found)
-        u, v = (Symbol(name, real=True) for name in ("u", "v"))
+        u, v = (stand_in(name) for name in ("u", "v"))
         return cos(turn) + u * sin(turn) + v * cos(turn / 2), 1 - v
 
     return establish(

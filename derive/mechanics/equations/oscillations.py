@@ -8,7 +8,7 @@ from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, 
 
 from derive.algebra.collect import spread
 from derive.algebra.equality import equal
-from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar
+from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -44,7 +44,7 @@ def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearise
     if others:
         message = f"`linearised` needs an equation of {q.name} alone, but `{equation.key}` also has {others[0].name}"
         raise Rejected(Complaint("wrong-argument", message))
-    small = Symbol("epsilon", real=True)
+    small = stand_in("epsilon")
     moved = equation.value.left.xreplace(
         {q: place + small * q, rate(q): small * rate(q), rate(q, 2): small * rate(q, 2)}
     )
@@ -96,7 +96,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         raise Rejected(Complaint("wrong-argument", message))
     for role, coefficient in (("stiffness", stiffness), ("inertia", mass)):
         require_constant("frequency_squared", role, coefficient)
-    trial = Symbol("w", positive=True)
+    trial = stand_in("w", positive=True)
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
         swing = cos(trial * T)
@@ -142,7 +142,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     outcome = sign_of(squared.value)
     grows = outcome == "unstable"
     name = symbol or ("kappa" if grows else squared.needed(SquareOf).letter)
-    trial = Symbol("w", positive=True)
+    trial = stand_in("w", positive=True)
 
     def satisfies(found: Expr) -> tuple[Expr, Expr]:
         motion = exp(trial * T) if grows else cos(trial * T)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial
 
 from derive.algebra.collect import spread_or_by_terms
-from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit
+from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
@@ -142,7 +142,7 @@ def leading_order(
     def by_derivatives(found: Expr) -> tuple[Expr, Expr]:
         """Each derivative with a mark of its own, so that no two can make up for one another."""
         orders = range(1, (order or HIGHEST) + 1)
-        marks = {n: Symbol(f"u_{n}", real=True) for n in orders}
+        marks = {n: stand_in(f"u_{n}") for n in orders}
         expected = leading * factorial(order) * marks[order] if order else Integer(0)
         return Add(*(diff(found, q, n).subs(q, place) * marks[n] for n in orders)), expected
 

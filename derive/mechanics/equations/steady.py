@@ -123,7 +123,9 @@ def _of_equation(
         lambda *_: Relation(bound(equation.value.left, still), "=", 0),
         {"equation": equation, "coordinate": q.symbol},
         lines=Lines(put_in=None, arranged=lambda _: Relation(core, "=", 0)),
-        routes={"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))},
+        routes=matter.named(
+            {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
+        ),
         outcome="of_equation",
         telling=Telling(
             formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
@@ -174,7 +176,9 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
         lambda L: Relation(Partial(L, q.symbol), "=", 0),
         {"lagrangian": of},
         lines=Lines(put_in=None, motion=motion, arranged=lambda _: Relation(core, "=", 0)),
-        routes={"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))},
+        routes=matter.named(
+            {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
+        ),
         outcome="always" if core == 0 else "generic",
         telling=Telling(
             formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},

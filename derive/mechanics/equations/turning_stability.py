@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Add, Expr, Integer, Poly, Symbol, cancel, discriminant
+from sympy import Add, Expr, Integer, Mul, Poly, Symbol, cancel, discriminant, factor
 
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
@@ -29,6 +29,7 @@ from derive.steps.step import Form, Level, Quantity
 __all__ = ["linear_stability"]
 
 ZERO = Integer(0)
+LARGEST = 200  # operations of a condition that is factored
 
 
 def linear_stability(
@@ -41,7 +42,7 @@ def linear_stability(
     Turning may hold what the potential energy alone would let fall; drag, however small, takes this away again.
     Second route: on the border of the condition two roots of the determinant meet, or one vanishes, where the
     determinant is that of cosines and sines put into the equations.
-    Outcomes: stable, unstable, depends; where there are several conditions, further for each but the first.
+    Outcomes: stable, unstable, depends; where there are several conditions first, further, and last for the last one.
     Errors: there is drag; the determinant does not factor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """
@@ -54,7 +55,7 @@ def linear_stability(
     needs = _needed(pencil)
     if any(pencil.sign(need) == -1 for need, _ in needs):
         return _verdict(characteristic, together, "unstable", key)
-    undecided = [(need, part) for need, part in needs if pencil.sign(need) != 1]
+    undecided = [(_open(need, pencil), part) for need, part in needs if pencil.sign(need) != 1]
     if not undecided:
         return _verdict(characteristic, together, "stable", key)
     conditions = [positive(need, *([letter] if isinstance(letter, Symbol) else [])) for need, _ in undecided]
@@ -78,6 +79,14 @@ def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
             message = "`linear_stability`: the determinant has a factor of which no closed form of the roots is known"
         raise Rejected(Complaint("not-decided", message))
     return [(need, part) for part in pencil.parts for need in part.needs]
+
+
+def _open(need: Expr, pencil: TurningPencil) -> Expr:
+    """Its factors whose sign is not known where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
+    if need.count_ops() > LARGEST:
+        return need
+    factors = Mul.make_args(factor(need))
+    return Mul(*(f / abs(f) if f.is_number else f for f in factors if pencil.sign(f) != 1))
 
 
 def _may_drift(part: Part, pencil: TurningPencil) -> bool:
@@ -130,7 +139,7 @@ def _condition(
 ) -> Quantity:
     """One condition.
 
-    Outcomes: depends, further.
+    Outcomes: depends, first, further, last.
     Source: that of `linear_stability`.
     """
     letter = characteristic.step.coordinates[-1][0]
@@ -156,11 +165,18 @@ def _condition(
             put_in=None, law=Level.FULL, result=False, after=[Form(condition, "solved")], arranged=lambda _: condition
         ),
         routes={"border": at_border},
-        outcome="depends" if i == 0 else "further",
+        outcome=_place_among(i, len(conditions)),
         telling=Telling(points_to=_named(characteristic), judged_by=judged_by(together, conditions)),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )
+
+
+def _place_among(i: int, number: int) -> str:
+    """What is said of stability is said of all conditions together, behind the last."""
+    if i == number - 1:
+        return "last" if i else "depends"
+    return "further" if i else "first"
 
 
 def _without_squares(value: Expr, square: Symbol) -> Expr:

@@ -43,6 +43,7 @@ from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume
 
 HIGHEST = 6  # power of a coordinate
+LARGEST_PRODUCT = 60  # operations of a sum that may be a product
 ONE = Integer(1)
 
 
@@ -193,24 +194,34 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
     What is added stands on one side, what is subtracted on the other: R omega^2 > g.
     """
-    core = Mul(*(f for f in Mul.make_args(tidied(value)) if strict_sign_within(f) != 1)).as_numer_denom()[0]
-    core = expand(core)
+    above, below = tidied(value).as_numer_denom()
+    open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
+    core = expand(Mul(*open_))  # a quotient has the sign of the product
     chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
     if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
         return solved
     terms = Add.make_args(core)
-    below = [-t for t in terms if t.could_extract_minus_sign()]
-    above = [t for t in terms if not t.could_extract_minus_sign()]
-    if len(below) == 1 and len(above) == 1 or not below:
-        return Relation(spread(Add(*above)), ">", spread(Add(*below)))
-    return Relation(tidied(core), ">", 0)
+    less = [-t for t in terms if t.could_extract_minus_sign()]
+    more = [t for t in terms if not t.could_extract_minus_sign()]
+    if len(less) == 1 and len(more) == 1 or not less:
+        return Relation(spread(Add(*more)), ">", spread(Add(*less)))
+    return Relation(_in_factors(core), ">", 0)
+
+
+def _in_factors(core: Expr) -> Expr:
+    """The product that a sum is, (k - m w^2) (c - m w^2), if it is one."""
+    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
+        return tidied(core)
+    number, factors = factor_list(core)
+    sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]
+    return tidied(core) if len(sums) < 2 else number * Mul(*(tidied(factor) ** times for factor, times in factors))
 
 
 def different_from_zero(value: Expr) -> Relation | None:
     """What must be so that a value by which one divides does not vanish, omega^2 != k/m; nothing where it cannot."""
     if sign_known(value) is not None:
         return None
-    condition = positive(value)
+    condition = positive(tidied(value).as_numer_denom()[0])
     return Relation(condition.left, "!=", condition.right)
 
 

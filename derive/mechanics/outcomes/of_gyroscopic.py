@@ -15,7 +15,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import TIME, Relation, explicit
-from derive.algebra.ranges import range_of
+from derive.algebra.ranges import rational_in_range
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -30,19 +30,14 @@ def _numbers(facts: Judged) -> Iterator[dict[Any, Expr]]:
     letters = sorted(set().union(*(each.free_symbols for each in matrices)), key=str)
     for shift in range(SHIFTS):
         drawn = {
-            s: _in_range(s, Rational(prime(3 + (7 * i + 5 * shift) % 23), 11) * SCALES[(shift * (i + 1) + i) % 5])
+            s: rational_in_range(
+                s, Rational(prime(3 + (7 * i + 5 * shift) % 23), 11) * SCALES[(shift * (i + 1) + i) % 5]
+            )
             for i, s in enumerate(letters)
         }
         exists = facts.inputs.get("exists")
         if exists is None or _holds(exists, drawn):
             yield drawn
-
-
-def _in_range(letter: Any, number: Expr) -> Expr:
-    known = range_of(letter)
-    if known is None:
-        return number
-    return Rational(str((known.least + (known.greatest - known.least) * number / (1 + number)).evalf(20)))
 
 
 def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
@@ -115,6 +110,12 @@ def _depends(facts: Judged) -> bool:
     points = [n for n in _numbers(facts) if not any(is_zero(explicit(c.residual).xreplace(n)) for c in conditions)]
     tried = [(all(_holds(c, n) for c in conditions), _steady(facts, n)) for n in points]
     return all(told == found for told, found in tried) and facts.result in conditions
+
+
+def _is_among_conditions(facts: Judged, place: int) -> bool:
+    """Whether it has this place among several."""
+    conditions = facts.inputs["conditions"]
+    return len(conditions) > 1 and bool(facts.result == conditions[place])
 
 
 def _moving(facts: Judged) -> list[Expr]:
@@ -213,8 +214,10 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "gyroscopic.stability": {
         "stable": _always(True),
         "unstable": _always(False),
-        "depends": _depends,
-        "further": _depends,
+        "depends": lambda facts: _depends(facts) and len(facts.inputs["conditions"]) == 1,
+        "first": lambda facts: _depends(facts) and _is_among_conditions(facts, 0),
+        "further": lambda facts: _depends(facts) and not any(_is_among_conditions(facts, n) for n in (0, -1)),
+        "last": lambda facts: _depends(facts) and _is_among_conditions(facts, -1),
     },
     "damped.characteristic": {
         "one": lambda facts: Poly(facts.result.left, facts.inputs["exponent"]).degree() == 2,

@@ -14,7 +14,7 @@ from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rati
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.ranges import rational_in_range
-from derive.mechanics.outcomes.signs import always_sign
+from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -151,6 +151,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "driven": _linear(displaced=False, lossy=None, driven=True),
         "displaced_driven": _linear(displaced=True, lossy=None, driven=True),
     },
+    "superposition.motion": {"generic": lasts, "zero": vanishes},
     "modes.characteristic": {"one": _degree(1), "several": _degree(None)},
     "modes.frequency": {
         f"{word}{suffix}": _frequency(sign, repeated)

@@ -143,6 +143,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "conservation.product": {"generic": _times_its_factor},
     "conservation.sum": {word: _sum_left(word) for word in ("plain", "cancel", "remain")},
     "conservation.rate_under": {"conserved": vanishes, "changes": lasts},
+    "steady.constant_angular_velocity": {"generic": lasts, "momentary": lasts},
+    "cones.tangent_between": {"generic": lasts, "parallel": vanishes},
+    "cones.vector_component": {"generic": lasts, "zero": vanishes},
     "equations.squared_magnitude": {"generic": lasts, "zero": vanishes},
     "equations.magnitude": {"generic": lasts, "zero": vanishes},
 }

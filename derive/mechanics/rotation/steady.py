@@ -1,4 +1,4 @@
-"""Steady rotation that is given by its components along the axes of the body."""
+"""Rotation that is given by its components along the axes of the body: a steady one, or that of one moment."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from sympy import Expr, Integer
 
 from derive.algebra.expressions import column, vector
 from derive.errors import Complaint, Rejected
-from derive.mechanics.rotation.vectors import Through
+from derive.mechanics.rotation.vectors import Momentary, Through
 from derive.steps.establish import Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject
 
-__all__ = ["constant_angular_velocity"]
+__all__ = ["constant_angular_velocity", "momentary_angular_velocity"]
 
 
 def constant_angular_velocity(
@@ -27,13 +27,31 @@ def constant_angular_velocity(
     Errors: not three components; all of them vanish; one of them changes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
+    return _given("constant_angular_velocity", components, through, symbol, key)
+
+
+def momentary_angular_velocity(
+    components: Sequence[Expr], through: str = "centre", symbol: str = "omega", key: str = "angular_velocity"
+) -> Quantity:
+    """The angular velocity at one moment by its components along the axes of the body, in 1/s: a definition.
+
+    components   three, 1/s
+    through      the point of the body that stays at rest
+    Errors: not three components; all of them vanish; one of them changes.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
+    """
+    return _given("momentary_angular_velocity", components, through, symbol, key)
+
+
+def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key: str) -> Quantity:
     if len(components) != 3:
         raise Rejected(Complaint("wrong-argument", f"an angular velocity has three components, not {len(components)}"))
     omega = column(*(Integer(0) + component for component in components))
     if is_zero(omega):
         raise Rejected(Complaint("zero-vector", "a body whose angular velocity vanishes does not turn"))
     for component in omega:
-        require_constant("constant_angular_velocity", "component", component)
+        require_constant(verb, "component", component)
+    is_momentary = verb == "momentary_angular_velocity"
     return establish(
         "steady.constant_angular_velocity",
         vector(symbol),
@@ -42,6 +60,7 @@ def constant_angular_velocity(
         key=key,
         definition=True,
         kind="angular speed",
-        facts=[Through(through)],
+        outcome="momentary" if is_momentary else "generic",
+        facts=[Through(through), *([Momentary(through)] if is_momentary else [])],
         scope=Scope(about=Subject(rotation=omega)),
     )

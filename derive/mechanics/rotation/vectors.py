@@ -26,6 +26,7 @@ from derive.algebra.expressions import (
     scaled,
     vector,
 )
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import factored_matrix, size_and_rest, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
@@ -50,6 +51,14 @@ class Through(Fact):
     """The point of the body that stays at rest when it turns."""
 
     missing = "is not an angular velocity"
+    point: str
+
+
+@dataclass(frozen=True)
+class Momentary(Fact):
+    """That an angular velocity is that of one moment, and need not stay as it is."""
+
+    missing = "is not the angular velocity at one moment"
     point: str
 
 
@@ -342,6 +351,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
         scalar(symbol),
         lambda: acos(cosine.value),
         {},
+        lines=Lines(arranged=_angle_itself),
         parents=[cosine, a, b],
         telling=Telling(points_to={"a": a, "b": b}),
         routes={
@@ -354,6 +364,15 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     )
 
 
+def _angle_itself(angle: Expr) -> Expr:
+    """Of arccos(cos(alpha)) the angle, where it is known to lie between 0 and pi."""
+    inner = angle.args[0] if isinstance(angle, acos) else None
+    if not isinstance(inner, cos):
+        return tidied(angle)
+    within = (inner.args[0], pi - inner.args[0])
+    return inner.args[0] if all(strict_sign_within(each) == 1 for each in within) else tidied(angle)
+
+
 def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
     """Torque that keeps L turning with the body: tau = dL/dt = omega x L.
 
@@ -361,7 +380,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
     Second route: carry L round the axis by a rotation matrix and differentiate.
     Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
-    Errors: omega or L changes; L belongs to another rotation than omega.
+    Errors: omega or L changes, or is that of one moment; L belongs to another rotation than omega.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
     require_kind("torque", "omega", omega, "angular speed")
@@ -370,6 +389,9 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     require_constant(
         "torque", "angular momentum in the body", momentum, "`rate_in_space` is dL/dt for one that changes"
     )
+    if omega.fact(Momentary) is not None:
+        message = f"`torque` keeps a steady rotation up, but `{omega.key}` is that of one moment"
+        raise Rejected(Complaint("wrong-argument", message))
     about = momentum.needed(AboutPoint).point.name
     (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
     carried = CarriedRate(momentum.value, omega.value)

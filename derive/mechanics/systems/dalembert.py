@@ -9,17 +9,16 @@ Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert'
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
-from sympy import Expr, Integer, Matrix, Rational, Symbol, cos, sin
+from sympy import Expr, Integer, Matrix, Symbol
 
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.taylor import slope
 from derive.mechanics.systems.coordinates import by_functions_of_time
-from derive.steps.step import Fact
+from derive.steps.step import Fact, Route
 
 Vector = tuple[Expr, ...]
 
@@ -109,6 +108,19 @@ class Matter(Fact):
         return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both), others, fields)
 
     @property
+    def is_known(self) -> bool:
+        """Whether it tells what moves, or what has a potential energy."""
+        return bool(self.points or self.loads)
+
+    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
+        """Second routes by the names that tell on what they stand."""
+        return dict(routes)
+
+    def further_routes(self, q: Symbol) -> dict[str, Route]:
+        """To an equation of motion, besides the virtual work."""
+        return {}
+
+    @property
     def is_driven(self) -> bool:
         """Whether a place depends on the time itself, and not by the coordinates alone."""
         return any(TIME in explicit(x).free_symbols for point in self.points for x in point.place)
@@ -183,28 +195,3 @@ def _dot(u: Vector, v: Vector) -> Expr:
 
 def _along(v: Vector, q: Symbol) -> Vector:
     return tuple(slope(x, q) for x in v)
-
-
-def plane_body(mass: Expr, place: Sequence[Any], inertia: Expr, angle: Expr, coordinates: Sequence[Symbol]) -> Matter:
-    """A body that moves in a plane: its mass at the centre of mass, and its moment of inertia about that on a pointer.
-
-    Two points of half the mass at the distances +-k along the pointer, with M k^2 = I, have the same moment of inertia.
-    """
-    at = tuple(explicit(x) for x in place)
-    return Matter((MassPoint(mass, at), *_pointer(inertia, angle)), (), tuple(coordinates))
-
-
-def _pointer(inertia: Expr, angle: Expr) -> tuple[MassPoint, ...]:
-    return (MassPoint(inertia, (cos(angle), sin(angle))),) if inertia != 0 else ()
-
-
-def symmetric_body(across: Expr, along: Expr, axes: Sequence[Sequence[Expr]], coordinates: Sequence[Symbol]) -> Matter:
-    """A body with an axis of symmetry, from its moments of inertia about a fixed point and its axes in space.
-
-    across, along   moments of inertia across the axis of symmetry and along it, kg m^2
-    axes            the body's unit vectors x, y, z in space, z along the axis
-    The second moments, sum of m x^2 = sum of m y^2 = along/2 and sum of m z^2 = across - along/2, give these moments.
-    """
-    weights = (along * Rational(1, 2), along * Rational(1, 2), across - along / 2)
-    points = tuple(MassPoint(w, tuple(e)) for w, e in zip(weights, axes, strict=True))
-    return Matter(points, (), tuple(coordinates))

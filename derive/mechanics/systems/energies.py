@@ -22,6 +22,7 @@ from derive.algebra.expressions import (
     explicit,
     rate,
     scalar,
+    stand_in,
 )
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
@@ -265,7 +266,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     moving, matter = [*system.coordinates, TIME], system.matter
 
     def work(found: Expr) -> tuple[Expr, Expr]:
-        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        marks = [stand_in(f"delta_{q.name}") for q in moving]
         lost = [-derivative(found, q) * mark for q, mark in zip(moving, marks, strict=True)]
         return Add(*lost), Add(*(matter.stored_force_along(q) * mark for q, mark in zip(moving, marks, strict=True)))
 
@@ -326,7 +327,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         return Terms(*terms) if len(terms) > 1 else terms[0]
 
     def deflection(found: Expr) -> tuple[Expr, Expr]:
-        marks = [Symbol(f"delta_{q.name}", real=True) for q in moving]
+        marks = [stand_in(f"delta_{q.name}") for q in moving]
         pairs = list(zip(moving, marks, strict=True))
         slopes = (derivative(found, q) - by_functions_of_time(derivative(found, rate(q)), moving) for q in moving)
         works = (matter.deflection_along(q) * mark for q, mark in pairs)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
 
@@ -16,7 +16,6 @@ from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.forces import Damper, GivenForce
-from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with
 from derive.steps.subject import Subject
@@ -45,7 +44,21 @@ class ForcedMotion(Fact):
     lagrangian: Quantity
 
 
-def acting_on(system: System) -> tuple[Fact, ...]:
+@runtime_checkable
+class WithForces(Protocol):
+    """What moves in coordinates, and what acts on it besides what has a potential energy."""
+
+    @property
+    def coordinates(self) -> Mapping[Symbol, str]: ...
+    @property
+    def constraints(self) -> tuple[Constraint, ...]: ...
+    @property
+    def given_forces(self) -> tuple[GivenForce, ...]: ...
+    @property
+    def dampers(self) -> tuple[Damper, ...]: ...
+
+
+def acting_on(system: WithForces) -> tuple[Fact, ...]:
     """What the Lagrangian of a system must hand on to its equations of motion."""
     found: list[Fact] = [Kept(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
@@ -59,7 +72,7 @@ def acting(*energies: Quantity) -> list[Fact]:
     return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Kept)]
 
 
-def dissipation_function(system: System, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
+def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
     """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over what damps a system, in W.
 
     system   its dampers: c in kg/s for a place, in N m s for an angle
@@ -194,7 +207,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         law,
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},
         lines=Lines(put_in=None, arranged=lambda found: _sides(found, moving, constraints)),
-        routes={"virtual_work": compared_with(by_virtual_work)},
+        routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
         telling=Telling(judged_by={"coordinate": q.symbol, "letters": tuple(c.force for c in constraints)}),
         key=key,

@@ -21,6 +21,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_fu
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
+from derive.mechanics.systems.given_lagrangian import Varied
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import changes, free_letter
@@ -58,6 +59,11 @@ class Energies(Fact):
     @property
     def whole(self) -> Expr:
         return explicit(self.kinetic.value + self.potential.value)
+
+
+def energies_of(lagrangian: Quantity) -> Energies | None:
+    """The energies that it is the difference of; nothing where it is given."""
+    return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
 
 
 def lagrangian(
@@ -164,6 +170,9 @@ def equation_of_motion(
         ),
         moving,
     )
+    if found and of.fact(Varied) is not None:
+        terms = explicit(found[2].value) - explicit(found[0].value)
+        gathered = min((gathered, terms), key=lambda form: int(form.count_ops()))
     alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
     left = _without_common_factor(gathered, moving) if alone else gathered
 
@@ -183,7 +192,7 @@ def equation_of_motion(
             put_in=None,
             arranged=lambda _: Relation(left, "=", 0),
         ),
-        routes={"virtual_work": compared_with(by_virtual_work)},
+        routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome="cyclic" if is_zero(slope(explicit(of.value), q.symbol)) else "generic",
         telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key,
@@ -253,13 +262,17 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         lambda L: Partial(L, q.symbol),
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
-        routes={
-            "virtual_work": compared_with(
-                lambda: (
-                    matter.force_along(q.symbol) - matter.other_force_along(q.symbol) + matter.turning_along(q.symbol)
-                )
-            ),
-        },
+        routes=matter.named(
+            {
+                "virtual_work": compared_with(
+                    lambda: (
+                        matter.force_along(q.symbol)
+                        - matter.other_force_along(q.symbol)
+                        + matter.turning_along(q.symbol)
+                    )
+                ),
+            }
+        ),
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or _key_of(of, f"force_{q.symbol.name}"),
     )
@@ -280,7 +293,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
-        routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
+        routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
         key=key or _key_of(of, f"momentum_{q.symbol.name}"),
         facts=[FromLagrangian(of), OfCoordinate(q)],
     )

@@ -10,7 +10,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rationa
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
-from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar
+from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar, stand_in
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody, after
@@ -175,7 +175,7 @@ def _solved(
     """The condition as the rate that it fixes."""
     q, found = condition.q, condition.rate
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
-    marks = [Symbol(f"delta_{i}", real=True) for i in range(len(at.components))]
+    marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
         """The particle of the body at the contact is at rest there, all conditions taken together."""
@@ -238,7 +238,7 @@ def _all_rates(body: PlacedBody, at: Location, ground: Location | None, fixes: C
 def velocity_of_particle(body: PlacedBody, at: Location, ground: Location | None) -> list[Expr]:
     """The particle is where the contact is: held fast in the body, its place is differentiated as a function of t."""
     arm = ImmutableDenseMatrix((at - body.at).components)
-    names = [Symbol(f"rho_{i}", real=True) for i in range(len(arm))]
+    names = [stand_in(f"rho_{i}") for i in range(len(arm))]
     if isinstance(body.turned, Axes):
         turn = body.turned.in_space
         carried = turn * ImmutableDenseMatrix(names)

@@ -18,13 +18,16 @@ from sympy import (
     Integer,
     Matrix,
     Mul,
+    Pow,
     Rational,
     Symbol,
     cos,
     diff,
     expand,
+    factor,
     factor_terms,
     sin,
+    together,
 )
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6
@@ -37,7 +40,8 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, coordinate, required
 from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
+from derive.mechanics.systems.inverted_momenta import by_quadratic_form, roots_together
+from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of, energies_of
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Fact, Form, Quantity, compared_with, lettered
 
@@ -72,10 +76,13 @@ def letter_of_momentum(q: Coordinate) -> Symbol:
     return scalar(f"p_{q.symbol.name}")
 
 
-def kind_of_momentum(kind: str) -> str | None:
-    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name."""
+def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None:
+    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name,
+    as where the Lagrangian is no energy."""
+    if lagrangian is None:
+        return None
     return kind_of_dimension(
-        dimension_of_kind("energy") * dimension_of_kind("time") / dimension_of_kind(kind),
+        dimension_of_kind(lagrangian) * dimension_of_kind("time") / dimension_of_kind(kind),
     )
 
 
@@ -109,13 +116,21 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
         letter,
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, list(of.coordinates))),
-        routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or letter.name,
-        kind=kind_of_momentum(q.kind),
+        kind=kind_of_momentum(q.kind, of.step.kind),
         facts=[FromLagrangian(of), OfCoordinate(q)],
     )
+
+
+def written_momentum(value: Expr, of: Quantity) -> Expr:
+    """By rates; of a Lagrangian that is given term by term where that is shorter, as beside a root."""
+    forms = [by_rates(value, list(of.coordinates))]
+    if energies_of(of) is None:
+        forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))
+    return _shortest(forms)
 
 
 def momenta(of: Quantity) -> tuple[Quantity, ...]:
@@ -180,8 +195,15 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
     if matrix.has(*rates):
+        by_form = by_quadratic_form(momenta_of, rates)
+        if by_form is not None:
+            return {v: squared_below_roots(found, list(momenta_of)) for v, found in by_form.items()}
         raise Rejected(
-            Complaint("wrong-argument", "rates can be solved from momenta only where these are linear in them")
+            Complaint(
+                "wrong-argument",
+                "rates can be solved from momenta only where these are linear in them, or where the Lagrangian holds "
+                "the rates by one sum of squares",
+            )
         )
     found: dict[Symbol, Expr] = {}
     for block in _coupled(matrix):
@@ -251,10 +273,10 @@ def by_one_square(value: Expr) -> Expr:
         return Add(*(by_one_square(term) for term in value.args))
     sign: Expr = Integer(1)
     factors: list[Expr] = []
-    for factor in Mul.make_args(value):
-        if factor.is_Mul:
-            factor = by_one_square(factor)
-        base, power = factor.as_base_exp()
+    for part in Mul.make_args(value):
+        if part.is_Mul:
+            part = by_one_square(part)
+        base, power = part.as_base_exp()
         if base.is_Add and power.is_Integer:
             base = _shortest([base, *(factor_terms(expand(square(base))) for square in (TR5, TR6))])
             if power.is_negative and base.could_extract_minus_sign():
@@ -334,11 +356,36 @@ def beside_potential(
     letters   momenta, constant or not; `moving` are coordinates whose rates still occur
     sign      that of the potential energy: -1 in a Lagrangian
     """
-    potential = explicit(of.needed(Energies).potential.value)
+    energies = energies_of(of)
+    if energies is None:
+        return of_given(value, letters, moving)
+    potential = explicit(energies.potential.value)
     at_rest = bound(value, {rate(q): ZERO for q in moving})
     kinetic = by_one_square(by_rates(tidied(value - at_rest), list(moving), halves=True)) if moving else ZERO
     kinetic = with_weights_in_front(kinetic, list(moving), of.needed(Matter).weights)
     return Add(kinetic, sign * (by_letters(sign * at_rest - potential, letters) + potential))
+
+
+def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -> Expr:
+    """An energy of a Lagrangian that is given, where nothing tells which part of it is potential."""
+    fast = [*letters, *(rate(q) for q in moving)]
+    terms = Add.make_args(explicit(value).expand())
+    alone = tidied(Add(*(term for term in terms if not term.has(*fast))))
+    whole = Add(*(term for term in terms if term.has(*fast)))
+    forms = [roots_together(whole), tidied(whole), by_letters(whole, letters), factor(together(whole)), whole]
+    if moving:
+        forms.append(by_rates(whole, list(moving), halves=True))
+    return squared_below_roots(_shortest([explicit(form) for form in forms]), letters) + alone
+
+
+def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
+    """sqrt((p_x + b y)^2 + m^2 c^2), its squares completed where that is shorter."""
+    roots = {
+        power: by_letters(power.base, letters) ** power.exp
+        for power in value.atoms(Pow)
+        if power.exp.is_Rational and not power.exp.is_Integer
+    }
+    return value.xreplace(roots)
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
@@ -358,7 +405,7 @@ def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
     """The part of a quadratic expression that is homogeneous in the rates of degree 0, 1 or 2."""
     u = Dummy("u")
     scaled = bound(explicit(value), {v: u * v for v in rates})
-    factor = Rational(1, 2) if degree == 2 else Integer(1)
+    halved = Rational(1, 2) if degree == 2 else Integer(1)
     for _ in range(degree):
         scaled = derivative(scaled, u)
-    return factor * bound(scaled, {u: ZERO})
+    return halved * bound(scaled, {u: ZERO})

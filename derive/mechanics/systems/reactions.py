@@ -12,7 +12,7 @@ from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
 from derive.algebra.collect import by_accelerations
-from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, explicit, rate, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
@@ -314,7 +314,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
     """Each coordinate with a factor of its own, so that no two terms can make up for one another."""
     matter = problem.lagrangian.needed(Matter)
-    marks = [Symbol(f"delta_{q.name}", real=True) for q in problem.solved]
+    marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
     whole = Add(
         *(
             mark * (matter.inertia_along(q) - matter.force_along(q))
@@ -328,7 +328,7 @@ def _keeps_holding(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Exp
     total = ZERO
     for i, each in enumerate(problem.constraints):
         changing = by_functions_of_time(each.residual, problem.moving, 1 if each.in_rates else 2)
-        total += Symbol(f"delta_{i}", real=True) * changing
+        total += stand_in(f"delta_{i}") * changing
     return total.xreplace(dict(found)).xreplace(problem.known), ZERO
 
 

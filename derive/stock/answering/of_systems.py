@@ -26,6 +26,7 @@ from derive.mechanics import (
     energy_function_rate,
     equation_of_motion,
     equilibria,
+    given_lagrangian,
     hamilton_equations,
     hamiltonian,
     kinetic_energy_of,
@@ -41,9 +42,12 @@ from derive.mechanics import (
     stability,
     weight,
 )
+from derive.mechanics.equations.linearised import Rest
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
-from derive.steps.step import Quantity
+from derive.steps.step import Quantity, is_zero
+from derive.stock.answering.of_blows import BlowAnswers
+from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
@@ -71,9 +75,13 @@ class OfSystem(Protocol):
     @property
     def results(self) -> tuple[Result, ...]: ...
     @property
+    def blow(self) -> DescribedBlow | None: ...
+    @property
     def brought(self) -> Mapping[str, Place]: ...
     @property
     def place(self) -> Place | None: ...
+    @property
+    def given(self) -> tuple[Expr, str | None] | None: ...
 
 
 def constant(name: str, positive: bool = False) -> Symbol:
@@ -92,10 +100,14 @@ class Answers:
         self._on_the_way: list[str] = []
         self._known: dict[str, Any] = {}
         self._moving: dict[str, Quantity] = {}
+        self._blow: BlowAnswers | None = None
 
     @cached_property
     def system(self) -> System:
         described = self.described
+        if described.given is not None:
+            message = "this needs bodies and forces, but the Lagrangian is given in place of them"
+            raise Rejected(Complaint("given-lagrangian", message))
         parts = [part.made() for part in described.parts if part.maker not in ("body", "rolling")]
         if described.gravity is not None:
             parts.append(weight(described.gravity))
@@ -133,7 +145,11 @@ class Answers:
 
     @cached_property
     def lagrangian(self) -> Quantity:
-        return lagrangian(self.system)
+        if self.described.given is None:
+            return lagrangian(self.system)
+        function, kind = self.described.given
+        with told_at(self.described.place):
+            return given_lagrangian(function, *(part.made() for part in self.described.parts), kind=kind)
 
     @cached_property
     def cyclic(self) -> dict[str, Quantity]:
@@ -202,6 +218,8 @@ class Answers:
     @cached_property
     def potential_at_rest(self) -> Quantity:
         """The effective potential where something turns or a momentum is constant, else the potential energy."""
+        if self.described.given is not None:
+            return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
         for momentum in self.cyclic.values():
@@ -228,8 +246,12 @@ class Answers:
         except Rejected as refused:
             if any(each.code != "not-decided" for each in refused.complaints):
                 raise
-        key = at.key.replace("rest", "stability") if isinstance(at, Quantity) else "stability"
-        return tuple(returned_quantities(linear_stability(self._linearised_at(at), key=key)))
+        if not isinstance(at, Quantity):
+            return tuple(returned_quantities(linear_stability(self._linearised_at(at))))
+        rest = at.needed(Rest)
+        is_plain = self.state is None and rest.exists is None and all(is_zero(value) for value in rest.values.values())
+        small = self.linearised if is_plain else self._linearised_at(at, at.key.replace("rest", "linearised"))
+        return tuple(returned_quantities(linear_stability(small, key=at.key.replace("rest", "stability"))))
 
     @property
     def state(self) -> dict[Any, Expr] | Quantity | None:
@@ -243,16 +265,20 @@ class Answers:
     def linearised(self) -> tuple[Quantity, ...]:
         return self._linearised_at(self.state)
 
-    def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None) -> tuple[Quantity, ...]:
+    def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None, key: str = "linearised") -> tuple[Quantity, ...]:
         motions = tuple(self.motions.values())
         if self.reduced is not self.lagrangian:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
             at = at or self.equilibria[0]
-        elif at is None and self.system.given_forces and len(self.equilibria) == 1:
+        elif at is None and self._is_pushed and len(self.equilibria) == 1:
             at = self.equilibria[0]
-        found = linearised(motions, at=at)
+        found = linearised(motions, at=at, key=key)
         return found if isinstance(found, tuple) else (found,)
+
+    @property
+    def _is_pushed(self) -> bool:
+        return self.described.given is not None or bool(self.system.given_forces)
 
     @cached_property
     def normal_modes(self) -> tuple[Quantity, ...]:
@@ -311,11 +337,18 @@ class Answers:
             if name in dict(self.described.kept):
                 found[f"constant_{name}"] = partial(self._one_kept, name)
             found[f"acceleration_{name}"] = partial(self._one_of, "accelerations", f"acceleration_{name}")
-        for constraint in self.system.constraints:
+        for constraint in self.system.constraints if self.described.given is None else ():
             found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
+        if self.described.blow is not None:
+            found |= self.blow_of(self.described.blow).asks()
         for result in self.described.results:
             found[result.name] = partial(result.made, self.named, self.coordinates)
         return found
+
+    def blow_of(self, described: DescribedBlow) -> BlowAnswers:
+        if self._blow is None:
+            self._blow = BlowAnswers(described, self.coordinates, lambda: self.system, lambda: self.kinetic_energy)
+        return self._blow
 
     def check_letters(self) -> None:
         """What a letter of the description is found to be, and what else a step calls so, are of one kind."""

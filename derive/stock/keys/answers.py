@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 
-from derive.course.stock import each, told_at
+from derive.course.stock import each
 from derive.course.yaml_tree import Word
-from derive.errors import did_you_mean, rejected
+from derive.stock.answering.by_name import ByName
 
 
-def answered(asked: Sequence[Word], asks: Mapping[str, Callable[[], object]], what: str) -> dict[str, object]:
+def answered(asked: Sequence[Word], answers: ByName) -> dict[str, object]:
     """Each answer that a part asks for; what is refused is refused where it is asked for, and all of it."""
-    return dict(each([partial(_answer, name, asks, what) for name in asked]))
+    return dict(each([partial(_answer, name, answers) for name in asked]))
 
 
-def _answer(name: Word, asks: Mapping[str, Callable[[], object]], what: str) -> tuple[str, object]:
-    if name not in asks:
-        help_line = did_you_mean(name, asks) or f"one may ask for {', '.join(asks)}"
-        rejected("no-such-answer", f"{what} has no answer called `{name}`", name.place, help_line)
-    with told_at(name.place):
-        return str(name), asks[name]()
+def _answer(name: Word, answers: ByName) -> tuple[str, object]:
+    return str(name), answers.made(name)

@@ -33,14 +33,14 @@ from derive.mechanics import X, Y, Z, point, space
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.places import Axes, Location
 
-ANGLE, LENGTH = "angle", "length"
+ANGLE, LENGTH, CHARGE = "angle", "length", "charge"
 
 
 def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
-    return sort_of_letter(node, name, faults, (ANGLE, LENGTH))
+    return sort_of_letter(node, name, faults, (ANGLE, LENGTH, CHARGE))
 
 
-COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH)), _sort))
+COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH, CHARGE)), _sort))
 COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
 TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of turns, such as `[{z: phi}, {x: theta}]`"))
 AXIS_OF = {"x": X, "y": Y, "z": Z}

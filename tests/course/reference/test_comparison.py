@@ -11,8 +11,10 @@ import pytest
 
 from derive.algebra.equality import Grade, Verdict
 from derive.cli.options import main
-from derive.course.problem import Problem, run_solve
+from derive.course.problem import Problem, load_problem, run_solve
+from derive.course.reference.comparison import comparisons
 from derive.errors import Unverified
+from derive.steps.derivation import returned_quantities, with_ancestors
 from tests.course.reference.stated import HEAD, Compared, one
 from tests.courses import ROOT, course_in, rendered_once
 
@@ -194,3 +196,26 @@ def test_the_homework_agrees_but_for_its_errata(problem: str, count: int, errata
     assert (len(found), outcomes.count("erratum")) == (count, errata)
     assert {outcome.split(" to ")[0] for outcome in outcomes} == {"agrees", "erratum"}
     assert {entry["grade"] for entry in found} <= {"proved", "approximation"}
+
+
+@pytest.mark.parametrize(
+    ("symbols", "moments", "here"),
+    [
+        ("", "I_x, I_y, I_z", True),
+        (", omega_x: angular speed", "I_x, I_y, I_z", True),
+        ("", "I_x, I_x, I_z", False),
+    ],
+)
+def test_a_source_is_about_the_system_that_its_group_describes(
+    symbols: str, moments: str, here: bool, tmp_path: Path
+) -> None:
+    """Letters that a group declares besides make no other system, and the same letters may describe another one."""
+    root = course_in(tmp_path, problem="euler")
+    letters = f"I_x: moment of inertia, I_y: moment of inertia, I_z: moment of inertia{symbols}"
+    head = f"- problem: euler\n  symbols: {{{letters}}}\n  given: {{moments: [{moments}]}}\n  entries:\n"
+    first, second, third = moments.split(", ")
+    entry = f"    - {{answer: inertia_tensor, states: [[{first}, 0, 0], [0, {second}, 0], [0, 0, {third}]]}}\n"
+    (root / "problems" / "hw9" / "reference.yaml").write_text(head + entry, encoding="utf-8")
+    problem = load_problem(root, "hw9/euler")
+    (found,) = comparisons(problem, with_ancestors(returned_quantities(run_solve(problem))))
+    assert (found.outcome, found.here) == ("agrees", here)

@@ -1,0 +1,214 @@
+"""A free symmetric body at one moment: its axis, the cones on which the angular velocity lies, and its precession.
+
+The angular velocity w = (L/I) L_dir - Omega_b e goes round the axis e in the body, on the body cone, and round the
+constant angular momentum L in space, on the space cone; so does the axis, at the rate L/I.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, Mul, Symbol, atan, cos, sin, tan
+
+from derive.algebra.expressions import (
+    AXES,
+    Component,
+    Cross,
+    Dot,
+    Norm,
+    Ratio,
+    column,
+    component_names,
+    explicit,
+    scalar,
+    vector,
+)
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.facts import AboutPoint, OfBody
+from derive.mechanics.rotation.vectors import Through, length_by_turning
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Quantity, compared_with, is_zero, require_kind
+
+__all__ = [
+    "axis_of_symmetry",
+    "precession_rate",
+    "tangent_between",
+    "vector_component",
+]
+
+
+def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_symmetry") -> Quantity:
+    """The unit vector along the axis of a body of which two principal moments are equal: that of the third.
+
+    inertia   tensor (3, 3), kg m^2, in principal axes
+    Second route: the second moments of the body, the integral of r r dm, are alike in all directions across it.
+    Errors: the axes are not principal; the moments all differ, or are all equal.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
+    """
+    require_kind("axis_of_symmetry", "inertia", inertia, "moment of inertia")
+    which = axis_number(inertia)
+    body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
+
+    def spread(found: Any) -> tuple[Any, Any]:
+        """Of r r dm without its part along the axis, what is left is the unit tensor across it."""
+        moments = ImmutableDenseMatrix(3, 3, lambda i, j: explicit(body.over_mass(lambda r: r[i] * r[j], point)))
+        along = (found.T * moments * found)[0, 0]
+        across = (moments.trace() - along) / 2
+        dyad = found * found.T
+        return moments, along * dyad + across * (ImmutableDenseMatrix.eye(3) - dyad)
+
+    return establish(
+        "cones.axis_of_symmetry",
+        vector(symbol),
+        lambda: column(*(int(k == which) for k in range(3))),
+        {},
+        routes={"second_moments": spread},
+        key=key,
+        kind="number",
+        parents=[inertia],
+        telling=Telling(points_to={"inertia": inertia}),
+    )
+
+
+def axis_number(inertia: Quantity) -> int:
+    """Which of the axes is that of symmetry."""
+    moments = inertia.value
+    if not moments.is_diagonal():
+        message = f"`{inertia.key}` is not along principal axes, of which one might be an axis of symmetry"
+        raise Rejected(Complaint("no-symmetry", message))
+    found = [k for k in range(3) if is_zero(moments[(k + 1) % 3, (k + 1) % 3] - moments[(k + 2) % 3, (k + 2) % 3])]
+    if len(found) != 1:
+        how = "all three are equal" if found else "all three differ"
+        message = f"one axis of symmetry needs two equal principal moments, but {how}"
+        raise Rejected(Complaint("no-symmetry", message))
+    return found[0]
+
+
+def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "tangent") -> Quantity:
+    """Tangent of the angle between two vectors, |a x b|/(a.b).
+
+    a, b    vectors (3), not zero and not at right angles, same axes
+    angle   the letter of the angle
+    Second route: the part of b along a, and the length of what is left of b, by turning it onto an axis.
+    Outcomes: generic, parallel (it vanishes).
+    Errors: one of them vanishes; they are at right angles.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4.
+    """
+    for v in (a, b):
+        if is_zero(v.value):
+            raise Rejected(Complaint("zero-vector", f"`{v.key}` vanishes, so that it makes no angle with anything"))
+    along = tidied(Dot(a.value, b.value))
+    if is_zero(along):
+        message = f"`{a.key}` and `{b.key}` are at right angles, so that the angle has no tangent"
+        raise Rejected(Complaint("no-tangent", message))
+    u, w = explicit(a.value), explicit(b.value)
+
+    def by_parts() -> Expr:
+        part = u * ((u.T * w)[0, 0] / (u.T * u)[0, 0])
+        rest = (w - part).applyfunc(tidied)
+        return length_by_turning(ImmutableDenseMatrix(rest)) * length_by_turning(u) / (u.T * w)[0, 0]
+
+    letter = scalar(angle)
+    value = tidied(Ratio(Norm(Cross(u, w)), along))
+    return establish(
+        "cones.tangent_between",
+        tan(letter),
+        lambda u, v: Ratio(Norm(Cross(u, v)), Dot(u, v)),
+        {"a": a, "b": b},
+        lines=Lines(put_in=None, means={letter: atan(value)}, arranged=lambda found: _with_tangents(tidied(found))),
+        routes={"parts": compared_with(by_parts)},
+        outcome=lambda found: "parallel" if is_zero(found) else "generic",
+        key=key,
+        kind="number",
+        scope=Scope(differ={"point", "rotation"}),
+    )
+
+
+def _with_tangents(value: Expr) -> Expr:
+    """(A/C) tan(alpha) of A sin(alpha)/(C cos(alpha))."""
+    factors = Mul.make_args(value)
+    for s in (f for f in factors if isinstance(f, sin)):
+        below = 1 / cos(s.args[0])
+        if below in factors:
+            return Mul(*(f for f in factors if f not in (s, below)), tan(s.args[0]))
+    return value
+
+
+def precession_rate(
+    inertia: Quantity, momentum: Quantity, symbol: str = "Omega_p", key: str = "precession_rate"
+) -> Quantity:
+    """Rate at which the axis of a free symmetric body goes round its angular momentum in space, Omega_p = L/I.
+
+    inertia    tensor (3, 3), kg m^2, in principal axes, two of its moments equal to I
+    momentum   angular momentum L, vector (3), kg m^2/s, same axes
+    Second route: the axis e moves with w x e, which is Omega_p L_dir x e; and the angular momentum of this turning with
+    one about e alone, by particles, is L.
+    Errors: no axis of symmetry; L is along that axis, which then stays where it is.
+    Source: Landau, Lifshitz, *Mechanics*, section 33.
+    """
+    require_kind("precession_rate", "inertia", inertia, "moment of inertia")
+    require_kind("precession_rate", "momentum", momentum, "angular momentum")
+    require_constant("precession_rate", "angular momentum in the body", momentum, "give it at one moment by `start`")
+    which = axis_number(inertia)
+    axis, L = column(*(int(k == which) for k in range(3))), momentum.value
+    beside = tidied(Norm(Cross(axis, L)))
+    if is_zero(beside):
+        message = f"`{momentum.key}` is along the axis of symmetry, which stays where it is"
+        raise Rejected(Complaint("no-cone", message))
+    across = inertia.value[(which + 1) % 3, (which + 1) % 3]
+    omega = next(q for q in momentum.parents if q.fact(Through) is not None)
+    body, point = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point
+
+    def carries_the_axis(found: Expr) -> tuple[Any, Any]:
+        round_it = explicit(Cross(L, axis)) * found
+        return round_it, explicit(Cross(omega.value, axis)) * length_by_turning(L)
+
+    def leaves_a_spin(found: Expr) -> tuple[Any, Any]:
+        """What the angular velocity has beyond the precession is along the axis: by particles it gives no angular
+        momentum across it."""
+        rest = explicit(omega.value) * length_by_turning(L) - L * found
+        moved = explicit(body.over_mass(lambda r: Cross(r, Cross(rest, r)), point))
+        return explicit(Cross(axis, moved)), column(0, 0, 0)
+
+    return establish(
+        "cones.precession_rate",
+        scalar(symbol),
+        lambda momentum: Ratio(Norm(momentum), across),
+        {"momentum": momentum},
+        lines=Lines(put_in=None),
+        routes={"axis": carries_the_axis, "particles": leaves_a_spin},
+        key=key,
+        kind="angular speed",
+        parents=[inertia],
+        telling=Telling(formulas={"across": (across, across)}),
+    )
+
+
+def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: str | None = None) -> Quantity:
+    """One component of a vector, v_x = v . e_x.
+
+    of     vector (3), any unit
+    axis   "x", "y" or "z"
+    Second route: a turn of the axes by which the three take each other's places, after which it is the first.
+    Outcomes: generic, zero.
+    Errors: no vector; no such axis.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.
+    """
+    if getattr(of.value, "shape", None) != (3, 1) or axis not in AXES:
+        raise Rejected(Complaint("wrong-argument", f"`{of.key}` has no component along `{axis}`"))
+    i = AXES.index(axis)
+    turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
+    letter: Symbol = component_names(symbol or of.symbol.name)[i]
+    return establish(
+        "cones.vector_component",
+        letter,
+        lambda v: Component(v, axis),
+        {"vector": of},
+        lines=Lines(put_in=None),
+        routes={"turned": compared_with(lambda: (turned * explicit(of.value))[0, 0])},
+        outcome=lambda value: "zero" if is_zero(value) else "generic",
+        key=key or f"{of.key}_{axis}",
+        kind=of.step.kind,
+    )
