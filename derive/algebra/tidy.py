@@ -42,6 +42,7 @@ from derive.algebra.coefficients import Outside, in_front, is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
+from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
@@ -293,7 +294,7 @@ def common_factor(entries: list[Expr]) -> Expr:
         bottom = reduce(lcm, (d for _, d in parts))
     except PolynomialError:
         return Integer(1)
-    top = factor(top)
+    top = differences_of_squares(factor(top))
     if all(_leads_negative(entry) for entry in present):
         top = -top
     roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))

@@ -286,6 +286,8 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     left = lecture_form(value.left)
     kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
     core = Mul(*kept) if kept else left
+    if value.mark == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
+        core = -core  # x = 0, not -x = 0
     return Relation(lecture_form(core), value.mark, Integer(0))
 
 
