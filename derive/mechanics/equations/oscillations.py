@@ -8,7 +8,7 @@ from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, cos, diff, exp, pri
 
 from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import rational_in_range, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import root_of
@@ -134,7 +134,8 @@ def frequency(
     grows = outcome == "unstable"
     name = symbol or ("kappa" if grows else known.letter)
     size = -squared.value if grows else squared.value
-    shown = Root(size) if size.has(Add) else root_of(size)
+    plain = explicit(Root(size))
+    shown = settled(plain) if settled(plain) != plain else Root(size) if size.has(Add) else root_of(size)
     trial = stand_in("w", positive=True)
 
     def satisfies(found: Expr) -> tuple[Expr, Expr]:
@@ -145,7 +146,7 @@ def frequency(
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
         """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
         letters = sorted(squared.value.free_symbols, key=str)
-        there = {letter: Rational(prime(n + 5), 7) for n, letter in enumerate(letters)}
+        there = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
         imaginary = not grows and squared.value.subs(there).is_negative
         value = found.subs(there) / (I if imaginary else 1)
         return value, Abs(value)
@@ -155,7 +156,9 @@ def frequency(
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
-        lines=Lines(put_in=None, after=[Form(shown, "result")], result=False, arranged=explicit),
+        lines=Lines(
+            put_in=None, after=[Form(shown, "result")], result=False, arranged=lambda value: settled(explicit(value))
+        ),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,
         telling=Telling(
