@@ -6,6 +6,7 @@ How the result then stands on paper is decided by `derive.render.notation.notati
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache, reduce
 from typing import Any
 
@@ -41,6 +42,7 @@ from derive.algebra.coefficients import Outside, in_front, is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
+from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
@@ -75,9 +77,9 @@ def _tidied_scalar(value: Expr) -> Expr:
         if value.atoms(Add) and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
-        return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
+        return _shortest((_in_front(value), _in_front(_expanded_above(value))))
     forms = (value, *_by_one_square(value), *_by_pairs(value), *_by_one_angle(value))
-    return min((_as_one_fraction(form) for form in forms), key=_length)
+    return _shortest(_as_one_fraction(form) for form in dict.fromkeys(forms))
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -122,7 +124,7 @@ def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
 def _as_one_fraction(value: Expr) -> Expr:
     try:
         expanded = _in_front_expanded(value)
-        return expanded if is_multiplied_out(value) else min((expanded, _in_front(value)), key=_length)
+        return expanded if is_multiplied_out(value) else _shortest((expanded, _in_front(value)))
     except PolynomialError:
         return _in_front(value)
 
@@ -170,9 +172,21 @@ def _by_one_angle(value: Expr) -> list[Expr]:
     return [TR10i(expand(value))] if len(angles) > 1 and value.atoms(sin) else []
 
 
-def _length(value: Expr) -> tuple[int, str]:
-    """How much there is to write; between equals, always the same one."""
-    return int(value.count_ops()), str(value)
+def _shortest(forms: Iterable[Expr]) -> Expr:
+    """With the least to write; between equals, always the same one."""
+    lengths: dict[Expr, int] = {form: int(form.count_ops()) for form in forms}
+    least = min(lengths.values())
+    return min((form for form, length in lengths.items() if length == least), key=_Text)
+
+
+class _Text:
+    """How an expression is written, found only where it must be compared."""
+
+    def __init__(self, value: Expr) -> None:
+        self.value = value
+
+    def __lt__(self, other: _Text) -> bool:
+        return str(self.value) < str(other.value)
 
 
 def _has_roots(value: Expr) -> bool:
@@ -191,7 +205,7 @@ def _denested(value: Expr) -> Expr:
     content, rest = square.primitive()
     found = sqrt(content) * sqrtdenest(sqrt(rest))
     found = found if number.is_positive else -found
-    return min((value, found * letters), key=_length)
+    return _shortest((value, found * letters))
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
@@ -213,7 +227,7 @@ def _roots_drawn_out(value: Expr) -> Expr:
 
     def drawn(power: Expr) -> Expr:
         turning = power.base.atoms(sin, cos)
-        base = together(min((power.base, *(_in_one_square(power.base) if turning else ())), key=_length))
+        base = together(_shortest((power.base, *(_in_one_square(power.base) if turning else ()))))
         numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
         (outside, inside), (below, under) = numerator, denominator
         root = Rational(1, power.exp.q)
@@ -280,7 +294,7 @@ def common_factor(entries: list[Expr]) -> Expr:
         bottom = reduce(lcm, (d for _, d in parts))
     except PolynomialError:
         return Integer(1)
-    top = factor(top)
+    top = differences_of_squares(factor(top))
     if all(_leads_negative(entry) for entry in present):
         top = -top
     roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))

@@ -15,6 +15,7 @@ from derive.mechanics.bodies.edged_bodies import *
 from derive.mechanics.bodies.general import *
 from derive.mechanics.bodies.solids import *
 from derive.mechanics.bodies.thin_bodies import *
+from derive.mechanics.equations.approximate import *
 from derive.mechanics.equations.combination import *
 from derive.mechanics.equations.conditions import *
 from derive.mechanics.equations.conservation import *

@@ -25,7 +25,7 @@ class Run:
 
     established   every quantity, in order
     coordinates   those that it has named, with their kinds
-    assumed       conditions that its letters leave open
+    assumed       conditions that its letters leave open; in_words, those of them that a step tells
     drawings      what is to be seen
     numbers       behind the letters of its problem, as given
     places        where each given was written
@@ -35,6 +35,7 @@ class Run:
     established: list[Quantity] = field(default_factory=list)
     coordinates: dict[Symbol, str] = field(default_factory=dict)
     assumed: list[Relation] = field(default_factory=list)
+    in_words: list[Relation] = field(default_factory=list)
     drawings: list[Any] = field(default_factory=list)
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
     places: Mapping[str, Place] = field(default_factory=dict)
@@ -99,11 +100,12 @@ def given_letters() -> set[str]:
     return set(run.letters) if run is not None else set()
 
 
-def assume(condition: Relation) -> None:
-    """A condition that the letters leave open: the page says that it is taken to hold."""
+def assume(condition: Relation, in_words: bool = False) -> None:
+    """A condition that the letters leave open: the page says that it is taken to hold; or a step does, in words."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         run.assumed.append(condition)
+        run.in_words.extend([condition] if in_words else [])
 
 
 def assumed() -> list[Relation]:

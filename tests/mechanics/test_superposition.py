@@ -75,7 +75,7 @@ def test_a_push_and_a_start_together() -> None:
 
 
 def test_a_free_molecule_that_is_struck() -> None:
-    """Landau, section 24: two masses on one spring, one is struck; the centre of mass goes on with m v/(m + M)."""
+    """Landau, section 24: two masses on one spring; one is struck: the centre of mass goes on with m v/(m + M)."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     _, _, modes = carts(k * (x.symbol - y.symbol) ** 2 / 2, other=M)
     one, other = motions_by_modes(modes, {}, {x: v})
@@ -104,6 +104,8 @@ def test_a_drag_that_goes_with_the_masses() -> None:
 
 
 def test_a_drag_that_mixes_the_modes_is_refused() -> None:
+    linear = carts(three_springs())[2]
+    assert linear
     x, y = coordinate("x", "length"), coordinate("y", "length")
     with pytest.raises(Rejected, match=r"do not separate|mix the modes"):
         motions_by_modes(carts(three_springs(), b)[2], {x: A, y: A})

@@ -19,6 +19,7 @@ from derive.algebra.collect import by_terms
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import range_of
+from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.counting import is_countable, signs_counted
@@ -317,14 +318,7 @@ def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
         return -_force_at_rest(matter, q, still)
-    return expanded(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)
-
-
-def expanded(value: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
-    """The coefficient of u^n where each coordinate is at its place and u times its direction away."""
-    u = stand_in("u_small")
-    moved = value.subs({q: at + u * direction[q] for q, at in place.items()}, simultaneous=True)
-    return moved.series(u, 0, order + 1).removeO().expand().coeff(u, order)
+    return coefficient_along(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)
 
 
 def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:

@@ -33,6 +33,7 @@ from sympy import (
 )
 from sympy.simplify.fu import TR8
 
+from derive.algebra.collect import by_terms
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
@@ -113,6 +114,7 @@ def solution(
     values = _constants(basis, particular, first, initial)
     free = _free(basis, values, linear, sort)
     found = _joined(free, particular)
+    found = by_terms(found.expand()) if sort == "uniform" else found  # v t - g t^2/2
 
     def from_the_start(motion: Expr) -> tuple[Any, Any]:
         at = [motion.subs(TIME, 0), *([] if initial is None else [diff(motion, TIME).subs(TIME, 0)])]

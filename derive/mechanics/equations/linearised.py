@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, together
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lcm, together
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import oscillations
@@ -58,10 +60,15 @@ class Linear(Fact):
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta."""
+        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
+
+        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
-        above = [together(entry).as_numer_denom()[0] for entry in (*entries, self.driven[i]) if entry != 0]
-        found = common_factor(above)
+        parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
+        found = common_factor([above for above, _ in parts])
+        if all(below.free_symbols for _, below in parts):
+            found /= factor(reduce(lcm, (below for _, below in parts)))
         return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
 
 
@@ -126,7 +133,11 @@ def _one(
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
     common = linear.common(i)
-    terms = [spread(tidied(matrix[i, j] / common)) * s for matrix, letters in ordered for j, s in enumerate(letters)]
+    terms = [
+        with_squares(spread(tidied(matrix[i, j] / common))) * s
+        for matrix, letters in ordered
+        for j, s in enumerate(letters)
+    ]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     named = _letters_of(rests)

@@ -16,6 +16,7 @@ from sympy import (
     ImmutableDenseMatrix,
     Integer,
     MatrixSymbol,
+    Pow,
     Symbol,
     cos,
     diff,
@@ -29,6 +30,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
 from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import Pencil, root_of
@@ -36,6 +38,7 @@ from derive.mechanics.equations.characteristic import Root as RootOfPencil
 from derive.mechanics.equations.damped import DampedModes
 from derive.mechanics.equations.gyroscopic import TurningModes
 from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter, require_constant
@@ -44,6 +47,7 @@ from derive.steps.step import Fact, Level, Quantity, is_zero, require_kind
 __all__ = ["beats", "normal_modes", "period"]
 
 ZERO = Integer(0)
+SHORT = 4  # a condition of more terms is not told
 LETTERS = ("omega", "Omega")  # of a frequency: the second where the first is given
 
 
@@ -123,7 +127,7 @@ def _characteristic(
     Source: that of `normal_modes`.
     """
     matrix = together.rows_of(together.stiffness - letter**2 * together.mass)
-    factored = pencil.factored(letter**2)
+    factored = pencil.factored(letter**2).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
     whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
     if len(linear) == 1 and is_zero(whole + factored):
         whole = factored  # the sign alone is no step
@@ -201,12 +205,25 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
         telling=Telling(
             points_to={"characteristic": characteristic, **({"linear": linear} if size == 1 else {})},
             judged_by=_judged_by(together),
+            formulas=_condition(root),
         ),
         key=f"{start}frequency{number}",
         kind="angular speed",
         parents=[characteristic],
         facts=[Mode(root)],
     )
+
+
+def _condition(root: RootOfPencil) -> dict[str, tuple[Any, Any]]:
+    """Where the square of a frequency is positive, if that can be told in short."""
+    if root.sign is not None or len(Add.make_args(root.value.expand())) > SHORT or _has_roots(root.value):
+        return {}
+    condition = positive(root.value)
+    return {"condition": (condition, Relation(root.value, ">", ZERO))}
+
+
+def _has_roots(value: Expr) -> bool:
+    return any(not power.exp.is_Integer for power in value.atoms(Pow))
 
 
 def _judged_by(together: Linear) -> dict[str, Any]:

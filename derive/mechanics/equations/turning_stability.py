@@ -82,7 +82,7 @@ def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
 
 
 def _open(need: Expr, pencil: TurningPencil) -> Expr:
-    """Its factors whose sign is not known where the state exists: K - m w^2, of that times k - m w^2 where k > m w^2."""
+    """Its factors whose sign is not known where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
     if need.count_ops() > LARGEST:
         return need
     factors = Mul.make_args(factor(need))

@@ -5,6 +5,7 @@ of a body by its particles, the shape of a potential by its derivatives. `establ
 """
 
 from derive.mechanics.outcomes import of_answers as of_answers
+from derive.mechanics.outcomes import of_approximations as of_approximations
 from derive.mechanics.outcomes import of_bodies as of_bodies
 from derive.mechanics.outcomes import of_conditions as of_conditions
 from derive.mechanics.outcomes import of_equilibria as of_equilibria

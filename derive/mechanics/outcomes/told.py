@@ -109,6 +109,13 @@ def _difference(facts: Judged, outcome: str) -> bool:
     return is_zero(explicit(facts.result) - kinetic + potential - magnetic)
 
 
+def _names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
+    """An axis of the whole, of which a part has a moment, is that in the letter of the moment: I_z."""
+    seen, whole = facts.words.get("seen"), facts.words.get("whole")
+    by_letter = facts.symbol.name.partition("_")[2].partition("_")[0] if facts.symbol is not None else ""
+    return (whole is None or whole == by_letter) and (seen != "mapped" or not facts.subject.body.is_of_particles)
+
+
 def _as_asked(facts: Judged, outcome: str) -> bool:
     """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
     given = facts.inputs["equation"]
@@ -135,6 +142,7 @@ _TABLE: dict[str, Told] = {
     "equations.at": _for_a_vector,
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
+    "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
     "modes.beats": _not_negative,

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
-from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates, by_terms, spread
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
@@ -228,10 +228,20 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
     letters = [c.force for c in constraints]
     alone = [term for term in Add.make_args(whole) if _drives(term, moving, letters)]
     driven = -Add(*alone)
-    held = Add(*(spread(diff(driven, letter)) * letter for letter in letters))
+    held = _times_forces({letter: spread(diff(driven, letter)) for letter in letters})
     given = driven.xreplace(dict.fromkeys(letters, ZERO))
     left = by_accelerations(whole - Add(*alone), moving)
     return Relation(left, "=", Add(by_terms(tidied(given)), held))
+
+
+def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
+    """R (S_1 - S_2), not R S_1 - R S_2: what forces of constraint are multiplied by, in front of them."""
+    acting = {letter: each for letter, each in coefficients.items() if each != 0}
+    common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
+    common = -common if common.could_extract_minus_sign() else common
+    apart = {letter: tidied(each / common) if common.free_symbols else each for letter, each in acting.items()}
+    inside = Add(*(each * letter for letter, each in apart.items()))
+    return Mul(common, inside, evaluate=False) if common.free_symbols else inside
 
 
 def _drives(term: Expr, moving: Sequence[Symbol], letters: Sequence[Symbol]) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sympy import Add, Expr, Integer, Mul, Symbol
+from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
@@ -204,16 +204,47 @@ def equation_of_motion(
 def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """l theta_ddot + g sin(theta) of m l^2 theta_ddot + m g l sin(theta): what is positive in all terms is left out.
 
-    Not what holds a coordinate, which would stand with the acceleration, nor what is below; not numbers where there are
-    brackets, in which others stand.
+    Not what holds a coordinate, which would stand with the acceleration, nor what is below; numbers that are in
+    brackets count as well.
     """
     terms = Add.make_args(left)
-    bracketed = any(f.is_Add for term in terms for f in Mul.make_args(term))
     factors = Mul.make_args(common_factor(list(terms)))
     constant = [f for f in factors if f.is_positive and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
-    common = Mul(*(f for f in constant if not (bracketed and f.is_number)))
-    divided = Add(*(part for term in terms for part in Add.make_args(_divided(term, common))), evaluate=False)
-    return min((divided, left), key=lambda form: int(form.count_ops()))
+    common = Mul(*(f for f in constant if not f.is_number))
+    divided = [part for term in terms for part in Add.make_args(_divided(term, common))]
+    forms = [Add(*each, evaluate=False) for each in (_in_whole_numbers(divided), divided)]
+    return min((*forms, left), key=lambda form: int(form.count_ops()))
+
+
+def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
+    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: no number that all have in common.
+
+    But I + M a^2/4 stays what it is, a moment of inertia.
+    """
+    apart: list[tuple[Expr, list[Expr]]] = []
+    for term in terms:
+        parts = [
+            each.primitive() if each.is_Add and not _has_some_fractions(each) else each.as_coeff_Mul()
+            for each in Mul.make_args(term)
+        ]
+        apart.append((Mul(*(number for number, _ in parts)), [rest for _, rest in parts if rest != 1]))
+    below = ilcm(1, 1, *(number.q for number, _ in apart))
+    shared = Rational(igcd(0, *(int(number * below) for number, _ in apart)), below)
+    if below > 1 and any(map(_has_some_fractions, (f for _, factors in apart for f in factors))):
+        return list(terms)
+    return [_product(number / shared, *factors) for number, factors in apart]
+
+
+def _has_some_fractions(factor: Expr) -> bool:
+    """A sum in which some terms have a number below and some have none."""
+    below = {term.as_coeff_Mul()[0].q > 1 for term in Add.make_args(factor)} if factor.is_Add else set()
+    return len(below) == 2
+
+
+def _product(*factors: Expr) -> Expr:
+    """Its sums stay in their brackets."""
+    written = any(each.is_Add for each in factors)
+    return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
 
 
 def _divided(term: Expr, common: Expr) -> Expr:

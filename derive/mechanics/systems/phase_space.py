@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import chain, permutations, product
 
 from sympy import (
     Add,
@@ -33,6 +33,7 @@ from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.collect import by_rates, spread, with_weights_in_front
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Partial, Terms, bound, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
@@ -259,7 +260,7 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     apart = Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
     if not parts.get(1) or len(present) > LARGEST:
         return apart
-    return _shortest([apart, _squares(value, present)])  # (p - q A)^2, with what is linear in p
+    return _shortest([apart, _squares(chain(*parts.values()), present)])  # (p - q A)^2, with what is linear in p
 
 
 def by_one_square(value: Expr) -> Expr:
@@ -302,25 +303,40 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
     mixed = {p for monomial, _ in terms if monomial.is_Mul for p in monomial.free_symbols}
     if not mixed:
         return _added(terms)
-    coupled = _added(term for term in terms if term[0].free_symbols & mixed)
+    together = [term for term in terms if term[0].free_symbols & mixed]
+    coupled = _added(together)
     alone = _added(term for term in terms if not term[0].free_symbols & mixed)
     orders = permutations(sorted(mixed, key=str)) if len(mixed) <= 3 and coupled.count_ops() <= LONGEST_SQUARED else ()
-    return alone + _shortest([coupled, tidied(coupled), *(_squares(coupled, order) for order in orders)])
+    return alone + _shortest([coupled, tidied(coupled), *(_squares(together, order) for order in orders)])
 
 
-def _squares(value: Expr, order: Sequence[Symbol]) -> Expr:
+def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Expr:
     """a (p + b q/a)^2 + ..., letter after letter, each bracket with no denominator of its own."""
     squares: list[Expr] = []
-    rest = value
+    rest = {_letters_in(monomial): c for monomial, c in terms}
     for p in order:
-        a = tidied(diff(rest, p, 2) / 2)
+        a = tidied(rest.pop((p, p), ZERO))
         if a == 0:
             continue
-        inner = tidied(p + tidied((diff(rest, p) / 2 - a * p) / a))
-        above, below = inner.as_numer_denom()
+        beside = {_without(p, letters): tidied(rest.pop(letters) / (2 * a)) for letters in list(rest) if p in letters}
+        above, below = tidied(p + Add(*(Mul(*others, c) for others, c in beside.items()))).as_numer_denom()
         squares.append(spread(a / below**2) * above**2)
-        rest = tidied(rest - a * (p + (diff(rest, p) / 2 - a * p) / a) ** 2)
-    return Add(*squares, rest)
+        for (one, b), (other, c) in product(beside.items(), repeat=2):
+            letters = tuple(sorted(one + other, key=str))
+            rest[letters] = rest.get(letters, ZERO) - a * b * c
+        rest = {letters: tidied(c) for letters, c in rest.items()}
+    return Add(*squares, tidied(Add(*(Mul(*letters, c) for letters, c in rest.items()))))
+
+
+def _letters_in(monomial: Expr) -> tuple[Symbol, ...]:
+    """p, p for p^2; p, q for p q."""
+    powers = sorted(monomial.as_powers_dict().items(), key=str) if monomial != 1 else []
+    return tuple(sorted((p for p, n in powers for _ in range(int(n))), key=str))
+
+
+def _without(p: Symbol, letters: tuple[Symbol, ...]) -> tuple[Symbol, ...]:
+    at = letters.index(p)
+    return letters[:at] + letters[at + 1 :]
 
 
 def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
@@ -390,4 +406,6 @@ def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
     u = Dummy("u")
     scaled = bound(explicit(value), {v: u * v for v in rates})
     halved = Rational(1, 2) if degree == 2 else Integer(1)
-    return halved * bound(diff(scaled, u, degree) if degree else scaled, {u: ZERO})
+    for _ in range(degree):
+        scaled = derivative(scaled, u)
+    return halved * bound(scaled, {u: ZERO})
