@@ -33,6 +33,7 @@ from sympy import (
     sin,
     sqrt,
     sqrtdenest,
+    tan,
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
@@ -71,6 +72,8 @@ def _tidied_scalar(value: Expr) -> Expr:
         return value
     if (sum_of_angles := _by_addition_theorem(value)) is not None:
         return sum_of_angles
+    if value.has(tan):
+        value = value.replace(lambda e: isinstance(e, Add) and e.has(tan), _by_secant)
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):
@@ -97,6 +100,17 @@ def _by_addition_theorem(value: Expr) -> Expr | None:
         (a,), (b,) = first[sin], first[cos]
         return sign * _of_two_letters(sin, a + b if alike else a - b)
     return None
+
+
+def _by_secant(total: Expr) -> Expr:
+    """1/cos^2 of 1 + tan^2, with what both have in common."""
+    for tangent in sorted(total.atoms(tan), key=str):
+        found = total.as_poly(tangent)
+        if found is None or found.degree() != 2 or found.nth(1) != 0 or found.nth(0).has(tan):
+            continue
+        if (found.nth(2) - found.nth(0)).expand() == 0:
+            return found.nth(0) / cos(tangent.args[0]) ** 2
+    return total
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:

@@ -9,7 +9,7 @@ from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, 
 from derive.algebra.collect import spread
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import rational_in_range, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import OfCoordinate, T
@@ -152,7 +152,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
         """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
         letters = sorted(squared.value.free_symbols, key=str)
-        there = {letter: Rational(prime(n + 5), 7) for n, letter in enumerate(letters)}
+        there = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
         imaginary = not grows and squared.value.subs(there).is_negative
         value = found.subs(there) / (I if imaginary else 1)
         return value, Abs(value)
@@ -162,7 +162,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
-        lines=Lines(put_in=None, arranged=explicit),
+        lines=Lines(put_in=None, arranged=lambda value: settled(explicit(value))),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,
         key=key,

@@ -394,7 +394,7 @@ def _alone(condition: Expr, s: Symbol) -> Expr | None:
         return tidied(-b / a)
     if powers == [2, 0] and s.is_positive:
         a, _, b = polynomial.all_coeffs()
-        return sqrt(tidied(-b / a))
+        return tidied(sqrt(tidied(-b / a)))
     return None
 
 
