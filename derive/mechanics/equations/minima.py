@@ -42,6 +42,7 @@ __all__ = ["stability"]
 HIGHEST = 8  # the order to which a border is looked at
 SHORT = 80  # operations of a curvature that is written down before a place is put in
 ZERO = Integer(0)
+STEADY = "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`"
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,9 @@ def _check_level(place: Place) -> None:
         if not is_zero(force):
             where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
             message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"
-            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+            steady = place.potential.fact(SeenWith)
+            help_line = STEADY if steady is not None and steady.constants else "`equilibria` finds the states of rest"
+            raise Rejected(Complaint("no-equilibrium", message, help=help_line))
 
 
 # --- one coordinate --------------------------------------------------------------------------------------------------

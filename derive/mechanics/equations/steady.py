@@ -379,7 +379,9 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
     ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := _alone(condition, s)) is not None]
     if not ways:
         message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
-        raise Rejected(Complaint("wrong-argument", message))
+        others = [s.name for s in sorted(condition.free_symbols, key=str) if _alone(condition, s) is not None]
+        help_line = f"it can be for {' or '.join(others)}" if others else None
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return min(ways, key=lambda way: (int(lecture_form(bound(value, way)).count_ops()), str(way)))
 
 

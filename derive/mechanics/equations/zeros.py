@@ -36,7 +36,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import settled, strict_sign_within
+from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.steps.known_numbers import sign_known
@@ -44,7 +44,7 @@ from derive.steps.record import assume
 
 HIGHEST = 6  # power of a coordinate
 LARGEST_PRODUCT = 60  # operations of a sum that may be a product
-ONE = Integer(1)
+ZERO, ONE = Integer(0), Integer(1)
 
 
 class Unsolved(Exception):
@@ -256,6 +256,8 @@ def _roots(factor: Expr, x: Expr) -> list[Expr]:
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
     """Of a polynomial in q, or of sqrt(P(q)) less a constant."""
+    if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
+        return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
     if roots:
         return _of_root(factor, roots, q)
@@ -268,6 +270,34 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
     else:
         values = _roots(factor, q)
     return [zero for value in values for zero in _allowed(value, q)]
+
+
+def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
+    """The root of A q^a + B q^b, q^(a - b) = -B/A, where the exponents depend on letters and are never the same."""
+    terms: dict[Expr, Expr] = {}
+    for term in Add.make_args(expand(factor)):
+        outside, inside = term.as_independent(q, as_Add=False)
+        power = _exponent(inside, q)
+        if power.has(q):
+            raise Unsolved(factor)
+        terms[expand(power)] = terms.get(expand(power), ZERO) + outside
+    if len(terms) != 2:
+        raise Unsolved(factor)
+    (one, a), (other, b) = terms.items()
+    apart = tidied(one - other)
+    value = tidied(-b / a)
+    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
+    if sign is None or not never_vanishes_within(apart):
+        raise Unsolved(factor)
+    if apart.could_extract_minus_sign():
+        apart, value = -apart, 1 / value
+    return [] if sign < 0 else [value ** (1 / apart)]
+
+
+def _exponent(product: Expr, q: Symbol) -> Expr:
+    """Of q^a q^b the sum, of 1 zero; of anything else q itself."""
+    parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
+    return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
 
 
 def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
