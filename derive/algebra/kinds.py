@@ -48,6 +48,7 @@ KINDS: Mapping[str, Kind] = {
     "line density": Kind(dimension(1, -1, 0), "kg/m", positive=True),
     "speed": Kind(dimension(0, 1, -1), "m/s", positive=True, signed=True),
     "acceleration": Kind(dimension(0, 1, -2), "m/s^2", positive=True, signed=True),
+    "velocity": Kind(dimension(0, 1, -1), "m/s"),
     "angular speed": Kind(dimension(0, 0, -1), "rad/s", positive=True, signed=True, angles=(1, 0)),
     "angular acceleration": Kind(dimension(0, 0, -2), "rad/s^2", angles=(1, 0)),
     "squared angular speed": Kind(dimension(0, 0, -2), "1/s^2", angles=(2, 0)),
@@ -98,7 +99,7 @@ def kind_with_article(kind: str) -> str:
 def plural(kind: str) -> str:
     """Moments of inertia, angular speeds."""
     noun, of, rest = kind.partition(" of ")
-    return f"{noun}s{of}{rest}"
+    return f"{noun[:-1]}ies{of}{rest}" if noun.endswith("y") else f"{noun}s{of}{rest}"
 
 
 def kind_of_dimension(dimension: Dimension) -> str | None:

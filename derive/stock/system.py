@@ -128,7 +128,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     """What the keys say in the declared letters and in the coordinates."""
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
-    places = Places(written.points, written.axes, known)
+    places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
     parts: list[Part] = []
     named: dict[str, Location] = {}
     with faults:

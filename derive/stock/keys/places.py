@@ -135,7 +135,10 @@ class Places:
         written: Mapping[Word, WrittenPlace],
         turns: Mapping[Word, tuple[Mapping[Word, Tree], ...]],
         letters: InLetters,
+        carried: Mapping[Word, WrittenPlace | None] | None = None,
     ):
+        """`carried` are those of particles, which one may call by the names of these."""
+        self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
         self.letters = letters
@@ -149,9 +152,11 @@ class Places:
         return str(name), self.named(name)
 
     def named(self, name: Word) -> Location:
-        written = self.written.get(name)
+        written = self.written.get(name) or self.carried.get(name)
         if written is None:
-            help_line = did_you_mean(name, self.written) or "give it under `places`, or write its components"
+            help_line = (
+                did_you_mean(name, [*self.written, *self.carried]) or "give it under `places`, or write its components"
+            )
             rejected("no-such-place", f"there is no place `{name}`", name.place, help_line)
         if name in self.on_the_way:
             rejected("circle", f"the way to `{name}` begins at `{name}` itself", written.place)
