@@ -61,7 +61,7 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
             constants = [each for each in terms if not each.has(*moving, TIME) and (-each / times).is_Symbol]
             if len(constants) == 1:
                 terms = [each for each in terms if each not in (term, constants[0])]
-                terms.append(Mul(times, Add(q, constants[0] / times), evaluate=False))
+                terms.append(Mul(times, Add(q, constants[0] / times), evaluate=not times.is_number))
     return Add(*terms, evaluate=False) if len(terms) < len(Add.make_args(value)) else value
 
 

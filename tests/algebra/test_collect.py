@@ -125,6 +125,7 @@ def test_a_coordinate_stands_with_the_constant_from_which_it_is_counted() -> Non
     k, l, m, g = symbols("k l m g", positive=True)
     found = by_accelerations(m * y_ddot + k * y - m * g - k * l, [y])
     assert k * Add(y, -l) in found.args
+    assert str(by_rates(m * g + k * l - k * y, [y])) == "g*m - k*(-l + y)"
     assert by_rates(m * y_dot**2 / 2 - k * y, [y]) == m * y_dot**2 / 2 - k * y
 
 
