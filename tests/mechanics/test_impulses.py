@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -199,8 +200,29 @@ def test_too_few_conditions_determine_nothing() -> None:
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
     blow = Blow(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})
     T = kinetic_energy_of(system)
-    with pytest.raises(Rejected, match="2 equations for 3 unknowns"):
+    with pytest.raises(Rejected, match="needs 3 equations, not 2"):
         rates_after(blow, [momentum_jump(blow, T, q) for q in (x, theta)], [])
+
+
+def test_an_impulse_may_have_a_part_that_moves_nothing() -> None:
+    """One downwards on a ball that stands on a table is no impulse along its angle where it acts above the centre."""
+    x, phi = coordinate("x", "length"), coordinate("phi")
+    system = System(Ball(R, M).placed(-phi, centre=point(x + 0, R)))
+    top = point(x + R * sin(phi.symbol), R + R * cos(phi.symbol))
+    blow = Blow(system, impulse((0, -J), top), at={phi: 0})
+    jumps = [momentum_jump(blow, kinetic_energy_of(system), q) for q in (x, phi)]
+    assert [jump.step.outcome for jump in jumps] == ["free", "free"]
+
+
+def test_an_impulse_on_the_wrong_one_of_two_is_refused() -> None:
+    """What acts on the end acts with the other sign on the start."""
+    system, x, theta = hanging_rod()
+    hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
+    blow = Blow(system, collision(point(x + 0, -b), hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: v})
+    (meeting,) = blow.meetings
+    blow.meetings = [replace(meeting, gap=-meeting.gap)]
+    with pytest.raises(Unverified, match="jump_theta"):
+        momentum_jump(blow, kinetic_energy_of(system), theta)
 
 
 def test_wrong_laws_of_a_blow_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -102,6 +102,7 @@ class Meeting:
     gap          what changes at the rate that the condition is about; of a condition in rates this rate itself
     restitution  the part of it that is left, with the other sign
     what         "together", "elastic", "rebound" or "kept"
+    ends         of a collision the two places, the impulse being on the second, and its direction
     """
 
     gap: Expr
@@ -109,6 +110,7 @@ class Meeting:
     letter: Symbol
     what: str
     in_rates: bool = False
+    ends: tuple[Vector, Vector, Vector] | None = None
 
     def speed(self, moving: Sequence[Symbol]) -> Any:
         return self.gap if self.in_rates else TimeRate(self.gap, *moving)
@@ -116,8 +118,18 @@ class Meeting:
     def along(self, q: Symbol) -> Any:
         return diff(self.gap, rate(q)) if self.in_rates else Partial(self.gap, q)
 
-    def acts_on(self, q: Symbol) -> bool:
-        return not is_zero(diff(self.gap, rate(q) if self.in_rates else q))
+    def slope(self, q: Symbol) -> Expr:
+        return diff(self.gap, rate(q) if self.in_rates else q)
+
+    def speed_by_time(self, moving: Sequence[Symbol]) -> Expr:
+        """The speed by the second route, of a collision from the velocities of its two places."""
+        if self.in_rates:
+            return self.gap
+        if self.ends is None:
+            return by_functions_of_time(self.gap, moving)
+        start, end, along = self.ends
+        velocities = [[by_functions_of_time(c, moving) for c in place] for place in (start, end)]
+        return Add(*(n * (v - u) for u, v, n in zip(*velocities, along, strict=True)))
 
 
 class Blow:
@@ -182,11 +194,11 @@ class Blow:
 
     def _meetings(self, act: Collision) -> list[Meeting]:
         size = len(act.end.components)
-        ends = [
+        start, end = (
             tuple(c.subs(self.system.known) for c in at.components) if at else (ZERO,) * size
             for at in (act.start, act.end)
-        ]
-        way = [b - a for a, b in zip(*ends, strict=True)]
+        )
+        way = [b - a for a, b in zip(start, end, strict=True)]
         along = tuple(self.there(c) for c in act.along)
         if along and (coordinates := coordinates_in(ImmutableDenseMatrix(along))):
             name = next(iter(coordinates)).name
@@ -199,16 +211,18 @@ class Blow:
             self._check_meet([self.there(c) for c in way], along)
         if not along:
             names = [f"{act.letter}_{axis}" for axis in ("xy" if size == 2 else "xyz")]
-            found = [self._meeting(gap, ZERO, name, "together") for gap, name in zip(way, names, strict=True)]
-            found = [each for each in found if each is not None]
+            units = [tuple(Integer(i == k) for i in range(size)) for k in range(size)]
+            given = zip(way, names, units, strict=True)
+            every = [self._meeting(gap, ZERO, name, "together", (start, end, unit)) for gap, name, unit in given]
+            found = [each for each in every if each is not None]
             if not found:
                 raise Rejected(
                     Complaint("nothing-happens", "the two places of this collision have one velocity already")
                 )
-            return found  # type: ignore[return-value]
+            return found
         gap = Add(*(c * w for c, w in zip(along, way, strict=True)))
         what = "together" if act.restitution == 0 else "elastic" if act.restitution == 1 else "rebound"
-        one = self._meeting(gap, act.restitution, act.letter, what)
+        one = self._meeting(gap, act.restitution, act.letter, what, (start, end, along))
         if one is None:
             raise Rejected(Complaint("nothing-happens", "along the normal of this collision nothing moves"))
         if not self.impulses and is_zero(self.earlier(TimeRate(gap, *self.moving))):
@@ -216,11 +230,13 @@ class Blow:
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
         return [one]
 
-    def _meeting(self, gap: Expr, restitution: Expr, letter: str, what: str) -> Meeting | None:
+    def _meeting(
+        self, gap: Expr, restitution: Expr, letter: str, what: str, ends: tuple[Vector, Vector, Vector]
+    ) -> Meeting | None:
         """None of a component in which neither moves."""
         if is_zero(self.there(TimeRate(gap, *self.moving))):
             return None
-        return Meeting(gap, restitution, unknown(letter, "momentum"), what)
+        return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends)
 
     def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
         """Two places meet where they are one, or where the way from one to the other is along the normal: two balls."""
@@ -240,9 +256,10 @@ class Blow:
     def shares(self, q: Symbol) -> list[Expr]:
         """J . dr/dq of each impulse, given or not."""
         pairs = [(j, c) for one in self.impulses for j, c in zip(one.components, one.at, strict=True) if j != 0]
-        found = [Factors(j, self.shown_there(Partial(c, q), diff(c, q))) for j, c in pairs if not is_zero(diff(c, q))]
+        acting = [(j, c) for j, c in pairs if not is_zero(self.there(diff(c, q)))]
+        found = [Factors(j, self.shown_there(Partial(c, q), diff(c, q))) for j, c in acting]
         for each in self.meetings:
-            if each.acts_on(q):
+            if not is_zero(self.there(each.slope(q))):
                 slope = each.along(q)
                 found.append(Factors(each.letter, self.shown_there(slope, explicit(slope))))
         return found
@@ -254,6 +271,5 @@ class Blow:
             for j, c in zip(one.components, one.at, strict=True):
                 found += j * self.there(by_functions_of_time(c, self.moving))
         for each in self.meetings:
-            speed = each.gap if each.in_rates else by_functions_of_time(each.gap, self.moving)
-            found += each.letter * self.there(speed)
+            found += each.letter * self.there(each.speed_by_time(self.moving))
         return found

@@ -19,7 +19,7 @@ from derive.mechanics.equations.solving import solved_for
 from derive.mechanics.equations.substitution import put_in
 from derive.mechanics.equations.unknowns import lecture_form
 from derive.mechanics.systems.blow import Blow
-from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity, is_zero
@@ -104,8 +104,7 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         return Relation(blow.shown_there(speed, explicit(speed)), "=", right)
 
     def by_time(found: Relation) -> tuple[Expr, Expr]:
-        rate_of_gap = meeting.gap if meeting.in_rates else by_functions_of_time(meeting.gap, blow.moving)
-        after = blow.there(rate_of_gap)
+        after = blow.there(meeting.speed_by_time(blow.moving))
         return explicit(found.left) - explicit(found.right), after + part * after.xreplace(blow.before)
 
     return establish(
@@ -135,8 +134,13 @@ def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quan
     conditions   as `meeting_condition` yields them, one for each impulse that is not given
     Keys: q_dot_after, and the letter of each impulse.
     Second route: as `solved_for`.
+    Errors: a jump or a condition is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.
     """
+    count = len(blow.moving) + len(blow.meetings)
+    if len(jumps) + len(conditions) != count:
+        message = f"what follows from this blow needs {count} equations, not {len(jumps) + len(conditions)}"
+        raise Rejected(Complaint("wrong-argument", message, help="a jump for each coordinate, and each condition"))
     of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
     letters = [each.letter for each in blow.meetings]
     keys = [*(f"{q.symbol.name}_dot_after" for q in of), *(letter.name for letter in letters)]
