@@ -136,7 +136,6 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     sorts: tuple[Sequence[Any], ...] = (
         written.springs,
         written.central,
-        written.forces,
         written.damping,
         written.charges,
         written.constraints,
@@ -154,6 +153,10 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:
         names = {str(name) for name in written.bodies}
         parts += each([partial(one.part, places, known, names) for one in written.rolling])
+    with faults:  # friction is in proportion to what keeps a condition
+        with_multipliers = InLetters({**known.letters, **_multipliers(parts)})
+        with_multipliers.numbers = known.numbers
+        parts += each([partial(one.part, places, with_multipliers) for one in written.forces])
     given: tuple[Expr, str | None] | None = None
     with faults:
         given = read_lagrangian(written, known)

@@ -139,6 +139,10 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         if f != 0
     ]
 
+    kept = of.fact(Kept)
+    here = {s for f in acted.forces for c in f.components for s in c.free_symbols}
+    held = {c.force: c.kind_of_force or "" for c in (kept.constraints if kept else ()) if c.force in here}
+
     def law(*dissipated: Expr) -> Expr:
         lost = [-Partial(d, q.rate) for d in dissipated]
         terms = [*works, *lost]
@@ -159,7 +163,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         outcome=lambda value: "zero" if value == 0 else "generic",
         telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key or f"applied_force_{q.symbol.name}",
-        scope=Scope(coordinates=of.coordinates, about=Subject(body=acted.system)),
+        scope=Scope(coordinates={**of.coordinates, **held}, about=Subject(body=acted.system)),
     )
 
 
