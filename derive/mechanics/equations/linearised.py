@@ -16,11 +16,11 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, f
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with, is_zero
@@ -301,3 +301,18 @@ def _of_second_order(
             terms.append(_at_rest(value, moving, place) * letter)
     driving = pushed - diff(momentum, TIME)
     return Relation(Add(*terms), "=", _at_rest(driving, moving, place))
+
+
+def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
+    """The left side of a linear equation with a motion eta(t) put in."""
+    put_in: dict[Any, Expr] = {}
+    for s, eta in zip(together.displacements, motion, strict=True):
+        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
+    return explicit(equation.value).residual.xreplace(put_in)
+
+
+def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:
+    """What stands with each amplitude in each equation, once eta = a course(t) is put in and the course divided out."""
+    amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
+    left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
+    return ImmutableDenseMatrix([[diff(value.expand(), a) for a in amplitudes] for value in left])

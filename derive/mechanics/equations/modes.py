@@ -18,9 +18,7 @@ from sympy import (
     MatrixSymbol,
     Symbol,
     cos,
-    diff,
     exp,
-    expand,
     pi,
     sin,
 )
@@ -36,7 +34,7 @@ from derive.mechanics.equations.characteristic import Pencil, root_of
 from derive.mechanics.equations.characteristic import Root as RootOfPencil
 from derive.mechanics.equations.damped import DampedModes
 from derive.mechanics.equations.gyroscopic import TurningModes
-from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, with_motion
 from derive.mechanics.equations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -132,11 +130,8 @@ def _characteristic(
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
-        amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
-        swing = cos(letter * T)
-        left = [_with_motion(each, together, [a * swing for a in amplitudes]) / swing for each in linear]
-        rows = [[diff(value, a) for a in amplitudes] for value in map(expand, left)]
-        return found, Relation(expanded_by_rows(ImmutableDenseMatrix(rows)), "=", 0)
+        matrix = factors_of_amplitudes(linear, together, cos(letter * T))
+        return found, Relation(expanded_by_rows(matrix), "=", 0)
 
     return establish(
         "modes.characteristic",
@@ -149,14 +144,6 @@ def _characteristic(
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
-
-
-def _with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
-    """The left side of a linear equation with a motion eta(t) put in."""
-    put_in: dict[Any, Expr] = {}
-    for s, eta in zip(together.displacements, motion, strict=True):
-        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
-    return explicit(equation.value).residual.xreplace(put_in)
 
 
 _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
@@ -244,7 +231,7 @@ def _shape(
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         turned = -squared if root.sign == -1 else squared
-        left = [_with_motion(each, together, [a * course for a in found]) / course for each in linear]
+        left = [with_motion(each, together, [a * course for a in found]) / course for each in linear]
         values = [value.expand().subs(w**2, turned) if root.sign != 0 else value for value in left]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 

@@ -18,8 +18,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import linear_motion
 from derive.mechanics.equations.characteristic import Pencil
-from derive.mechanics.equations.gyroscopic import with_motion
-from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.linearised import Linear, with_motion
 from derive.mechanics.equations.modes import Mode
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.derivation import with_ancestors
