@@ -46,6 +46,7 @@ from derive.mechanics.equations.linearised import Rest
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
+from derive.stock.answering.held_rest import rest_with_forces
 from derive.stock.answering.of_blows import BlowAnswers
 from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.parts import Part
@@ -233,6 +234,13 @@ class Answers:
     def equilibria(self) -> tuple[Quantity, ...]:
         return equilibria(self.potential_at_rest)
 
+    @property
+    def rest(self) -> tuple[Quantity, ...]:
+        """States of rest; where forces keep conditions, the places and the forces that the equations tell."""
+        if self.described.given is not None or not self.system.constraints:
+            return self.equilibria
+        return rest_with_forces(self.motions, self.independent, [each.force for each in self.system.constraints])
+
     @cached_property
     def stability(self) -> tuple[Quantity, ...]:
         if self.state is not None:
@@ -312,7 +320,7 @@ class Answers:
             "hamilton_equations": lambda: hamilton_equations(self.hamiltonian),
             "routhian": lambda: self.routhian,
             "effective_potential": lambda: self.effective_potential,
-            "equilibria": lambda: self.equilibria,
+            "equilibria": lambda: self.rest,
             "stability": lambda: self.stability,
             "linearised": lambda: self.linearised,
             "normal_modes": lambda: self.normal_modes,
