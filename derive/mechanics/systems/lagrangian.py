@@ -25,7 +25,7 @@ from derive.mechanics.systems.given_lagrangian import Varied
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import changes, free_letter
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
 __all__ = [
     "equation_of_motion",
@@ -66,37 +66,29 @@ def energies_of(lagrangian: Quantity) -> Energies | None:
     return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
 
 
-def lagrangian(
-    kinetic: Quantity | System, potential: Quantity | None = None, symbol: str | None = None, key: str = "lagrangian"
-) -> Quantity:
+def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian") -> Quantity:
     """Lagrangian, L = T - U; of charges in magnetic fields L = T - U + sum of q v . A.
 
-    kinetic, potential   energies in J of one body in one motion; or in place of both a system, whose energies they are;
-                         with the symbol "L_2" these are T_2 and U_2
+    system   particles and bodies, and what acts on them; with the symbol "L_2" its energies are T_2 and U_2
     Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
     time itself occurs, or a magnetic field, L and U less q v . A are the kinetic energy of the mass points.
-    Errors: T and U belong to different bodies, masses or motions.
+    Errors: this is no system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
+    if not isinstance(system, System):
+        raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a `System`"))
     symbol = symbol or free_letter("L")
     base, _, index = symbol.partition("_")
-    if isinstance(kinetic, System):
-        system = kinetic
-        letters = [free_letter(f"{letter}_{index}" if index else letter) for letter in "TU"]
-        keys = [f"{name}_{index}" if index else name for name in ("kinetic_energy", "potential_energy")]
-        kinetic = kinetic_energy_of(system, letters[0], keys[0])
-        potential = potential_energy_of(system, letters[1], keys[1])
-    require_kind("lagrangian", "kinetic", kinetic, "energy")
-    if potential is None:
-        raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a potential energy, or a system alone"))
-    require_kind("lagrangian", "potential", potential, "energy")
+    own = f"_{index}" if index else ""
+    letters = [free_letter(f"{letter}{own}") for letter in "TU"]
+    kinetic = kinetic_energy_of(system, letters[0], f"kinetic_energy{own}")
+    potential = potential_energy_of(system, letters[1], f"potential_energy{own}")
     moving = {**kinetic.coordinates, **potential.coordinates}
 
     matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
-    whole, magnetic = kinetic.subject.body, None
-    if isinstance(whole, System) and whole.fields:
-        own = f"_{index}" if index else ""
-        magnetic = magnetic_term_of(whole, f"{base}_B{own}", f"magnetic_term{own}")
+    magnetic = None
+    if system.fields:
+        magnetic = magnetic_term_of(system, f"{base}_B{own}", f"magnetic_term{own}")
         matter += magnetic.needed(Matter)
     beside = {"magnetic": magnetic} if magnetic is not None else {}
 
