@@ -22,6 +22,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from derive.building.cache import Cache, Kept, digest
 from derive.building.tex import chosen_engine, typeset
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -71,8 +72,9 @@ def main() -> None:
         engine, scratch = chosen_engine(None), Path(folder) / "scratch.pdf"
         python, script = sys.executable, tree / "problems" / SET / f"{PROBLEM}.yaml"
 
-        noted = scratch.with_suffix(".aux")  # with the page numbers known, one pass is one
-        whole_pass = seconds(lambda: typeset(pages, scratch, engine, aux=noted))
+        noted = Kept(Cache(Path(folder) / "noted"), digest("numbers"))  # with the page numbers known, one pass is one
+        typeset(pages, scratch, engine, numbers=noted)
+        whole_pass = seconds(lambda: typeset(pages, scratch, engine, numbers=noted))
         one_pass = seconds(lambda: typeset(page, scratch, engine))
         sympy = seconds(run(python, "-c", "import sympy"))
         cold = seconds(make, before=clean)

@@ -50,6 +50,7 @@ PRINTING = {"cli.options", "cli.commands", "cli.terminal", "building.doctor"}
 VERB_MODULES = sorted(name for name in MODULES if name.startswith("mechanics."))
 DEFINITIONS = {
     "any_angular_velocity",
+    "given_lagrangian",
     "changing_angular_velocity",
     "constant_angular_velocity",
     "momentary_angular_velocity",
@@ -349,6 +350,22 @@ def test_every_rule_has_words_for_each_second_route() -> None:
         if isinstance(table, ast.Dict)
         for key in table.keys
         if isinstance(key, ast.Constant)
+    }
+    claims |= {
+        (rule, f"given_{key.value}")
+        for _, rule, call in establishing_calls()
+        for keyword in call.keywords
+        for named in ast.walk(keyword.value)
+        if isinstance(named, ast.Call) and re.search(r"\bnamed(_by)?$", ast.unparse(named.func))
+        for table in ast.walk(named)
+        if isinstance(table, ast.Dict)
+        for key in table.keys
+        if isinstance(key, ast.Constant)
+    }
+    claims |= {
+        (rule, "energy_identity")
+        for _, rule, call in establishing_calls()
+        if "further_routes" in ast.unparse(call)  # of a Lagrangian that is given
     }
     claims |= {
         (rule, claim)

@@ -34,13 +34,14 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     except PolynomialError:
         gathered = []
     if not gathered:
-        return _level(tidied(value.expand()), value, moving)
+        return _with_differences(_level(tidied(value.expand()), value, moving), moving)
     parts: list[Expr] = []
     for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
         part = part if any(powers) else _level(part, part, moving)
         # Terms without rates stand side by side.
-        parts += [_with_short_sums(term, moving) for term in Add.make_args(part)] if not any(powers) else [part]
+        level = Add.make_args(_with_differences(part, moving)) if not any(powers) else ()
+        parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
     parts = [part for part in parts if part != 0]  # sin^2 + cos^2 - 1 is seen to vanish only here
     return Add(*parts, evaluate=len(parts) < 2)
 
@@ -49,6 +50,19 @@ def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
     """l^2/(m r^3) - G M m/r^2, not (l^2 - G M m^2 r)/(m r^3): no common denominator that holds a coordinate."""
     below = found.as_numer_denom()[1]
     return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
+
+
+def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
+    """k (y - l) - m g, not k y - m g - k l: a coordinate with the constant from which it is counted."""
+    terms = list(Add.make_args(value))
+    for q in moving:
+        for term in [each for each in terms if each.has(q) and not (each / q).has(*moving, TIME)]:
+            times = term / q
+            constants = [each for each in terms if not each.has(*moving, TIME) and (-each / times).is_Symbol]
+            if len(constants) == 1:
+                terms = [each for each in terms if each not in (term, constants[0])]
+                terms.append(Mul(times, Add(q, constants[0] / times), evaluate=not times.is_number))
+    return Add(*terms, evaluate=False) if len(terms) < len(Add.make_args(value)) else value
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
@@ -199,7 +213,10 @@ def _shorter_as_product(value: Expr) -> Expr:
 
 
 def spread(value: Expr) -> Expr:
-    """I + M a^2/4, not (4 I + M a^2)/4: a number below a sum is put into it where that makes a term simpler."""
+    """I + M a^2/4, not (4 I + M a^2)/4: a number below a sum is put into it where that leaves a term without one.
+
+    (3 g - 2 l omega^2)/6 stays, for g/2 - l omega^2/3 is no simpler.
+    """
     return _spread(tidied(value))
 
 
@@ -209,7 +226,7 @@ def _spread(value: Expr) -> Expr:
     if number.q == 1 or len(sums) != 1:
         return value
     terms = [term * Rational(1, number.q) for term in sums[0].args]
-    if all(term.as_coeff_Mul()[0].q == number.q for term in terms):
+    if all(term.as_coeff_Mul()[0].q > 1 for term in terms):
         return value
     return Mul(number.p, *(f for f in Mul.make_args(letters) if f is not sums[0]), Add(*terms))
 

@@ -39,7 +39,7 @@ from sympy.simplify.fu import TR5
 
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import is_identity, vanishes
-from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
+from derive.algebra.ranges import has_meaning, never_vanishes_within, settled, strict_sign_within
 from derive.algebra.samples import (
     DIGITS,
     NoNumber,
@@ -53,6 +53,7 @@ from derive.algebra.samples import (
     value_at,
 )
 
+MANY = 20  # times as many points are drawn where nothing has a meaning at most of them
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
 LETTERS = 6  # by which slopes are compared
 UNDEFINED = (nan, zoo, oo, -oo)
@@ -183,12 +184,18 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
     """What both sides are at points at which both are defined.
 
     Where neither is real, as sqrt(g/l - k/m) for a strong spring, what is compared has no meaning, and two ways to
-    write it may be on different branches: such points count only where there are no others.
+    write it may be on different branches: such points count only where there are no others. Points at which nothing
+    of the problem has a meaning are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
-    found, beside = 0, []
-    for point in islice(drawn, 2 * count if letters else 1):
+    found, beside, beyond = 0, [], 0
+    for tried, point in enumerate(islice(drawn, MANY * count if letters else 1)):
+        if tried >= 2 * count + beyond:
+            break
+        if not has_meaning(point):
+            beyond += 1
+            continue
         try:
             sample = compared_at(left, right, point, thoroughly)
         except (Undefined, NoNumber):

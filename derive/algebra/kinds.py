@@ -48,6 +48,7 @@ KINDS: Mapping[str, Kind] = {
     "line density": Kind(dimension(1, -1, 0), "kg/m", positive=True),
     "speed": Kind(dimension(0, 1, -1), "m/s", positive=True, signed=True),
     "acceleration": Kind(dimension(0, 1, -2), "m/s^2", positive=True, signed=True),
+    "velocity": Kind(dimension(0, 1, -1), "m/s"),
     "angular speed": Kind(dimension(0, 0, -1), "rad/s", positive=True, signed=True, angles=(1, 0)),
     "angular acceleration": Kind(dimension(0, 0, -2), "rad/s^2", angles=(1, 0)),
     "squared angular speed": Kind(dimension(0, 0, -2), "1/s^2", angles=(2, 0)),
@@ -64,6 +65,12 @@ KINDS: Mapping[str, Kind] = {
     "coupling constant": Kind(dimension(1, 3, -2), "J m", positive=True),  # of an energy k/r
     "damping constant": Kind(dimension(1, 0, -1), "kg/s", positive=True),
     "current": Kind(dimension(0, 0, 0, 1), "A"),
+    "rate of current": Kind(dimension(0, 0, -1, 1), "A/s"),
+    "voltage": Kind(dimension(1, 2, -3, -1), "V"),
+    "resistance": Kind(dimension(1, 2, -3, -2), "ohm", positive=True),
+    "inductance": Kind(dimension(1, 2, -2, -2), "H", positive=True),
+    "capacitance": Kind(dimension(-1, -2, 4, 2), "F", positive=True),
+    "magnetic flux": Kind(dimension(1, 2, -2, -1), "Wb"),
     "charge": Kind(dimension(0, 0, 1, 1), "C"),
     "electric field": Kind(dimension(1, 1, -3, -1), "V/m"),
     "magnetic field": Kind(dimension(1, 0, -2, -1), "T"),
@@ -92,7 +99,7 @@ def kind_with_article(kind: str) -> str:
 def plural(kind: str) -> str:
     """Moments of inertia, angular speeds."""
     noun, of, rest = kind.partition(" of ")
-    return f"{noun}s{of}{rest}"
+    return f"{noun[:-1]}ies{of}{rest}" if noun.endswith("y") else f"{noun}s{of}{rest}"
 
 
 def kind_of_dimension(dimension: Dimension) -> str | None:

@@ -51,6 +51,31 @@ POSITIVE = Range(Integer(0), oo)
 _KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  which nobody changes
 
 
+_POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
+
+
+@contextmanager
+def own_meaning() -> Iterator[None]:
+    """What is taken to be positive inside is forgotten behind it."""
+    token = _POSITIVE.set(())
+    try:
+        yield
+    finally:
+        _POSITIVE.reset(token)
+
+
+def take_as_positive(expr: Expr) -> None:
+    """From here on nothing has a meaning where this is not positive, as c^2 - v^2 of what moves with the speed v."""
+    if expr not in _POSITIVE.get():
+        _POSITIVE.set((*_POSITIVE.get(), expr))
+
+
+def has_meaning(point: Mapping[Expr, Expr]) -> bool:
+    """Whether nothing that is taken to be positive is otherwise there, as far as the point tells."""
+    told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
+    return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
+
+
 @contextmanager
 def within(ranges: Mapping[Symbol, Range]) -> Iterator[None]:
     """What is done inside knows these letters to lie in their ranges."""

@@ -1,7 +1,8 @@
 """Taylor series of a formula along a motion: each letter goes by its own series, and these are added and multiplied.
 
 No derivative is taken anywhere: if x = x_0 + x_1 s + ... and y likewise, the coefficients of x y are the sums of
-x_j y_(k-j), and those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s.
+x_j y_(k-j), those of a sine and its cosine follow from each other by s' = u' c, c' = -u' s, those of y = x^a from
+x y' = a x' y, and those of an exponential from y' = u' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
 """
@@ -11,11 +12,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import reduce
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, together, zoo
 
-__all__ = ["NoSeries", "slope", "taylor"]
+from derive.algebra.expressions import stand_in
+from derive.algebra.normal_form import vanishes
+
+__all__ = ["NoSeries", "coefficient_along", "series_along", "slope", "taylor"]
 
 ZERO = Integer(0)
+DEEPEST = 8  # order to which a numerator and a denominator may vanish together
 
 Series = tuple[Expr, ...]
 
@@ -40,6 +45,43 @@ def slope(expr: Expr | int, letter: Symbol) -> Expr:
         return diff(expr, letter)
 
 
+def coefficient_along(expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
+    """The coefficient of s^n where each letter is at its place and s times its direction away."""
+    return series_along(expr, place, direction, order)[order]
+
+
+def series_along(
+    expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
+) -> Sequence[Expr]:
+    """The coefficients of s^0, ..., s^n in that direction."""
+    paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
+    try:
+        found = taylor(expr, paths, order)
+        return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
+    except NoSeries:
+        s = stand_in("s_small")
+        moved = expr.subs({q: at + s * direction[q] for q, at in place.items()}, simultaneous=True)
+        terms = series(moved, s, 0, order + 1).removeO().expand()
+        return [terms.coeff(s, n) for n in range(order + 1)]
+
+
+def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
+    """The same where what is divided by vanishes at the place, and what is divided too."""
+    above, below = together(expr).as_numer_denom()
+    under = taylor(below, paths, order + DEEPEST)
+    lowest = next((n for n, part in enumerate(under[: DEEPEST + 1]) if not vanishes(part)), None)
+    if lowest is None:
+        raise NoSeries
+    over = taylor(above, paths, order + lowest)
+    if not all(map(vanishes, over[:lowest])):
+        raise NoSeries
+    found: list[Expr] = []
+    for k in range(order + 1):
+        carried = Add(*(under[lowest + k - j] * found[j] for j in range(k)))
+        found.append((over[lowest + k] - carried) / under[lowest])
+    return found
+
+
 class _Arithmetic:
     def __init__(self, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> None:
         self._letters = letters
@@ -59,14 +101,18 @@ class _Arithmetic:
             parts = [self.of(part) for part in expr.args]
             moving = [part for part in parts if any(part[1:])]
             if not moving:
-                return self._constant(expr)
+                return self._constant(expr.func(*(part[0] for part in parts)))
             resting = [part[0] for part in parts if not any(part[1:])]
             return self._sum(resting, moving) if expr.is_Add else self._times(Mul(*resting), moving)
         if isinstance(expr, Pow) and expr.exp.is_Integer:
             x = self.of(expr.base)
             if not any(x[1:]):
-                return self._constant(expr)
+                return self._constant(x[0] ** expr.exp)
             return reduce(self._product, [x if expr.exp > 0 else self._one_over(x)] * abs(int(expr.exp)))
+        if isinstance(expr, Pow) and not expr.exp.free_symbols & self._letters.keys():
+            return self._power(self.of(expr.base), expr.exp)
+        if isinstance(expr, exp):
+            return self._exponential(self.of(expr.args[0]))
         if isinstance(expr, sin | cos):
             return self._turning(self.of(expr.args[0]))[isinstance(expr, cos)]
         if not expr.free_symbols & self._letters.keys():
@@ -99,6 +145,22 @@ class _Arithmetic:
         found = [1 / x[0]]
         for k in self._orders[1:]:
             found.append(-Add(*(x[j] * found[k - j] for j in range(1, k + 1))) / x[0])
+        return tuple(found)
+
+    def _power(self, x: Series, a: Expr) -> Series:
+        """x y' = a x' y, term by term; a power of what vanishes that is no whole one has no series."""
+        if x[0] == 0 and any(x[1:]):
+            raise NoSeries
+        found = [x[0] ** a]
+        for k in self._orders[1:]:
+            parts = ((a * j - (k - j)) * x[j] * found[k - j] for j in range(1, k + 1) if x[j])
+            found.append(Add(*parts) / (k * x[0]))
+        return tuple(found)
+
+    def _exponential(self, u: Series) -> Series:
+        found = [exp(u[0])]
+        for k in self._orders[1:]:
+            found.append(Add(*(Rational(j, k) * u[j] * found[k - j] for j in range(1, k + 1) if u[j])))
         return tuple(found)
 
     def _turning(self, u: Series) -> tuple[Series, Series]:

@@ -6,6 +6,7 @@ How the result then stands on paper is decided by `derive.render.notation.notati
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache, reduce
 from typing import Any
 
@@ -32,6 +33,7 @@ from sympy import (
     sin,
     sqrt,
     sqrtdenest,
+    tan,
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
@@ -41,6 +43,7 @@ from derive.algebra.coefficients import Outside, in_front, is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
+from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
@@ -69,15 +72,17 @@ def _tidied_scalar(value: Expr) -> Expr:
         return value
     if (sum_of_angles := _by_addition_theorem(value)) is not None:
         return sum_of_angles
+    if value.has(tan):
+        value = value.replace(lambda e: isinstance(e, Add) and e.has(tan), _by_secant)
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):
         if value.atoms(Add) and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
-        return min((_in_front(value), _in_front(_expanded_above(value))), key=_length)
+        return _shortest((_in_front(value), _in_front(_expanded_above(value))))
     forms = (value, *_by_one_square(value), *_by_pairs(value), *_by_one_angle(value))
-    return min((_as_one_fraction(form) for form in forms), key=_length)
+    return _shortest(_as_one_fraction(form) for form in dict.fromkeys(forms))
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -95,6 +100,17 @@ def _by_addition_theorem(value: Expr) -> Expr | None:
         (a,), (b,) = first[sin], first[cos]
         return sign * _of_two_letters(sin, a + b if alike else a - b)
     return None
+
+
+def _by_secant(total: Expr) -> Expr:
+    """1/cos^2 of 1 + tan^2, with what both have in common."""
+    for tangent in sorted(total.atoms(tan), key=str):
+        found = total.as_poly(tangent)
+        if found is None or found.degree() != 2 or found.nth(1) != 0 or found.nth(0).has(tan):
+            continue
+        if (found.nth(2) - found.nth(0)).expand() == 0:
+            return found.nth(0) / cos(tangent.args[0]) ** 2
+    return total
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
@@ -122,7 +138,7 @@ def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
 def _as_one_fraction(value: Expr) -> Expr:
     try:
         expanded = _in_front_expanded(value)
-        return expanded if is_multiplied_out(value) else min((expanded, _in_front(value)), key=_length)
+        return expanded if is_multiplied_out(value) else _shortest((expanded, _in_front(value)))
     except PolynomialError:
         return _in_front(value)
 
@@ -170,9 +186,21 @@ def _by_one_angle(value: Expr) -> list[Expr]:
     return [TR10i(expand(value))] if len(angles) > 1 and value.atoms(sin) else []
 
 
-def _length(value: Expr) -> tuple[int, str]:
-    """How much there is to write; between equals, always the same one."""
-    return int(value.count_ops()), str(value)
+def _shortest(forms: Iterable[Expr]) -> Expr:
+    """With the least to write; between equals, always the same one."""
+    lengths: dict[Expr, int] = {form: int(form.count_ops()) for form in forms}
+    least = min(lengths.values())
+    return min((form for form, length in lengths.items() if length == least), key=_Text)
+
+
+class _Text:
+    """How an expression is written, found only where it must be compared."""
+
+    def __init__(self, value: Expr) -> None:
+        self.value = value
+
+    def __lt__(self, other: _Text) -> bool:
+        return str(self.value) < str(other.value)
 
 
 def _has_roots(value: Expr) -> bool:
@@ -191,7 +219,7 @@ def _denested(value: Expr) -> Expr:
     content, rest = square.primitive()
     found = sqrt(content) * sqrtdenest(sqrt(rest))
     found = found if number.is_positive else -found
-    return min((value, found * letters), key=_length)
+    return _shortest((value, found * letters))
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
@@ -213,7 +241,7 @@ def _roots_drawn_out(value: Expr) -> Expr:
 
     def drawn(power: Expr) -> Expr:
         turning = power.base.atoms(sin, cos)
-        base = together(min((power.base, *(_in_one_square(power.base) if turning else ())), key=_length))
+        base = together(_shortest((power.base, *(_in_one_square(power.base) if turning else ()))))
         numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
         (outside, inside), (below, under) = numerator, denominator
         root = Rational(1, power.exp.q)
@@ -280,7 +308,7 @@ def common_factor(entries: list[Expr]) -> Expr:
         bottom = reduce(lcm, (d for _, d in parts))
     except PolynomialError:
         return Integer(1)
-    top = factor(top)
+    top = differences_of_squares(factor(top))
     if all(_leads_negative(entry) for entry in present):
         top = -top
     roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))

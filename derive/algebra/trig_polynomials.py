@@ -5,7 +5,8 @@ multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 need
 is a letter more, and is multiplied out again before anything is said to vanish.
 
 The letters and the z of angles that are products of letters do not depend on one another by any polynomial (exponential
-functions of such angles are algebraically independent), so that a form without terms is the only one of zero. The z of
+functions of such angles are algebraically independent), so that a form without terms is the only one of zero. An angle
+may also have sines and cosines of letters as factors: written alike, it is the same one. The z of
 parts of pi is a root of one, and what holds of it follows from its irreducible equation, by which a form is reduced.
 A square root is a letter whose square is known; such roots may depend on one another, so that nothing is said where
 some are left.
@@ -20,7 +21,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from math import gcd, lcm
 
-from sympy import Add, Expr, I, Mul, Pow, Rational, Symbol, cos, cyclotomic_poly, pi, sin, tan
+from sympy import Add, Expr, I, Mul, Pow, Rational, cos, cyclotomic_poly, pi, sin, tan
 
 from derive.algebra.sparse_polynomials import HIGHEST, PARTS, WIDTH, Form, Outside, Ring, Terms
 
@@ -74,6 +75,11 @@ def _has_nested_roots(expr: Expr) -> bool:
 def _has_roots(expr: Expr) -> bool:
     is_root = isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer
     return is_root or any(_has_roots(part) for part in expr.args if part.args)
+
+
+def _is_in_angles(base: Expr) -> bool:
+    """A letter, or the sine or cosine of one, as in the angle phi_dot t cos theta of a steady precession."""
+    return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 
 class _Finer(Exception):
@@ -139,7 +145,7 @@ class TrigRing(Ring):
     def _multiple(self, number: Rational, angle: Expr) -> int:
         """How many of the smallest parts of the angle there are."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
-        if angle is not pi and not all(isinstance(base, Symbol) and power.is_Integer for base, power in powers):
+        if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside
         if abs(number.p) > HIGHEST or number.q > PARTS:
             raise Outside

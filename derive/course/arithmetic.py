@@ -114,6 +114,8 @@ class Arithmetic:
     def raised(self, base: Term, exponent: Term) -> Term:
         """The power, once it is known to be small; `9**9**9` ends here before it is worked out."""
         number = exponent.expr
+        if not number.is_number and exponent.dimension == NUMBER:
+            return self._raised_to_letters(base, exponent)
         if not isinstance(number, Rational):
             message = f"the exponent `{self.shown(exponent)}` is not a number such as 2 or 1/2"
             self.refuse(
@@ -129,6 +131,18 @@ class Arithmetic:
             self.refuse("division-by-zero", f"division by zero: `{self.shown(base)}` is 0", base.start, base.end)
         term = replace(base, expr=base.expr**number, start=base.start, end=exponent.end, size=size, terms=terms)
         return self.real(replace(term, dimension=base.dimension ** fraction(number), kind=None))
+
+    def _raised_to_letters(self, base: Term, exponent: Term) -> Term:
+        """(r/a)**n: a power that depends on letters is one of a positive number."""
+        if base.dimension != NUMBER:
+            message = f"`{self.shown(base)}` is {base.is_a}, and `{self.shown(exponent)}` may be any exponent"
+            self.refuse("dimension", f"{message}: raise a number, such as `(r/a)**n`", base.start, exponent.end)
+        if not base.expr.is_positive:
+            message = f"`{self.shown(base)}` may be negative, so that it has no power `{self.shown(exponent)}`"
+            self.refuse("expression", message, base.start, base.end)
+        size = base.size + exponent.size
+        self.bound(base.start, exponent.end, size, base.terms)
+        return Term(base.expr**exponent.expr, NUMBER, base.start, exponent.end, size, base.terms)
 
     def applied(self, name: str, function: Callable[[Expr], Expr], inner: Term, start: int, end: int) -> Term:
         """A function of a number or an angle, or the root of anything."""

@@ -45,6 +45,9 @@ HELP_IN_KEYS: Mapping[str, str | None] = {
     "give the interval with `within=(..., ...)`": "give the interval, `within: [0, pi/2]`",
     "`conserved(L, phi)`": "no coordinate of this system is cyclic",
     "`constraint(f, force=...)` is one": "write it under `constraints`",
+    "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`": (
+        "such a motion is steady: under `results`, `steady` gives its condition and `frequency` its stability"
+    ),
     "put it somewhere with `.placed` or `.held`": "give its `centre`, or `held` and `on`",
     "fractions are written `Rational(1, 2)`": "fractions are written `1/2`",
     '`let("name", lambda: ..., kind="...")` makes a step of an expression': None,

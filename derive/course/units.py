@@ -60,6 +60,10 @@ _UNITS: dict[str, tuple[Fraction, int, Dimension, int]] = {
     "C": (Fraction(1), 0, _CURRENT * _TIME, 0),
     "V": (Fraction(1), 0, _ENERGY / (_CURRENT * _TIME), 0),
     "T": (Fraction(1), 0, _FORCE / (_CURRENT * _LENGTH), 0),
+    "ohm": (Fraction(1), 0, _ENERGY / (_CURRENT**2 * _TIME), 0),
+    "H": (Fraction(1), 0, _ENERGY / _CURRENT**2, 0),
+    "F": (Fraction(1), 0, _CURRENT**2 * _TIME**2 / _ENERGY, 0),
+    "Wb": (Fraction(1), 0, _ENERGY / _CURRENT, 0),
     "kPa": (Fraction(1000), 0, _FORCE / _LENGTH**2, 0),
 }
 UNIT_NAMES = tuple(_UNITS)

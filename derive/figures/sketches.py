@@ -50,7 +50,7 @@ ZERO = Integer(0)
 HANGING = Rational(5, 2)  # a string through a hole, in terms of what of it is on the table
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
 HALF = ECCENTRICITY = Rational(1, 2)
-BROADSIDE = Rational(23, 36) * pi  # across the usual way of looking
+BROADSIDE = 23 * pi / 36  # across the way in which one usually looks
 
 
 def sketch(
@@ -116,9 +116,10 @@ class _Scene:
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
         """What turns about the vertical at a given rate is drawn when its plane is that of the paper."""
-        if self.rows != 3 or len(self.system.particles) != 1:
+        if self.rows != 3:
             return {}
-        angles = {f.args[0] for c in self.system.particles[0].at.components for f in c.atoms(sin, cos)}
+        turned = [c for place in self.system.places for c in place.components]
+        angles = {f.args[0] for c in turned for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
         return {TIME: BROADSIDE / rates[0]} if len(rates) == 1 and not rates[0].has(TIME) else {}
 

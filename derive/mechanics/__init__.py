@@ -15,6 +15,7 @@ from derive.mechanics.bodies.edged_bodies import *
 from derive.mechanics.bodies.general import *
 from derive.mechanics.bodies.solids import *
 from derive.mechanics.bodies.thin_bodies import *
+from derive.mechanics.equations.approximate import *
 from derive.mechanics.equations.combination import *
 from derive.mechanics.equations.conditions import *
 from derive.mechanics.equations.conservation import *
@@ -37,6 +38,7 @@ from derive.mechanics.equations.stability import *
 from derive.mechanics.equations.stable_where import *
 from derive.mechanics.equations.steady import *
 from derive.mechanics.equations.substitution import *
+from derive.mechanics.equations.superposition import *
 from derive.mechanics.equations.turning_stability import *
 from derive.mechanics.equations.unknowns import *
 from derive.mechanics.equations.values import *
@@ -49,6 +51,7 @@ from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.steady import *
 from derive.mechanics.rotation.tensors import *
 from derive.mechanics.rotation.vectors import *
+from derive.mechanics.systems.blow import *
 from derive.mechanics.systems.brackets import *
 from derive.mechanics.systems.canonical import *
 from derive.mechanics.systems.constraint import *
@@ -58,6 +61,8 @@ from derive.mechanics.systems.energies import *
 from derive.mechanics.systems.energy import *
 from derive.mechanics.systems.forced import *
 from derive.mechanics.systems.forces import *
+from derive.mechanics.systems.given_lagrangian import *
+from derive.mechanics.systems.impulses import *
 from derive.mechanics.systems.in_letters import *
 from derive.mechanics.systems.kept_momentum import *
 from derive.mechanics.systems.lagrangian import *

@@ -21,6 +21,7 @@ from derive.course.reference.comparison import Remark
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
+from derive.page.abbreviations import says_again, shortened
 from derive.page.assumptions import between_bounds
 from derive.page.checks import Checks, checks_of
 from derive.page.cross_references import References, found_before
@@ -33,6 +34,7 @@ from derive.page.wording import (
     Phrases,
     Ref,
     Text,
+    around_chain,
     conversions,
     filled,
     given_words,
@@ -211,8 +213,10 @@ class _Writer:
         self.converted: set[Any] = set()
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
         self.symbols = {step.key: step.symbol for step in derivation.steps}
+        self._short = shortened(derivation.steps)
         self.page_names = self._page_names()
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
+        self.asked = {step.key for step in answered}
         self.notes = notes_apart(answered, words)
 
     def document(self, compared: Sequence[Remark]) -> Document:
@@ -268,9 +272,10 @@ class _Writer:
 
     def _assumed(self) -> tuple[Inline, ...]:
         """What the script takes to hold of the letters, said with what is given."""
-        if not self.derivation.assumed:
+        assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
+        if not assumed:
             return ()
-        conditions = joined([(Math(each),) for each in between_bounds(self.derivation.assumed)], self._and)
+        conditions = joined([(Math(each),) for each in between_bounds(assumed)], self._and)
         return (Text(" "), *filled(self.words.labels["assumed"], {"conditions": conditions}))
 
     # --- drawings ---
@@ -318,20 +323,24 @@ class _Writer:
         numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
         if isinstance(step.result, Truncated) or step.chain[-1].because == "series":
             return Answer(key, step.symbol, step.result, "approx")
-        if isinstance(step.result, Relation):
-            return Answer(key, step.result.left, step.result.right, step.result.word, numbers, self.notes.get(key, ()))
+        result = self._short(step, step.result)
+        if isinstance(result, Relation):
+            return Answer(key, result.left, result.right, result.word, numbers, self.notes.get(key, ()))
         note = (Text(self.words.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
-        return Answer(key, step.symbol, step.result, "equals", numbers, self.notes.get(key, note))
+        return Answer(key, step.symbol, result, "equals", numbers, self.notes.get(key, note))
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own."""
         mode = self.problem.show.get(step.key, "")
         if mode == "hidden":
             return
+        if step.key not in self.asked and (same := says_again(step)) in self.numbers:
+            self.numbers[step.key] = self.numbers[str(same)]
+            return
         nodes = (Chain(),) if goes_on else self._phrase(step)
-        self.numbers[step.key] = len(self.numbers) + 1
+        self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
         equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
-        before, after = _around_chain(nodes)
+        before, after = around_chain(nodes)
         display = Display((equations,), frozenset({step.grade}), self._routes(step))
         if not before and blocks and isinstance(blocks[-1], Display):
             blocks[-1] = blocks[-1].with_more(display)
@@ -363,6 +372,7 @@ class _Writer:
         if mode == "result":
             forms = [step.chain[-1]]
         before = [None, *(form.because for form in forms)]
+        forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         return tuple(lines)
 
@@ -431,18 +441,3 @@ def _illustrated(
         found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]
         found.append(block)
     return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place >= steps))
-
-
-def _around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[Inline, ...]]:
-    at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
-    return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
-
-
-def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """Without blank text at either end."""
-    kept = list(nodes)
-    while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
-        kept.pop(0)
-    while kept and isinstance(kept[-1], Text) and not kept[-1].text.strip():
-        kept.pop()
-    return tuple(kept)

@@ -81,7 +81,7 @@ class Chain:
 
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
-ASKED = {"point", "axis_letter", "strictly", "comparison", "asked"}  # words by which a phrase chooses
+ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen"}  # words by which a phrase chooses
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
 
@@ -329,6 +329,22 @@ def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline
 
 def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Inline, ...]:
     return Math(symbol), Text(" = "), Math(amounts[symbol])
+
+
+def around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[Inline, ...]]:
+    """What is said before the lines of a step, and behind them."""
+    at = next((i for i, node in enumerate(nodes) if isinstance(node, Chain)), len(nodes))
+    return _trimmed(nodes[:at]), _trimmed(nodes[at + 1 :])
+
+
+def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
+    """Without blank text at either end."""
+    kept = list(nodes)
+    while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
+        kept.pop(0)
+    while kept and isinstance(kept[-1], Text) and not kept[-1].text.strip():
+        kept.pop()
+    return tuple(kept)
 
 
 def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> list[Complaint]:

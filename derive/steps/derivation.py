@@ -33,6 +33,7 @@ class Derivation:
     unshown: tuple[str, ...] = ()
     assumed: tuple[Relation, ...] = ()
     groups: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    in_words: tuple[Relation, ...] = ()  # of what is assumed, that which a step tells
 
     def step(self, key: str) -> Step:
         return next(step for step in self.steps if step.key == key)
@@ -162,7 +163,7 @@ def derivation_of(
     run = run or Run()
     unshown = tuple(dict.fromkeys(q.key for q in run.established if q.key not in shown))
     named = tuple((groups or {}).items())
-    return Derivation(tuple(shown.values()), tuple(parts), unshown, tuple(run.assumed), named)
+    return Derivation(tuple(shown.values()), tuple(parts), unshown, tuple(run.assumed), named, tuple(run.in_words))
 
 
 # --- JSON ------------------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
+from zlib import crc32
 
 from sympy import (
     Abs,
@@ -23,6 +24,7 @@ from sympy import (
     MatrixSymbol,
     Mul,
     Pow,
+    Rational,
     Symbol,
 )
 
@@ -61,7 +63,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, Mul | MatMul):
         return product(of(arg) for arg in expr.args)
     if isinstance(expr, Pow):
-        return power(of(expr.base), Fraction(expr.exp.p, expr.exp.q))
+        return power(of(expr.base), _number_of(expr.exp))
     if isinstance(expr, Abs):
         return of(expr.args[0])
     if isinstance(expr, Integral):
@@ -70,6 +72,15 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
     if isinstance(expr, Function):
         return _of_numbers(expr, of)
     raise TypeError(f"no rule for the dimension of {type(expr).__name__}")
+
+
+def _number_of(exponent: Any) -> Fraction:
+    """An exponent; where it holds letters, for some numbers of these: what is homogeneous then is so for any."""
+    some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
+    value = exponent.xreplace(some)
+    if not isinstance(value, Rational):
+        raise TypeError(f"no rule for the exponent {exponent}")
+    return Fraction(value.p, value.q)
 
 
 def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:

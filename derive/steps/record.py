@@ -14,6 +14,7 @@ from typing import Any
 from sympy import Expr, MatrixSymbol, Symbol
 
 from derive.algebra.expressions import TIME, Relation, component_names, explicit, rate
+from derive.algebra.ranges import own_meaning
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Quantity, same_value, value_behind
 
@@ -24,7 +25,7 @@ class Run:
 
     established   every quantity, in order
     coordinates   those that it has named, with their kinds
-    assumed       conditions that its letters leave open
+    assumed       conditions that its letters leave open; in_words, those of them that a step tells
     drawings      what is to be seen
     numbers       behind the letters of its problem, as given
     places        where each given was written
@@ -34,6 +35,7 @@ class Run:
     established: list[Quantity] = field(default_factory=list)
     coordinates: dict[Symbol, str] = field(default_factory=dict)
     assumed: list[Relation] = field(default_factory=list)
+    in_words: list[Relation] = field(default_factory=list)
     drawings: list[Any] = field(default_factory=list)
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
     places: Mapping[str, Place] = field(default_factory=dict)
@@ -48,6 +50,8 @@ OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "H": ("calH",),
     "R": ("calR",),
     "h": ("J", "calE"),
+    "v": ("u", "w"),
+    "u": ("w",),
     "tau": ("tau_0",),
     "omega": ("Omega",),
     "lambda": ("mu", "lambda_0"),
@@ -64,7 +68,8 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
     run = run or Run()
     token = current_run.set(run)
     try:
-        yield run
+        with own_meaning():
+            yield run
     finally:
         current_run.reset(token)
 
@@ -89,11 +94,18 @@ def free_letter(name: str, *indices: str) -> str:
     return name
 
 
-def assume(condition: Relation) -> None:
-    """A condition that the letters leave open: the page says that it is taken to hold."""
+def given_letters() -> set[str]:
+    """The letters that the problem has for what is given, for coordinates and for forces."""
+    run = current_run.get()
+    return set(run.letters) if run is not None else set()
+
+
+def assume(condition: Relation, in_words: bool = False) -> None:
+    """A condition that the letters leave open: the page says that it is taken to hold; or a step does, in words."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         run.assumed.append(condition)
+        run.in_words.extend([condition] if in_words else [])
 
 
 def assumed() -> list[Relation]:

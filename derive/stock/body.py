@@ -27,6 +27,7 @@ from derive.mechanics import (
     radius_of_gyration,
     tensor_entry,
     turned_tensor,
+    vector_component,
 )
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity
@@ -219,6 +220,7 @@ class Answers:
         pairs = [first + second for n, first in enumerate(AXES) for second in AXES[n:]]
         return {
             "centre_of_mass": lambda: self.centre_of_mass,
+            **{f"centre_of_mass_{axis}": partial(self.centre_component, axis) for axis in AXES},
             "density": self.density,
             "mass": self.mass,
             **{size: partial(self.size, size) for size in SIZES},
@@ -234,6 +236,14 @@ class Answers:
             "principal_angle": lambda: principal_angle(self.inertia_tensor),
             "perpendicular_axes": self.perpendicular_axes,
         }
+
+    def centre_component(self, axis: str) -> Quantity:
+        """The step that it is, or one that reads it off."""
+        key = f"centre_of_mass_{axis}"
+        along = key if axis != "z" else "centre_of_mass_on_axis"
+        centre = self.centre_of_mass
+        found = next((q for q in centre.parents if q.key.endswith((key, along))), None)
+        return found or vector_component(centre, axis, key=key)
 
     def gyration(self, axis: str) -> Quantity:
         return radius_of_gyration(self.moment(axis), f"k_{axis}", f"radius_of_gyration_{axis}")

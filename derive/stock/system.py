@@ -22,6 +22,8 @@ from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
+from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
+from derive.stock.keys.lagrangians import read_lagrangian
 from derive.stock.keys.parts import (
     CENTRAL,
     CHARGES,
@@ -79,11 +81,17 @@ class SystemKeys(Record):
     gravity: Tree | None = key("the acceleration of free fall, downwards; without it nothing has weight", SCALAR)
     springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
     central: Sequence[CentralKeys] = key("potential energies of the distance of two places", CENTRAL)
+    lagrangian: Tree | None = key(
+        "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may stand beside it",
+        SCALAR,
+    )
     potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
     forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
     damping: Sequence[DampingKeys] = key("drag against a velocity, in proportion to it", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions that forces keep", CONSTRAINTS)
+    blow: BlowKeys | None = key("what happens in a moment: impulses and collisions", BLOW)
     conserved: Mapping[Word, Tree] = key(
         "letters for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or what they are, "
         "`psi: C*s`",
@@ -109,16 +117,18 @@ class DescribedSystem(Described):
     at: tuple[tuple[str, Expr], ...] = ()
     at_rest: Word | None = None
     results: tuple[Result, ...] = ()
+    blow: DescribedBlow | None = None
     brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
     named: tuple[Location, ...] = ()
+    given: tuple[Expr, str | None] | None = None
 
 
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
     """What the keys say in the declared letters and in the coordinates."""
     letters = coordinate_letters(written.coordinates, symbols, faults)
     known = InLetters({**symbols, **letters})
-    places = Places(written.points, written.axes, known)
+    places = Places(written.points, written.axes, known, {name: one.at for name, one in written.particles.items()})
     parts: list[Part] = []
     named: dict[str, Location] = {}
     with faults:
@@ -126,7 +136,6 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     sorts: tuple[Sequence[Any], ...] = (
         written.springs,
         written.central,
-        written.forces,
         written.damping,
         written.charges,
         written.constraints,
@@ -144,6 +153,13 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:
         names = {str(name) for name in written.bodies}
         parts += each([partial(one.part, places, known, names) for one in written.rolling])
+    with faults:  # friction is in proportion to what keeps a condition
+        with_multipliers = InLetters({**known.letters, **_multipliers(parts)})
+        with_multipliers.numbers = known.numbers
+        parts += each([partial(one.part, places, with_multipliers) for one in written.forces])
+    given: tuple[Expr, str | None] | None = None
+    with faults:
+        given = read_lagrangian(written, known)
     rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
     gravity = _value(written.gravity, "gravity", "acceleration", known, faults)
     energy = _value(written.potential, "potential", "energy", known, faults)
@@ -155,10 +171,16 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kept: list[tuple[str, Expr]] = []
     with faults:
         kept = _kept(written.conserved, letters, known)
-    own = {**letters, **_multipliers(parts), **_constants(written.conserved, letters, known, faults)}
+    forces = _multipliers(parts)
+    own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
+    blow: DescribedBlow | None = None
+    with faults:
+        blow = written.blow.read(letters, forces, places, known) if written.blow else None
+    own |= blow.letters if blow else {}
     with faults:
         own |= _steady_rates(written, letters, known)
-    with_own = InLetters({**_momenta(written.coordinates, letters), **symbols, **own})
+    kind_of_lagrangian = given[1] if given is not None else "energy"
+    with_own = InLetters({**_momenta(written.coordinates, letters, kind_of_lagrangian), **symbols, **own})
     with_own.numbers = known.numbers
     return DescribedSystem(
         letters=own,
@@ -178,9 +200,11 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
         results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
+        blow=blow,
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
+        given=given,
     )
 
 
@@ -191,9 +215,11 @@ def _value(node: Tree | None, name: str, kind: str, letters: InLetters, faults: 
     return None
 
 
-def _momenta(written: Mapping[Word, str], coordinates: Mapping[str, Declared]) -> dict[str, Declared]:
+def _momenta(
+    written: Mapping[Word, str], coordinates: Mapping[str, Declared], lagrangian: str | None
+) -> dict[str, Declared]:
     """The momenta of coordinates, which functions of both hold: `x*p_y - y*p_x`."""
-    kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind) for q in written if q in coordinates}
+    kinds = {f"p_{q}": kind_of_momentum(coordinates[q].kind, lagrangian) for q in written if q in coordinates}
     return {name: Declared(name, scalar(name), kind) for name, kind in kinds.items() if kind is not None}
 
 
@@ -302,8 +328,9 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
     of = Answers(described)
     asks = of.asks()
     answers: dict[str, object] = {}
-    with told_at(described.place):
-        sketch(SYSTEM, of.system, named=described.named)
+    if described.given is None:
+        with told_at(described.place):
+            sketch(SYSTEM, of.system, named=described.named)
     for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
         answers[str(name)] = of.named(name)
     of.check_letters()

@@ -18,7 +18,7 @@ def solve(
     if width is not None and inertia is not None:
         raise ValueError("give `inertia` or `width`, not both")
     section = Plate((width or 3 * radius + thickness, thickness), mass)  # every slice has its share of the mass
-    slab = section if width is not None else RigidBody(mass, inertia).drawn_as(section)
+    slab = section if width is not None else RigidBody(mass, inertia, look=section)
     theta, s, x, y = coordinate("theta"), *(coordinate(name, "length") for name in ("s", "x", "y"))
     along, across = point(1, 0).turned(-theta), point(0, 1).turned(-theta)
     rolled = slab.placed(-theta, point(-s, radius + thickness / 2).turned(-theta))

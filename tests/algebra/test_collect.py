@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Add, Expr, Mul, Rational, cos, expand, sin, symbols
+from sympy import Add, Expr, Mul, Rational, Symbol, cos, expand, sin, symbols
 
 from derive.algebra.collect import (
     by_accelerations,
@@ -117,3 +117,19 @@ def test_masses_before_one_function_of_an_angle_are_added_up() -> None:
 def test_terms_with_a_coordinate_below_stand_apart() -> None:
     l, m, k, r = symbols("l m k r", positive=True)
     assert by_rates(l**2 / (m * r**3) - k / r**2, [r]) == l**2 / (m * r**3) - k / r**2
+
+
+def test_a_coordinate_stands_with_the_constant_from_which_it_is_counted() -> None:
+    """The force of a spring of natural length l, Taylor, section 5.1."""
+    y, y_dot, y_ddot = (Symbol(name, real=True) for name in ("y", "y_dot", "y_ddot"))
+    k, l, m, g = symbols("k l m g", positive=True)
+    found = by_accelerations(m * y_ddot + k * y - m * g - k * l, [y])
+    assert k * Add(y, -l) in found.args
+    assert str(by_rates(m * g + k * l - k * y, [y])) == "g*m - k*(-l + y)"
+    assert by_rates(m * y_dot**2 / 2 - k * y, [y]) == m * y_dot**2 / 2 - k * y
+
+
+def test_a_number_below_a_sum_stays_where_no_term_is_left_without_one() -> None:
+    g, l, w, I, M = symbols("g l omega I M", positive=True)
+    assert str(spread((3 * g - 2 * l * w**2) / 6)) == str((3 * g - 2 * l * w**2) / 6)
+    assert str(spread((4 * I + M * l**2) / 4)) == str(I + M * l**2 / 4)

@@ -33,6 +33,7 @@ MASS, LENGTH, TIME = (dimension_of_kind(kind) for kind in ("mass", "length", "ti
 SI = {"kg": MASS, "m": LENGTH, "s": TIME, "N": MASS * LENGTH / TIME**2, "J": MASS * LENGTH**2 / TIME**2}
 SI |= {"A": dimension_of_kind("current"), "C": dimension_of_kind("current") * TIME}
 SI |= {"V": SI["J"] / SI["C"], "T": SI["N"] / (SI["A"] * LENGTH)}
+SI |= {"ohm": SI["V"] / SI["A"], "F": SI["C"] / SI["V"], "Wb": SI["V"] * TIME, "H": SI["V"] * TIME / SI["A"]}
 SI |= {"W": SI["J"] / TIME, "Hz": TIME**-1, "rad": NUMBER, "1": NUMBER}
 
 
@@ -118,6 +119,7 @@ def test_what_may_be_signed_is_positive_otherwise() -> None:
 
 def test_several_of_a_kind_have_a_plural() -> None:
     assert (plural("angular speed"), plural("moment of inertia")) == ("angular speeds", "moments of inertia")
+    assert plural("velocity") == "velocities"
 
 
 def test_a_polar_angle_alone_is_within_bounds() -> None:

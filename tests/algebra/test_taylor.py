@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Symbol, cos, diff, exp, factorial, sin, sqrt, symbols
+from sympy import Expr, Integer, Rational, Symbol, cos, diff, exp, factorial, log, sin, sqrt, symbols
 
 from derive.algebra.normal_form import vanishes
-from derive.algebra.taylor import NoSeries, slope, taylor
+from derive.algebra.taylor import NoSeries, coefficient_along, slope, taylor
 
 a, b, s = symbols("a b s", positive=True)
 q, v, w = symbols("q v w", real=True)
@@ -25,6 +25,10 @@ VALUES = [
     sqrt(a) * q,
     Integer(0),
     exp(-a) * q,
+    sqrt(a**2 + q**2) * sin(q),
+    (a + q**2) ** b,
+    (a + q) ** Rational(-3, 2),
+    exp(-a * q) / (a + q),
 ]
 
 
@@ -35,10 +39,42 @@ def test_coefficients_are_the_derivatives_along_the_motion(value: Expr) -> None:
         assert vanishes(coefficient - diff(along, s, n).subs(s, 0) / factorial(n))
 
 
-@pytest.mark.parametrize("value", [sqrt(q), exp(q), abs(q) + q])
+@pytest.mark.parametrize("value", [abs(q) + q, q**q, log(q)])
 def test_a_function_without_a_series_here_is_refused(value: Expr) -> None:
     with pytest.raises(NoSeries):
         taylor(value, LINE, 1)
+
+
+def test_a_root_of_what_vanishes_has_no_series() -> None:
+    with pytest.raises(NoSeries):
+        taylor(sqrt(q), {q: (Integer(0), Integer(1))}, 1)
+
+
+def test_what_changes_to_a_higher_order_only_is_taken_at_the_place() -> None:
+    from_rest = {q: (Integer(0), Integer(1))}
+    assert taylor(sin(q) ** 2 + b, from_rest, 1) == (b, 0)
+    assert taylor((a - q**2) ** 2, from_rest, 1) == (a**2, 0)
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+@pytest.mark.parametrize(
+    "value",
+    [
+        (1 - cos(q)) / sin(q),
+        (1 - cos(q)) ** 2 / sin(q) ** 2 + a * q,
+        sin(a * q) / q,
+        (sin(q) ** 2 + (cos(q) - 1) * (cos(q) + 1) + q**2) / q,
+    ],
+    ids=str,
+)
+def test_a_quotient_of_what_vanishes_has_the_coefficients_of_its_series(value: Expr, order: int) -> None:
+    found = coefficient_along(value, {q: Integer(0)}, {q: Integer(1)}, order)
+    assert vanishes(found - value.series(q, 0, order + 1).removeO().expand().coeff(q, order))
+
+
+def test_in_a_direction_of_several_letters() -> None:
+    found = coefficient_along(q**2 * w + sin(q * w), {q: a, w: Integer(0)}, {q: v, w: b}, 2)
+    assert vanishes(found - (2 * a * v * b + v * b))
 
 
 def test_a_series_that_is_too_short_is_refused() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from sympy import Expr, I, Integer, Matrix, Rational, acos, cos, pi, sin, sqrt, symbols
+from sympy import Expr, I, Integer, Matrix, Rational, acos, cos, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Dot, column
@@ -165,3 +165,14 @@ def test_what_has_one_sign_in_its_range_leaves_the_root_and_cancels() -> None:
         assert tidied(sqrt(a * sin(x) ** 2 * cos(x)) / sin(x) ** 2) == sqrt(a) * sqrt(cos(x)) / sin(x)
     with within({x: Range(-pi / 2, Integer(0))}):
         assert tidied(sqrt(a * sin(x) ** 2 * cos(x)) / sin(x) ** 2) == -sqrt(a) * sqrt(cos(x)) / sin(x)
+
+
+def test_one_and_the_square_of_a_tangent_is_the_square_of_a_secant() -> None:
+    """A mass on a cone: Taylor, problem 13.17; sqrt(3) sin(alpha) is what its oscillations have to its rate."""
+    g, z, m = symbols("g z m", positive=True)
+    angle, other = symbols("alpha beta", real=True)
+    assert tidied(m * (1 + tan(angle) ** 2) / 2) == m / (2 * cos(angle) ** 2)
+    assert tidied(3 * g / (z + z * tan(angle) ** 2)) == 3 * g * cos(angle) ** 2 / z
+    assert tidied(1 + tan(angle) ** 2 + tan(other)) == 1 + tan(angle) ** 2 + tan(other)
+    assert tidied(2 + tan(angle) ** 2).has(tan)
+    assert tidied((1 + tan(angle)) ** 2 - 2 * tan(angle)).subs(angle, 0) == 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from algebra.test_corpus import PROVED, SLIPS
-from sympy import Expr, I, Rational, S, cos, diff, pi, sin, sqrt, symbols, tan
+from sympy import Expr, I, Rational, S, cos, diff, exp, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.normal_form import _vanishes_by_relations, is_identity, vanishes
 from derive.algebra.trig_polynomials import HIGHEST, Outside, TrigRing, are_equal, is_zero
@@ -38,6 +38,8 @@ EQUAL = [
     (cos(x + pi / 9), cos(x) * cos(pi / 9) - sin(x) * sin(pi / 9)),
     ((cos(pi / 7) + I * sin(pi / 7)) ** 7, -S.One),
     (8 * cos(pi / 9) ** 3 / a, (6 * cos(pi / 9) + 1) / a),
+    (cos(a * t * cos(x)) ** 2, 1 - sin(t * a * cos(x)) ** 2),
+    (sin((a + b * cos(x)) * t), sin(a * t) * cos(b * t * cos(x)) + cos(a * t) * sin(b * t * cos(x))),
 ]
 INSIDE = [pair for pair in PROVED if all(isinstance(side, Expr) for side in pair)]
 
@@ -108,7 +110,9 @@ def test_what_was_asked_before_does_not_count() -> None:
         1 / (cos(pi / 9) + cos(5 * pi / 9) + cos(7 * pi / 9)),
         sin(sqrt(x)),
         sin(x / (a + b)),
-        sin(sin(x)),
+        sin(sin(2 * x)),
+        sin(t * sin(x + y)),
+        sin(exp(x)),
         cos((HIGHEST + 1) * x),
         1 / (sin(x) ** 2 + cos(x) ** 2 - 1),
         (x - y) / (x * y - y * x),

@@ -68,7 +68,7 @@ def test_a_product_and_a_power_have_the_dimension_of_their_making(reader: Arithm
     ("exponent", "code"),
     [
         (term(a), "dimension"),
-        (term(a, NUMBER), "expression"),
+        (term(a, NUMBER), "dimension"),
         (term(MAX_EXPONENT + 1, NUMBER), "too-large"),
         (term(Rational(1, MAX_EXPONENT + 1), NUMBER), "too-large"),
     ],

@@ -73,7 +73,7 @@ def slab(inertia: Any = None) -> Drawing:
     with recorded():
         angle, way = coordinate("theta"), coordinate("s", "length")
         plate = Plate((3 * R + a, a), M)
-        body = plate if inertia is None else RigidBody(M, inertia).drawn_as(plate)
+        body = plate if inertia is None else RigidBody(M, inertia, look=plate)
         rolled = body.placed(-angle, point(-way, R + a / 2).turned(-angle))
         rolling = no_slip(rolled, at=point(0, R).turned(-angle), fixes=way)
         return sketch("slab", System(rolled, rolling, weight(a)))

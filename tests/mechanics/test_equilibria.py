@@ -33,7 +33,7 @@ from derive.mechanics import (
 from derive.mechanics.equations import equilibria as equilibria_module
 from derive.mechanics.equations import minima
 from derive.mechanics.equations.linearised import Rest
-from derive.mechanics.equations.zeros import Unsolved, Zero, zeros_of
+from derive.mechanics.equations.zeros import Unsolved, Zero, different_from_zero, positive, sign_where, zeros_of
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 
@@ -303,3 +303,12 @@ def test_energies_in_play_are_those_of_the_verbs() -> None:
     assert rest.value == l
     with pytest.raises(Rejected):
         equilibria(kinetic_energy_of(system))
+
+
+def test_a_quotient_has_the_sign_of_its_denominator_too() -> None:
+    """A carriage on a turning beam, held by a spring: Goldstein, problem 2.21. It has a place where k > m omega^2."""
+    found = positive(k * a / (k - m * w**2))
+    assert found == Relation(w**2, "<", k / m)
+    assert positive((a - R) / (k - m * w**2), letter=None).mark == ">"
+    assert sign_where((a - R) / (k - m * w**2), None) is None
+    assert different_from_zero((a - R) / (k - m * w**2)) == Relation(a, "!=", R)

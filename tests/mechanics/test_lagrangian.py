@@ -9,7 +9,7 @@ from sympy import Integer, cos, sin, symbols
 
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import Relation
-from derive.errors import Rejected, Unverified
+from derive.errors import Rejected
 from derive.mechanics import (
     Particle,
     System,
@@ -23,8 +23,7 @@ from derive.mechanics import (
 )
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
-from tests.mechanics.block import known_block
-from tests.mechanics.motion import THETA, X, b, g, l, m, motion, of_system, position
+from tests.mechanics.motion import THETA, X, b, g, l, m, motion, of_system
 from tests.mechanics.slab import I as moment
 from tests.mechanics.slab import M, R, a, known_slab
 
@@ -61,25 +60,21 @@ def test_a_body_that_turns_has_the_energy_of_its_rotation_besides() -> None:
 
 
 def test_a_turning_that_is_no_coordinate_of_the_place_is_a_coordinate_all_the_same() -> None:
-    T, U = energies(x, 0, X, inertia=moment, turning=THETA)
-    assert set(lagrangian(T, U).coordinates) == {x, q}
+    T, _ = energies(x, 0, X, inertia=moment, turning=THETA)
+    assert set(of_system(x, 0, X, inertia=moment, turning=THETA).coordinates) == {x, q}
     assert (T.value - m * x_dot**2 / 2 - moment * q_dot**2 / 2).expand() == 0
 
 
-def test_the_energies_are_taken_in_their_order_and_are_energies() -> None:
-    T, U = energies(*PENDULUM)
-    with pytest.raises(Unverified):
-        lagrangian(U, T)
-    with pytest.raises(Rejected, match="`lagrangian` needs an energy as its `potential`, but `Z` is a length"):
-        lagrangian(T, position("Z", l))
-    with pytest.raises(Rejected, match="needs an energy"):
-        lagrangian(known_block()["torque"], U)
+def test_a_lagrangian_is_that_of_a_system() -> None:
+    T, _ = energies(*PENDULUM)
+    with pytest.raises(Rejected, match="`lagrangian` needs a `System`"):
+        lagrangian(T)  # type: ignore[arg-type]
 
 
 def test_no_potential_is_no_force() -> None:
-    T, U = energies(x, 0, X)
-    assert U.value == 0
-    found = equation_of_motion(lagrangian(T, U), X)
+    L = of_system(x, 0, X)
+    assert L.parents[1].value == 0
+    found = equation_of_motion(L, X)
     assert found.step.outcome == "cyclic"
     assert says(found.value, m * x_ddot)
 

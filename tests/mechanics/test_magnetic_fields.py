@@ -21,11 +21,9 @@ from derive.mechanics import (
     energy_function,
     equations_of_motion,
     hamiltonian,
-    kinetic_energy_of,
     lagrangian,
     noether,
     point,
-    potential_energy_of,
 )
 from derive.mechanics.systems import dalembert
 from derive.mechanics.systems.lagrangian import Energies
@@ -98,13 +96,6 @@ def test_a_shift_across_the_field_is_a_symmetry_with_a_gain() -> None:
     L = lagrangian(System(Particle(m, point(x, y)), charge(q, point(x, y), B=B)))
     Q = noether(L, {x: 1}, gained=q * B * y / 2)
     assert equal(Q.value, m * x.rate - q * B * y.symbol)
-
-
-def test_the_energies_of_a_system_do_not_forget_its_field() -> None:
-    x, y = lengths("x", "y")
-    system = System(Particle(m, point(x, y)), charge(q, point(x, y), B=B))
-    L = lagrangian(kinetic_energy_of(system), potential_energy_of(system))
-    assert equal(L.value, lagrangian(system, symbol="L_2", key="again").value)
 
 
 @pytest.mark.parametrize("factor", [-1, 2])

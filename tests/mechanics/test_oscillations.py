@@ -79,13 +79,13 @@ def test_what_is_no_equilibrium_is_refused(place: Any) -> None:
         linearised(motion(*PENDULUM), at=place)
     (complaint,) = refusal.value.complaints
     assert complaint.code == "no-equilibrium"
-    assert complaint.message == f"`equation_of_motion` is not in equilibrium at theta = {place}"
+    assert complaint.message.startswith(f"`equation_of_motion` is not in equilibrium at theta = {place}: ")
 
 
 def test_an_equation_with_another_coordinate_is_refused() -> None:
     r = coordinate("r", "length")
     L = of_system(r.symbol * sin(q), -r.symbol * cos(q), r, THETA)
-    with pytest.raises(Rejected, match="`linearised` needs an equation of theta alone, but `equation_of_motion` also"):
+    with pytest.raises(Rejected, match="`equation_of_motion` also has r, of which there is no equation"):
         linearised(equation_of_motion(L, THETA))
 
 

@@ -13,6 +13,7 @@ import pytest
 from sympy import Integer, Matrix, Rational, cos, diag, pi, sin, sqrt, symbols, zeros
 
 from derive.algebra.equality import Grade, equal
+from derive.algebra.expressions import Terms
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Annulus,
@@ -33,6 +34,7 @@ from derive.mechanics import (
     Wedge,
     centre_of_mass,
     inertia_tensor,
+    moment_of_inertia,
     moved_to,
 )
 from derive.mechanics.bodies.body import Body
@@ -182,3 +184,10 @@ def test_a_shape_that_cannot_be_is_refused(make: Any, message: str) -> None:
 
 def test_an_equilateral_triangle_has_its_height() -> None:
     assert Triangle.equilateral(a, M).corners[2] == Matrix([a / 2, sqrt(3) * a / 2, 0])
+
+
+def test_integrals_that_vanish_are_left_out_of_the_sum() -> None:
+    """Of a torus those of cos u and of its cube do; what is left is added."""
+    chain = moment_of_inertia(Torus(R, a, M), "x").step.chain
+    (multiplied,) = [form.expr for form in chain if form.because == "multiplied"]
+    assert 0 not in {term for sums in multiplied.atoms(Terms) for term in sums.args}

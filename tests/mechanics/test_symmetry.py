@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from sympy import Expr, Function, cos, diff, sin, symbols
+from sympy import Expr, Function, cos, sin, symbols
 
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import TIME as t
@@ -18,16 +18,14 @@ from derive.mechanics import (
     System,
     Z,
     coordinate,
-    kinetic_energy_of,
     lagrangian,
     noether,
     point,
+    potential,
     space,
     spring,
     weight,
 )
-from derive.mechanics.systems.dalembert import Load, Matter
-from derive.steps.establish import establish
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -87,13 +85,7 @@ def in_a_helical_field() -> tuple[Quantity, Coordinate, Coordinate]:
     """A particle on a cylinder; its potential energy depends on the angle less the height, as on a screw thread."""
     phi, z = coordinate("phi"), coordinate("z", "length")
     particle = Particle(m, point(l * cos(phi), l * sin(phi), z))
-    T = kinetic_energy_of(System(particle))
-    U = k * l**2 * cos(phi.symbol - 2 * z.symbol / h)
-    along, up = -diff(U, phi.symbol) / l, -diff(U, z.symbol)
-    force = (-along * sin(phi.symbol), along * cos(phi.symbol), up)
-    matter = Matter((), (Load(force, particle.at.components),), (phi.symbol, z.symbol))
-    potential = establish("equations.let", scalar("U"), lambda: U, {}, kind="energy", definition=True, facts=[matter])
-    return lagrangian(T, potential), phi, z
+    return lagrangian(System(particle, potential(k * l**2 * cos(phi.symbol - 2 * z.symbol / h)))), phi, z
 
 
 def test_a_screw_gives_momentum_and_angular_momentum_together() -> None:

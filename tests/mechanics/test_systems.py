@@ -23,7 +23,6 @@ from derive.mechanics import (
     coordinate,
     equation_of_motion,
     equations_of_motion,
-    kinetic_energy_of,
     lagrangian,
     point,
     potential_energy_of,
@@ -188,10 +187,3 @@ def test_a_particle_that_moves_as_no_coordinate_says_has_no_equation_of_motion()
     x, y = lengths("x", "y")
     with pytest.raises(Rejected, match="does not depend on the coordinate"):
         equation_of_motion(lagrangian(System(Particle(m, point(x, 0)), weight(g))), y)
-
-
-def test_energies_of_two_systems_make_no_lagrangian() -> None:
-    x, y = lengths("x", "y")
-    first, second = System(Particle(m, point(0, x)), weight(g)), System(Particle(m, point(0, y)), weight(g))
-    with pytest.raises(Rejected, match="must belong to one body"):
-        lagrangian(kinetic_energy_of(first), potential_energy_of(second))

@@ -162,8 +162,6 @@ def test_a_motion_starts_as_its_sentence_says() -> None:
     assert not told_rightly("linear_motion.solution", "uniform", Judged(a + R * TIME, of | start))
     other = of | start | {"q": Relation(x, "=", 0)}
     assert not told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, other))
-        "linear_motion.solution", "uniform", Judged(R + a * TIME, of | start | {"q": Relation(x, "=", 0)})
-    )
 
 
 def test_a_comparison_has_the_word_of_its_mark() -> None:

@@ -149,10 +149,6 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         "the moment of a mass M, not of m",
     ),
     "a mass that changes": (lambda: slab(mass=M + m * TIME), "depends on the time t"),
-    "kinetic energy on one cylinder, potential energy on another": (
-        lambda: lagrangian(slab(R).parents[0], slab(2 * R).parents[1]),
-        "must belong to one body",
-    ),
     "rolling on a cylinder that grows": (lambda: slab(R + l * TIME), "the body cannot roll there"),
     "a component of more names than it has": (
         lambda: components(point(l, b), names=("x", "y", "z")),

@@ -22,7 +22,7 @@ SURVIVORS: dict[str, tuple[str, ...]] = {
         "mechanics.rotation.inertia:inertia_tensor: order: _definition(body, point, region, name, key) -> _definition(body, point, region, key, name)",
         "mechanics.rotation.inertia:inertia_tensor: order: _entry_by_integration(body, point ...  name, key, pair, by_definition) -> _entry_by_integration(body, point ...  key, name, pair, by_definition)",
         "mechanics.rotation.inertia:_moved: order: _entry_moved(there, centre, target, symbol, key, pair) -> _entry_moved(there, centre, target, key, symbol, pair)",
-        "mechanics.equations.oscillations:frequency: condition: 'kappa' if grows else squared.needed(SquareOf).letter -> 'kappa' if not grows else squared.needed(SquareOf).letter",
+        "mechanics.equations.oscillations:frequency: condition: 'kappa' if grows else known.letter -> 'kappa' if not grows else known.letter",
         "mechanics.rotation.principal:_frame: order: ('phi', 'psi', 'chi', 'alpha') -> ['psi', 'phi', 'chi', 'alpha']",
         "mechanics.rotation.principal:_frame: order: ((alone + 1) % 3, (alone + 2) % 3) -> [(alone + 2) % 3, (alone + 1) % 3]",
         "mechanics.rotation.principal:principal_moments: number: 3 -> 4",

@@ -6,14 +6,15 @@ from itertools import combinations
 from math import isclose
 
 import pytest
-from sympy import Matrix, Rational, sqrt
+from sympy import Matrix, Rational, cos, sin, sqrt
 
 from derive.algebra.expressions import TIME, column
 from derive.errors import Rejected
 from derive.figures import arrow, drawing, outline, particle
+from derive.figures.sketches import BROADSIDE
 from derive.figures.space import dot, size_of, unit
 from derive.mechanics import Cuboid, coordinate, point
-from derive.render.drawing.camera import Numbers, stance_from, stand_ins, with_coordinates
+from derive.render.drawing.camera import USUAL, Numbers, best_stance, stance_from, stand_ins, with_coordinates
 from derive.steps.record import recorded
 from tests.figures.scenery import M, a, heading, pieces_of, strokes
 from tests.mechanics.block import b, c
@@ -72,3 +73,15 @@ def test_a_place_in_a_plane_has_no_depth_and_a_curve_runs_through_its_places() -
 
 def test_the_time_has_a_number_while_it_is_drawn() -> None:
     assert 0 < Numbers({}).of(TIME) < 1
+
+
+def test_a_plane_that_is_carried_round_is_seen_from_its_front() -> None:
+    """However open its angles would look from another place, a hoop is a circle and a level arm level."""
+    slanting = [arrow(column(1, 2, 1), size=1), arrow(column(1, -2, 3), size=1)]
+    omega = sqrt(2)
+    assert best_stance(drawing("one", slanting), Numbers({})) != USUAL
+    assert best_stance(drawing("two", slanting, values={TIME: BROADSIDE / omega}), Numbers({})) == USUAL
+    level = (float(cos(BROADSIDE)), float(sin(BROADSIDE)), 0.0)
+    across, upwards = USUAL.spot(level)
+    assert isclose(across, 1.0, abs_tol=1e-9)
+    assert isclose(upwards, 0.0, abs_tol=1e-9)

@@ -89,6 +89,11 @@ PINNED = [
     (sqrt(42) / 28 * M * a**2 * omega**2, r"\frac{\sqrt{42}}{28}\,Ma^{2}\omega^{2}", "√42/28 M a² ω²"),
     (sqrt(a**2 + b**2), r"\sqrt{a^{2}+b^{2}}", "√(a² + b²)"),
     (a ** Rational(3, 2), r"a^{3/2}", "a^(3/2)"),
+    (
+        2 * sqrt(6) * pi * (a**2 + b**2) ** Rational(1, 4) / (3 * sqrt(g)),
+        r"2\pi\sqrt{\frac{2\sqrt{a^{2}+b^{2}}}{3g}}",
+        "2π √(2√(a² + b²)/(3g))",
+    ),
     # signs
     (c**2 - a**2, "c^{2}-a^{2}", "c² - a²"),
     (-a - b, "-a-b", "-a - b"),

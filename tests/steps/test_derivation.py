@@ -11,7 +11,7 @@ from sympy import Integer
 
 from derive.algebra.expressions import Relation, scalar
 from derive.errors import Rejected
-from derive.steps.derivation import derivation_of, from_json, returned_quantities, to_json, with_ancestors
+from derive.steps.derivation import answering, derivation_of, from_json, returned_quantities, to_json, with_ancestors
 from derive.steps.establish import establish
 from derive.steps.numeric import value_of
 from derive.steps.record import Run, recorded
@@ -186,3 +186,11 @@ def within_itself() -> list[Any]:
 def test_what_is_no_answer_is_refused_whatever_it_is(value: Any, got: str) -> None:
     with pytest.raises(Rejected, match=f"but it returned {got}"):
         returned_quantities(value)
+
+
+def test_a_name_asks_for_all_of_its_group_also_where_one_of_them_has_that_name() -> None:
+    """`stability` is a condition, and the further ones that hold with it: one alone would say too much."""
+    steps = [made(key).step for key in ("stability", "stability_2", "period")]
+    groups = {"stability": ("stability", "stability_2"), "period": ("tau_1", "tau_2")}
+    assert list(answering(["stability"], steps, groups)) == ["stability", "stability_2"]
+    assert list(answering(["stability_2", "period"], steps, groups)) == ["stability_2", "period"]

@@ -46,6 +46,30 @@ def test_what_parts_may_ask_of_a_cone(body: str, answer: str, key: str, value: o
     assert equal(solved(tmp_path, text)[key].value, value)
 
 
+def test_one_component_of_the_centre_of_mass(tmp_path: Path) -> None:
+    """Goldstein, section 5.3: 3 h/4 from the apex, on the axis."""
+    made = "about: apex\n  results: {part: {value: centre_of_mass_z/h}}"
+    edits = ("about: apex", made), ("answer: inertia_tensor", "answer: [part, centre_of_mass_x]")
+    found = solved(tmp_path, edited(CONE, *edits))
+    assert equal(found["part"].value, Rational(3, 4))
+    assert found["centre_of_mass_x"].value == 0
+
+
+def test_a_hemisphere_that_is_denser_above(tmp_path: Path) -> None:
+    """By hand, with rho = k z/R: M = pi k R^3/4, z_C = 8 R/15, and I_z = M R^2/3; the mass is called by its letter."""
+    body = (
+        "{position: [r*sin(theta)*cos(phi), r*sin(theta)*sin(phi), r*cos(theta)], density: 3*m*r*cos(theta)/(R*h**3), "
+        "limits: {r: [0, R], theta: [0, pi/2], phi: [0, 2*pi]}}"
+    )
+    asks = "[centre_of_mass, radius_of_gyration_z]"
+    edits = (CONE_IS, body), ("  about: apex\n", ""), ("M: mass, ", ""), ("answer: inertia_tensor", f"answer: {asks}")
+    found = solved(tmp_path, edited(CONE, *edits))
+    assert equal(found["centre_of_mass_z"].value, 8 * R / 15)
+    assert equal(found["radius_of_gyration_z"].value, R / sqrt(3))
+    for key in ("centre_of_mass", "radius_of_gyration_z"):
+        assert "M" in {s.name for s in found[key].step.chain[0].expr.free_symbols}
+
+
 def test_parallel_axes_to_the_centre(tmp_path: Path) -> None:
     text = edited(CONE, ("  about: apex\n", ""), ("answer: inertia_tensor", "answer: parallel_axes"))
     found = solved(tmp_path, text)

@@ -132,7 +132,9 @@ def test_letters_that_are_free_stay() -> None:
             "U",
             "V_eff",
         ]
-        assert free_letter("v", "1", "2") == "v"  # of which there is no other
+        assert free_letter("v", "1", "2") == "u"
+    with recorded(Run(letters={"Q"})):
+        assert free_letter("Q") == "Q"  # of which there is no other
     assert free_letter("T") == "T"
 
 

@@ -173,9 +173,7 @@ class OwnKeys(Record):
         "letters of the source that are called otherwise here: `I_1: I_xx`",
         mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
     )
-    entries: tuple[EntryKeys, ...] = key(
-        "the values that the source states", list_of(_ENTRY, "a list of entries"), required=True
-    )
+    entries: tuple[EntryKeys, ...] = key("the values that the source states", list_of(_ENTRY, "a list of entries"))
 
 
 def reference_path(problem: Problem) -> str:

@@ -164,6 +164,11 @@ class Body(Placeable, OfParticles):
         return centre_of_mass(self)
 
     @property
+    def mass_as_found(self) -> Quantity | Expr:
+        """The step that found its mass, or the mass that is given."""
+        return self.mass
+
+    @property
     def front(self) -> Expr:
         """What stands before the integral of what varies, so that the whole is the density: its letter, once found."""
         letter: Expr = self.density.symbol
@@ -384,7 +389,7 @@ def centre_of_mass(
         "bodies.centre_of_mass",
         vector(symbol),
         lambda mass: MatMul(Pow(mass, -1), whole, evaluate=False),
-        {"mass": body.mass},
+        {"mass": body.mass_as_found},
         routes=body.another_way(lambda r: r / body.mass, start),
         outcome="round" if on_axis else "generic" if is_even else "by_components" if found else "there",
         parents=[body.density, *found.values()],

@@ -128,6 +128,10 @@ class GeneralBody(Body):
             return mass_by_integration(self)
         return density(self) if self.is_uniform else normalised_density(self)
 
+    @property
+    def mass_as_found(self) -> Quantity | Expr:
+        return self.density if self.given_mass is None else self.mass
+
     @cached_property
     def middle(self) -> Point:
         first = [exact(self, x * self._profile * self._mapped, "centre") / self.size for x in self._position]

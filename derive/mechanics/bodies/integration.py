@@ -136,8 +136,13 @@ def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
         *lines,
         _line(front, terms, Nested.with_bracket, "antiderivative", Level.STANDARD),
         _line(front, values, Nested.written, "limits", Level.FULL),
-        Form(_times(front, [Mul(*term) for term in values]), "multiplied", Level.STANDARD),
+        Form(_times(front, _lasting([Mul(*term) for term in values])), "multiplied", Level.STANDARD),
     ]
+
+
+def _lasting(values: list[Expr]) -> list[Expr]:
+    """Without those that are 0, unless all are."""
+    return [value for value in values if value != 0] or values[:1]
 
 
 def _are_nested(terms: list[Separated]) -> bool:
@@ -218,7 +223,9 @@ def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
         _line(front, split, Nested.written, "section", Level.STANDARD),
         _line(front, split, _with_power_bracket, "antiderivative", Level.STANDARD),
         Form(
-            _times(front, [Mul(*(_one_further(part) for part in term)) for term in split]), "multiplied", Level.STANDARD
+            _times(front, _lasting([Mul(*(_one_further(part) for part in term)) for term in split])),
+            "multiplied",
+            Level.STANDARD,
         ),
     ]
 

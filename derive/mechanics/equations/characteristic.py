@@ -45,6 +45,7 @@ from derive.algebra.amplitudes import determinant_of
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import Relation
 from derive.algebra.expressions import Root as RootSign
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import sign_by_factors
@@ -181,9 +182,12 @@ def _roots_of(part: Poly) -> list[Expr]:
 
 def _of_plain_sign(value: Expr) -> Expr:
     """With sin^2 in place of cos^2, or the other way, where that shows a sign: M + m sin^2 a, not M + m - m cos^2 a."""
-    if not value.has(sin, cos) or sign_by_factors(value) is not None:
+    if sign_by_factors(value) is not None:
         return value
     above, below = fraction(together(value))
+    if not value.has(sin, cos):
+        form = above / with_squares(below)
+        return form if sign_by_factors(form) is not None else value
     forms = [factor(expand(turned(expand(above)))) / factor(expand(turned(expand(below)))) for turned in (TR5, TR6)]
     return next((form for form in forms if sign_by_factors(form) is not None), value)
 

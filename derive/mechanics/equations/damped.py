@@ -18,9 +18,9 @@ from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation, Root, explicit, scalar, stand_in
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.gyroscopic import judged_by, with_motion
+from derive.mechanics.equations.gyroscopic import judged_by
 from derive.mechanics.equations.inequalities import sign_by_factors
-from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, with_motion
 from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import T
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -117,11 +117,7 @@ def _characteristic(
     whole = Determinant(tidy) if len(linear) > 1 else tidy[0]
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
-        amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
-        course = exp(letter * T)
-        left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
-        rows = [[diff(value.expand(), a) for a in amplitudes] for value in left]
-        return found, Relation(determinant_of(ImmutableDenseMatrix(rows)), "=", 0)
+        return found, Relation(determinant_of(factors_of_amplitudes(linear, together, exp(letter * T))), "=", 0)
 
     product = Mul(*(tidied(part.as_expr()).xreplace({S: letter}) ** times for part, times in factors))
     return establish(

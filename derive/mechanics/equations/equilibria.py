@@ -19,6 +19,7 @@ from derive.algebra.collect import by_terms
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import range_of
+from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.counting import is_countable, signs_counted
@@ -33,8 +34,8 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
 from derive.mechanics.systems.forced import ActedOn
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.record import changes
-from derive.steps.step import Fact, Quantity, compared_with, is_zero, require_kind
+from derive.steps.record import changes, given_letters
+from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
 
 __all__ = ["equilibria", "potential_at_rest"]
 
@@ -85,12 +86,12 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
         law,
         {"lagrangian": of},
         lines=Lines(put_in=None, motion=still),
-        routes={"work": work},
+        routes=matter.named({"work": work}),
         outcome="pushed" if pushes else "generic",
         telling=Telling(judged_by={"moving": tuple(still)}),
         key=key,
         kind="energy",
-        facts=[Matter(matter.points, matter.loads, matter.coordinates, matter.others, matter.fields)],
+        facts=[matter],
     )
 
 
@@ -277,7 +278,9 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
         lambda U: Relation(Slope(U, q, Integer(1)) if alone else Partial(U, q), "=", 0),
         {"potential": potential},
         lines=Lines(put_in=None, arranged=lambda _: Relation(_term_by_term(force, q), "=", 0)),
-        routes={"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))},
+        routes=named_by(
+            potential, {"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))}
+        ),
         outcome="zero" if force == 0 else "generic",
         telling=Telling(judged_by={"coordinate": q}, formulas=steady_in(potential, [q])),
         key=f"condition_{q.name}",
@@ -301,7 +304,12 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, tuple[
 def matter_behind(potential: Quantity) -> Matter | None:
     """What made a potential energy: mass points and forces, or of an effective one those with momenta held constant."""
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
-    return seen.matter if seen is not None else own if own is not None and (own.loads or own.points) else None
+    return seen.matter if seen is not None else own if own is not None and own.is_known else None
+
+
+def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Route]:
+    matter = matter_behind(potential)
+    return dict(routes) if matter is None else matter.named(routes)
 
 
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
@@ -310,23 +318,18 @@ def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
         return -_force_at_rest(matter, q, still)
-    return expanded(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)
-
-
-def expanded(value: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int) -> Expr:
-    """The coefficient of u^n where each coordinate is at its place and u times its direction away."""
-    u = stand_in("u_small")
-    moved = value.subs({q: at + u * direction[q] for q, at in place.items()}, simultaneous=True)
-    return moved.series(u, 0, order + 1).removeO().expand().coeff(u, order)
+    return coefficient_along(explicit(potential.value), {q: q}, {q: Integer(1)}, 1)
 
 
 def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
-    """theta_0, or theta_1, theta_2, ... where there are several; dashed where these letters are given."""
-    taken = {s.name for s in explicit(potential.value).free_symbols}
+    """theta_0, or theta_1, theta_2, ... where there are several; theta_eq where these letters are given."""
+    taken = {s.name for s in explicit(potential.value).free_symbols} | given_letters()
 
     def letters(q: Symbol) -> list[Symbol]:
-        base = q.name if count < 2 or f"{q.name}_1" not in taken else f"{q.name}_eq"
-        return [scalar(f"{base}_{n}") for n in (range(1, count + 1) if count > 1 else [0])]
+        numbers = range(1, count + 1) if count > 1 else [0]
+        if not taken & {f"{q.name}_{n}" for n in numbers}:
+            return [scalar(f"{q.name}_{n}") for n in numbers]
+        return [scalar(f"{q.name}_eq_{n}" if count > 1 else f"{q.name}_eq") for n in numbers]
 
     return {q: letters(q) for q in sought}
 

@@ -70,6 +70,7 @@ class RigidBody(Placeable, OfParticles):
     centre    where its centre of mass is, from the point where its axes begin, the "pivot", m
     about     the point the moments are about: "centre_of_mass", or "fixed_point", the pivot; that is so where a centre
               is given and nothing is said
+    look      a body of a shape, as which it is drawn; its middle is where the centre of mass is
     """
 
     mass: Expr | None = None
@@ -110,12 +111,6 @@ class RigidBody(Placeable, OfParticles):
         """The same body under a name of its own, "upper rod", for a page that has another."""
         twin = replace(self, moments=(self.across_plane or self.moments[2]) if self.is_plane else self.moments)
         object.__setattr__(twin, "called", called)
-        return twin
-
-    def drawn_as(self, shape: Any) -> RigidBody:
-        """The same body, drawn as a body of a shape; its middle is where the centre of mass is."""
-        twin = self.named(self.called)
-        object.__setattr__(twin, "look", shape)
         return twin
 
     @property

@@ -32,7 +32,7 @@ from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.linearised import Linear, with_motion
 from derive.mechanics.equations.turning_modes import OMEGA, Swing, TurningPencil, factored
 from derive.mechanics.equations.zeros import positive
 from derive.mechanics.systems.coordinates import T
@@ -151,14 +151,6 @@ def of_cosines_and_sines(linear: Sequence[Quantity], together: Linear, letter: S
         left = with_motion(equation, together, [a * c + b * s for a, b in zip(u, v, strict=True)]).expand()
         rows += [[diff(left.coeff(part), a) for a in (*u, *v)] for part in (c, s)]
     return determinant_of(ImmutableDenseMatrix(rows))
-
-
-def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
-    """The left side of a linear equation with a motion eta(t) put in."""
-    put_in: dict[Any, Expr] = {}
-    for s, eta in zip(together.displacements, motion, strict=True):
-        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
-    return explicit(equation.value).residual.xreplace(put_in)
 
 
 _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}

@@ -67,7 +67,7 @@ def limiting_case(
             arranged=lambda _: found,
             means={} if isinstance(name, Symbol) else meaning(name, found),
         ),
-        routes={"numbers": lambda result: _rest_vanishes(value, result, x, place, power)},
+        routes={"numbers": lambda result: rest_vanishes(value, result, x, place, power)},
         outcome="exact" if exact else _sort_of(place),
         key=key or f"{of.key}_limit",
         kind=of.step.kind,
@@ -114,7 +114,7 @@ def _name(of: Quantity, symbol: str | None) -> Any:
     return of.symbol if isinstance(of.symbol, Symbol) else unknown_of("limiting_case", of.symbol)
 
 
-def _rest_vanishes(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational) -> Verdict:
+def rest_vanishes(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational) -> Verdict:
     """At two distances, one a tenth of the other: the rest over the last power kept is smaller by a root at least."""
     seen = 0
     letters = (letters_of(value) | letters_of(found)) - {x}

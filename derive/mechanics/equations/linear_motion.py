@@ -33,6 +33,7 @@ from sympy import (
 )
 from sympy.simplify.fu import TR8
 
+from derive.algebra.collect import by_terms
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
@@ -41,7 +42,7 @@ from derive.mechanics.equations.zeros import different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
-from derive.steps.record import changes, require_constant
+from derive.steps.record import assume, changes, require_constant
 from derive.steps.step import Level, Quantity, is_zero, value_behind
 
 __all__ = ["solution"]
@@ -113,6 +114,7 @@ def solution(
     values = _constants(basis, particular, first, initial)
     free = _free(basis, values, linear, sort)
     found = _joined(free, particular)
+    found = by_terms(found.expand()) if sort == "uniform" else found  # v t - g t^2/2
 
     def from_the_start(motion: Expr) -> tuple[Any, Any]:
         asked = [start, *([] if linear.order == 1 else [start_rate or ZERO])]
@@ -134,6 +136,15 @@ def solution(
             judged_by={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
     )
+
+
+def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) -> Expr:
+    """The motion that nothing drives, from its value and its rate; the page tells the condition of the case."""
+    sort, condition = _sort(linear, case, None)
+    if condition is not None:
+        assume(condition)
+    basis = _basis(linear, sort)
+    return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
 
 
 def _told(
@@ -187,9 +198,10 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
         raise Rejected(Complaint("not-linear", message, help=help_line))
 
 
-def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Relation | None]:
+def _sort(linear: Linear, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
     """What kind of motion it is, and the condition under which it is so, where the letters leave it open."""
     a, b, c = linear.a, linear.b, linear.c
+    key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:
         message = f"`solution`: there is no case `{case}`"
         raise Rejected(Complaint("wrong-argument", message, help=f"the cases are {', '.join(CASES)}"))
@@ -200,21 +212,21 @@ def _sort(linear: Linear, case: str | None, equation: Quantity) -> tuple[str, Re
     if b == 0:
         sign = sign_known(c / a)
         if sign is None:
-            raise Rejected(Complaint("open-case", f"`{equation.key}`: the sign of {tidied(c / a)} is not known"))
+            raise Rejected(Complaint("open-case", f"{key}: the sign of {tidied(c / a)} is not known"))
         return ("oscillates" if sign > 0 else "runs_away"), None
     sign = sign_known(linear.discriminant)
     known = next((name for name, wanted in CASES.items() if wanted == sign), None)
     if known is None and case is None:
-        message = f"`{equation.key}`: the sign of {linear.discriminant} is not known"
+        message = f"{key}: the sign of {linear.discriminant} is not known"
         raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
     if known is not None and case not in (None, known):
-        raise Rejected(Complaint("open-case", f"`{equation.key}` is {known.replace('_', ' ')}"))
+        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
     if known is not None:
         return known, None
     if case == "critically_damped":
-        message = f"`{equation.key}` is critically damped only where {linear.discriminant} = 0"
+        message = f"{key} is critically damped only where {linear.discriminant} = 0"
         raise Rejected(Complaint("open-case", message, help="put that case in first, with `put_in`"))
     mark = "<" if case == "underdamped" else ">"
     return str(case), _compared(tidied(b**2), mark, tidied(4 * a * c))

@@ -9,19 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, together
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lcm, together
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations import oscillations
-from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
+from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with, is_zero
 
@@ -58,10 +58,17 @@ class Linear(Fact):
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta."""
+        """What all terms of one equation have in common that is positive, m l of m l^2 theta_ddot + m g l theta.
+
+        Where each of them has something below it, all that is below is cleared: 1/k^2 of A theta_ddot/k^2 + g theta/k.
+        """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
-        above = [together(entry).as_numer_denom()[0] for entry in (*entries, self.driven[i]) if entry != 0]
-        found = common_factor(above)
+        parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]
+        if len(parts) == 1:
+            return Integer(1)  # I theta_ddot = 0 stays as it is
+        found = common_factor([above for above, _ in parts])
+        if all(below.free_symbols for _, below in parts):
+            found /= factor(reduce(lcm, (below for _, below in parts)))
         return Mul(*(part for part in Mul.make_args(found) if part.is_positive and not part.is_Rational))
 
 
@@ -80,12 +87,11 @@ def linearised(
     Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
     Outcomes: generic, displaced (some coordinate is not 0 at rest), and with a drag or what drives them damped,
     displaced_damped, driven, displaced_driven.
-    Errors: a force is left at that place; a value is missing; the coefficients change in time.
+    Errors: a force is left at that place; a value, or the equation of a coordinate, is missing; the coefficients change
+    in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
     """
     if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):
-        if _is_of_energies_alone(motion):
-            return oscillations.linearised(motion, at, key)
         q = motion.needed(OfCoordinate).coordinate
         return _together((motion,), {q: ZERO if at is None else at}, [key])[0]
     equations = (motion,) if isinstance(motion, Quantity) else tuple(motion)
@@ -95,6 +101,7 @@ def linearised(
 def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
     """The linear equations of all coordinates."""
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
+    _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
     _check_rest(equations, moving, place)
     eta = _displacements(moving, place)
@@ -126,7 +133,11 @@ def _one(
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
     common = linear.common(i)
-    terms = [spread(tidied(matrix[i, j] / common)) * s for matrix, letters in ordered for j, s in enumerate(letters)]
+    terms = [
+        with_squares(spread(tidied(matrix[i, j] / common))) * s
+        for matrix, letters in ordered
+        for j, s in enumerate(letters)
+    ]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     away = [(q.symbol, s.symbol) for q, s in zip(moving, eta, strict=True) if q != s]
     named = _letters_of(rests)
@@ -140,13 +151,17 @@ def _one(
     whole = Relation(left, "=", tidied(linear.driven[i] / common))
     if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
         counted["as_it_is"] = (whole, equations[i].value)
+    if len(moving) == 1:
+        counted["alone"] = (moving[0].symbol, moving[0].symbol)
     return establish(
         "linearised.equation",
         None,
         lambda *_: whole,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))},
+        routes=equations[i]
+        .needed(Matter)
+        .named({"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))}),
         outcome=_outcome(linear, i, bool(away)),
         telling=Telling(
             points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
@@ -170,11 +185,6 @@ def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:
     return found
 
 
-def _is_of_energies_alone(equation: Quantity) -> bool:
-    """Whether it comes from a Lagrangian that does not hold the time."""
-    return equation.fact(FromLagrangian) is not None and not explicit(equation.value).has(TIME)
-
-
 def _outcome(linear: Linear, own: int, displaced: bool) -> str:
     if linear.driven[own] != 0:
         return "displaced_driven" if displaced else "driven"
@@ -187,6 +197,18 @@ def _loss(linear: Linear) -> dict[str, Expr]:
     """Twice the rate at which small motions lose their energy: what of G is symmetric."""
     rates = [s.rate for s in linear.displacements]
     return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
+
+
+def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) -> None:
+    """No equation holds a coordinate of which the equation is missing."""
+    known = {q.symbol for q in moving}
+    for equation in equations:
+        value = explicit(equation.value).residual
+        others = [q for q in equation.coordinates if q not in known and value.has(q, rate(q), rate(q, 2))]
+        if others:
+            message = f"`linearised`: `{equation.key}` also has {others[0].name}, of which there is no equation"
+            help_line = "give all equations together, as `equations_of_motion` yields them"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
@@ -279,3 +301,18 @@ def _of_second_order(
             terms.append(_at_rest(value, moving, place) * letter)
     driving = pushed - diff(momentum, TIME)
     return Relation(Add(*terms), "=", _at_rest(driving, moving, place))
+
+
+def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
+    """The left side of a linear equation with a motion eta(t) put in."""
+    put_in: dict[Any, Expr] = {}
+    for s, eta in zip(together.displacements, motion, strict=True):
+        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
+    return explicit(equation.value).residual.xreplace(put_in)
+
+
+def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: Expr) -> MatrixBase:
+    """What stands with each amplitude in each equation, once eta = a course(t) is put in and the course divided out."""
+    amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
+    left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
+    return ImmutableDenseMatrix([[diff(value.expand(), a) for a in amplitudes] for value in left])

@@ -10,16 +10,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff, nan, zoo
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
+from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import (
-    expanded,
     matter_behind,
     potential_at_rest,
     slope_otherwise,
@@ -29,7 +29,6 @@ from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest, place_given
 from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.stable_where import StableWhere
-from derive.mechanics.equations.unknowns import without_sine_below
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.effective import SeenWith
@@ -43,6 +42,7 @@ __all__ = ["stability"]
 HIGHEST = 8  # the order to which a border is looked at
 SHORT = 80  # operations of a curvature that is written down before a place is put in
 ZERO = Integer(0)
+STEADY = "a steady motion there is found by `steady_motion`, and its stability by `frequency_squared_about`"
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,9 @@ def _check_level(place: Place) -> None:
         if not is_zero(force):
             where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
             message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"
-            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
+            steady = place.potential.fact(SeenWith)
+            help_line = STEADY if steady is not None and steady.constants else "`equilibria` finds the states of rest"
+            raise Rejected(Complaint("no-equilibrium", message, help=help_line))
 
 
 # --- one coordinate --------------------------------------------------------------------------------------------------
@@ -224,8 +226,8 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
 def _order(energy: Expr, place: Place) -> int:
     """The first order beyond the first that does not vanish there; 0 if there is none."""
     (q,) = place.coordinates
-    at = place.values[q]
-    return next((n for n in range(2, HIGHEST + 1) if not is_zero(diff(energy, q, n).subs(q, at))), 0)
+    terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
+    return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
 
 
 def _by_higher_order(place: Place, energy: Expr) -> str:
@@ -242,19 +244,14 @@ def _by_higher_order(place: Place, energy: Expr) -> str:
 def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
     from sympy import factorial
 
-    return factorial(order) * expanded(energy, {q: at}, {q: Integer(1)}, order)
+    return factorial(order) * coefficient_along(energy, {q: at}, {q: Integer(1)}, order)
 
 
 def _small_force(place: Place, q: Symbol) -> Expr:
     """What a unit of displacement adds to the force that drives back."""
     if matter_behind(place.potential) is not None:
-        u = stand_in("u_small")
-        moved = {s: at + (u if s == q else 0) for s, at in place.values.items()}
         force = slope_otherwise(place.potential, q)
-        added = diff(force.subs(moved, simultaneous=True), u).subs(u, 0)
-        if added.has(nan, zoo):  # where an axis is vertical, the rates about it are quotients of what vanishes there
-            added = diff(without_sine_below(tidied(force)).subs(moved, simultaneous=True), u).subs(u, 0)
-        return added
+        return coefficient_along(force, place.values, {s: Integer(s == q) for s in place.values}, 1)
     return _coefficient(place.energy, q, place.values[q], 2)
 
 
@@ -281,7 +278,7 @@ def _of_several(place: Place, key: str) -> Quantity:
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
         marks = {q: stand_in(f"u_{q.name}") for q in moving}
-        energy = expanded(place.energy, place.values, marks, 2).expand()
+        energy = coefficient_along(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[diff(energy, marks[p], marks[q]) for q in moving] for p in moving])
         return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
 

@@ -18,9 +18,7 @@ from sympy import (
     MatrixSymbol,
     Symbol,
     cos,
-    diff,
     exp,
-    expand,
     pi,
     sin,
 )
@@ -29,13 +27,15 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
 from derive.algebra.expressions import Ratio, Relation, Terms, explicit, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
+from derive.algebra.squares import with_squares
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import Pencil, root_of
 from derive.mechanics.equations.characteristic import Root as RootOfPencil
 from derive.mechanics.equations.damped import DampedModes
 from derive.mechanics.equations.gyroscopic import TurningModes
-from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.linearised import Linear, factors_of_amplitudes, with_motion
+from derive.mechanics.equations.oscillations import frequency, frequency_squared, told_where_positive
 from derive.mechanics.systems.coordinates import Coordinate, T
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter, require_constant
@@ -61,7 +61,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     linear   the equations, as `linearised` yields them
     key      what the keys begin with, where there are modes of something else on the page; then give a `symbol` too
     Keys: characteristic_equation; frequency_1, frequency_2, ... from the least; mode_1, mode_2, ... the shapes, of
-    which only the ratios mean anything. Of one coordinate there is `frequency` alone, omega_0.
+    which only the ratios mean anything. Of one coordinate there is `frequency` alone, omega_0, by `frequency_squared`.
     Where forces linear in the rates do no work, shapes are motions, cosines and sines; with drag there are rates of
     decay, decay_1, ..., and of a factor of its own each frequency, if the determinant falls into such factors.
     Second route: the motion put into the linear equations; the quotient of stiffness and mass in that shape (Rayleigh);
@@ -90,11 +90,15 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     before = f"{key}_" if key else ""
     if turns:
         return TurningModes(linear, together, letter, before).found()
+    if len(linear) == 1:
+        squared = frequency_squared(linear[0], symbol or f"{letter.name}_0", f"{before}frequency_squared")
+        return (frequency(squared, key=f"{before}frequency", condition=True),)
     characteristic = _characteristic(linear, together, pencil, letter, before)
-    name = letter.name if len(linear) > 1 else symbol or f"{letter.name}_0"
-    frequencies = [_frequency(characteristic, together, pencil, n, name, before) for n in range(len(pencil.roots))]
+    frequencies = [
+        _frequency(characteristic, together, pencil, n, letter.name, before) for n in range(len(pencil.roots))
+    ]
     shapes: list[Quantity] = []
-    for found in frequencies if len(linear) > 1 else []:
+    for found in frequencies:
         for column in found.needed(Mode).root.columns:
             shapes.append(_shape(linear, together, found, column, shapes, before))
     return (*frequencies, *shapes)
@@ -119,43 +123,27 @@ def _characteristic(
 ) -> Quantity:
     """det(K - omega^2 M) = 0.
 
-    Outcomes: several, one.
     Source: that of `normal_modes`.
     """
     matrix = together.rows_of(together.stiffness - letter**2 * together.mass)
-    factored = pencil.factored(letter**2)
-    whole = Determinant(matrix) if len(linear) > 1 else matrix[0]
-    if len(linear) == 1 and is_zero(whole + factored):
-        whole = factored  # the sign alone is no step
+    factored = pencil.factored(letter**2).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """The factors that stand with each amplitude once eta = a cos(omega t) is in the equations."""
-        amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
-        swing = cos(letter * T)
-        left = [_with_motion(each, together, [a * swing for a in amplitudes]) / swing for each in linear]
-        rows = [[diff(value, a) for a in amplitudes] for value in map(expand, left)]
-        return found, Relation(expanded_by_rows(ImmutableDenseMatrix(rows)), "=", 0)
+        matrix = factors_of_amplitudes(linear, together, cos(letter * T))
+        return found, Relation(expanded_by_rows(matrix), "=", 0)
 
     return establish(
         "modes.characteristic",
         None,
-        lambda *_: Relation(whole, "=", 0),
+        lambda *_: Relation(Determinant(matrix), "=", 0),
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored, "=", 0)),
         routes={"trial": by_trial},
-        outcome="several" if len(linear) > 1 else "one",
         key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
-
-
-def _with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) -> Expr:
-    """The left side of a linear equation with a motion eta(t) put in."""
-    put_in: dict[Any, Expr] = {}
-    for s, eta in zip(together.displacements, motion, strict=True):
-        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
-    return explicit(equation.value).residual.xreplace(put_in)
 
 
 _OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}
@@ -168,10 +156,8 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
     conditional_repeated.
     Source: that of `normal_modes`.
     """
-    size, linear = len(together.displacements), characteristic.parents[0]
     root = pencil.roots[n]
-    number = f"_{n + 1}" if size > 1 else ""
-    name = f"kappa{number}" if root.sign == -1 else f"{symbol}{number}"
+    name = f"kappa_{n + 1}" if root.sign == -1 else f"{symbol}_{n + 1}"
     letter = characteristic.step.coordinates[-1][0]
     turned = -1 if root.sign == -1 else 1
 
@@ -199,10 +185,11 @@ def _frequency(characteristic: Quantity, together: Linear, pencil: Pencil, n: in
         routes={"put_back": put_back, "rayleigh": rayleigh, "trace": trace},
         outcome=outcome,
         telling=Telling(
-            points_to={"characteristic": characteristic, **({"linear": linear} if size == 1 else {})},
+            points_to={"characteristic": characteristic},
             judged_by=_judged_by(together),
+            formulas=told_where_positive(root.value) if root.sign is None else {},
         ),
-        key=f"{start}frequency{number}",
+        key=f"{start}frequency_{n + 1}",
         kind="angular speed",
         parents=[characteristic],
         facts=[Mode(root)],
@@ -244,7 +231,7 @@ def _shape(
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         turned = -squared if root.sign == -1 else squared
-        left = [_with_motion(each, together, [a * course for a in found]) / course for each in linear]
+        left = [with_motion(each, together, [a * course for a in found]) / course for each in linear]
         values = [value.expand().subs(w**2, turned) if root.sign != 0 else value for value in left]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 

@@ -1,82 +1,37 @@
-"""Small oscillations about an equilibrium: the linear equation of motion and its frequency."""
+"""Small oscillations of one coordinate about an equilibrium: their frequency, by the linear equation of motion."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, Symbol, cos, diff, exp, prime, sqrt
+from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, cos, diff, exp, prime, sqrt
 
-from derive.algebra.collect import spread
-from derive.algebra.equality import equal
+from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import rational_in_range, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.characteristic import root_of
+from derive.mechanics.equations.inequalities import sign_by_factors
+from derive.mechanics.equations.linearised import Linear
+from derive.mechanics.equations.zeros import positive, sign_where
 from derive.mechanics.systems.coordinates import OfCoordinate, T
-from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Quantity, compared_with
+from derive.steps.step import Fact, Form, Quantity
 
 __all__ = ["frequency", "frequency_squared"]
+
+SHORT = 4  # a condition of more terms is not told
 
 
 @dataclass(frozen=True)
 class SquareOf(Fact):
-    """The letter of what this is the square of."""
+    """The letter of what this is the square of, and where the state exists about which it is."""
 
     missing = "is not the square of a frequency"
     letter: str
-
-
-def linearised(equation: Quantity, at: Expr | None = None, key: str = "linearised") -> Quantity:
-    """Equation of motion to first order in the displacement q from equilibrium, m q_ddot + k q = 0.
-
-    equation   of one coordinate, as `equation_of_motion` yields it
-    at         the value of the coordinate in equilibrium, 0 unless given; q is then measured from there
-    Second route: mass and stiffness as second derivatives of the Lagrangian, by the rate and by the coordinate.
-    Outcomes: generic, displaced (the equilibrium is not at 0).
-    Errors: the value is no equilibrium; another coordinate occurs in the equation.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
-    """
-    q, place = equation.needed(OfCoordinate).coordinate.symbol, at if at is not None else Integer(0)
-    others = [c for c in equation.coordinates if c != q and equation.value.left.has(c, rate(c), rate(c, 2))]
-    if others:
-        message = f"`linearised` needs an equation of {q.name} alone, but `{equation.key}` also has {others[0].name}"
-        raise Rejected(Complaint("wrong-argument", message))
-    small = stand_in("epsilon")
-    moved = equation.value.left.xreplace(
-        {q: place + small * q, rate(q): small * rate(q), rate(q, 2): small * rate(q, 2)}
-    )
-    if not equal(moved.subs(small, 0), 0):
-        message = f"`{equation.key}` is not in equilibrium at {q.name} = {place}"
-        raise Rejected(Complaint("no-equilibrium", message))
-    first = diff(moved, small).subs(small, 0)
-
-    def of_second_order() -> Relation:
-        energies = explicit(equation.needed(FromLagrangian).lagrangian.value)
-        at_rest = {q: place, rate(q): Integer(0)}
-        mass, stiffness = energies.diff(rate(q), 2).subs(at_rest), -energies.diff(q, 2).subs(at_rest)
-        return Relation(mass * rate(q, 2) + stiffness * q, "=", 0)
-
-    return establish(
-        "oscillations.linearised",
-        None,
-        lambda _: Relation(_mass_and_stiffness(first, q), "=", 0),
-        {"q": q},
-        lines=Lines(put_in=None, arranged=explicit),
-        routes={"second_order": compared_with(of_second_order)},
-        outcome="generic" if place == 0 else "displaced",
-        telling=Telling(judged_by={"place": place}),
-        key=key,
-        parents=[equation],
-        facts=[equation.needed(OfCoordinate)],
-    )
-
-
-def _mass_and_stiffness(left: Expr, q: Symbol) -> Expr:
-    terms = [spread(diff(left, rate(q, 2))) * rate(q, 2), spread(diff(left, q)) * q]
-    return Add(*(term for term in terms if term != 0), evaluate=False)
+    exists: Relation | None = None
 
 
 def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "frequency_squared") -> Quantity:
@@ -96,6 +51,9 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         raise Rejected(Complaint("wrong-argument", message))
     for role, coefficient in (("stiffness", stiffness), ("inertia", mass)):
         require_constant("frequency_squared", role, coefficient)
+    whole = linear.fact(Linear)
+    exists = whole.exists if whole is not None else None
+    entries = (whole.stiffness[0], whole.mass[0]) if whole is not None else (stiffness, mass)
     trial = stand_in("w", positive=True)
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
@@ -106,42 +64,78 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     return establish(
         "oscillations.frequency_squared",
         Pow(scalar(symbol), 2),
-        lambda _: Ratio(stiffness, mass),
+        lambda _: _quotient(stiffness, mass),
         {"q": q},
         lines=Lines(
             put_in=None,
-            arranged=explicit if stiffness.has(Add) else tidied,
+            arranged=_squared_form if not mass.has(Add) or not stiffness.has(Add) else explicit,
             means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
         ),
         routes={"put_back": put_back},
-        outcome=sign_of,
+        outcome=lambda value: _sort_of(value, entries, exists),
         key=key,
         kind="squared angular speed",
         parents=[linear],
-        telling=Telling(points_to={"linear": linear}),
-        facts=[SquareOf(symbol)],
+        telling=Telling(
+            formulas={} if mass == 1 else {"inertia": (mass, mass)},
+            points_to={"linear": linear},
+            judged_by={"exists": exists} if exists is not None else {},
+        ),
+        facts=[SquareOf(symbol, exists)],
     )
 
 
-def sign_of(value: Expr) -> str:
-    """What is known of the sign of omega_0^2, or of the curvature of a potential."""
+def _quotient(stiffness: Expr, mass: Expr) -> Expr:
+    """k/m over one line."""
+    above, below = stiffness.as_numer_denom()
+    if below.free_symbols:
+        return Ratio(above, below * mass)
+    return stiffness if mass == 1 else Ratio(stiffness, mass)
+
+
+def _squared_form(value: Expr) -> Expr:
+    """g/l - omega^2, not (g - l omega^2)/l, where that is shorter."""
+    forms = [tidied(value), spread_or_by_terms(tidied(value))]
+    return min(forms, key=lambda form: int(form.count_ops()))
+
+
+def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
+    """What is known of the sign of omega_0^2 = k/m, where there is that state of rest."""
     value = tidied(value)
     if value == 0:
         return "neutral"
-    return {1: "stable", -1: "unstable", None: "conditional"}[strict_sign_within(value)]
+    sign = strict_sign_within(value) or sign_where(value, exists)
+    if sign is None:
+        sign = 1 if all(sign_by_factors(tidied(each)) == 1 for each in entries) else None
+    return {1: "stable", -1: "unstable"}.get(sign or 0, "conditional")
 
 
-def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequency") -> Quantity:
+def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
+    """Where the square of a frequency is positive, if that can be told in short."""
+    has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
+    if has_roots or len(Add.make_args(square.expand())) > SHORT:
+        return {}
+    return {"condition": (positive(square), Relation(square, ">", Integer(0)))}
+
+
+def frequency(
+    squared: Quantity, symbol: str | None = None, key: str = "frequency", condition: bool = False
+) -> Quantity:
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
 
-    squared   as `frequency_squared` yields it, 1/s^2
+    squared     as `frequency_squared` yields it, 1/s^2
+    condition   whether the sentence says for which letters there is an oscillation
     Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
-    outcome = sign_of(squared.value)
+    known = squared.needed(SquareOf)
+    outcome = squared.step.outcome
     grows = outcome == "unstable"
-    name = symbol or ("kappa" if grows else squared.needed(SquareOf).letter)
+    name = symbol or ("kappa" if grows else known.letter)
+    size = -squared.value if grows else squared.value
+    plain = explicit(Root(size))
+    shown = settled(plain) if settled(plain) != plain else Root(size) if size.has(Add) else root_of(size)
     trial = stand_in("w", positive=True)
 
     def satisfies(found: Expr) -> tuple[Expr, Expr]:
@@ -152,7 +146,7 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
         """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
         letters = sorted(squared.value.free_symbols, key=str)
-        there = {letter: Rational(prime(n + 5), 7) for n, letter in enumerate(letters)}
+        there = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
         imaginary = not grows and squared.value.subs(there).is_negative
         value = found.subs(there) / (I if imaginary else 1)
         return value, Abs(value)
@@ -162,9 +156,15 @@ def frequency(squared: Quantity, symbol: str | None = None, key: str = "frequenc
         scalar(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
-        lines=Lines(put_in=None, arranged=explicit),
+        lines=Lines(
+            put_in=None, after=[Form(shown, "result")], result=False, arranged=lambda value: settled(explicit(value))
+        ),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,
+        telling=Telling(
+            formulas=told_where_positive(squared.value) if condition and outcome == "conditional" else {},
+            judged_by={"exists": known.exists} if known.exists is not None else {},
+        ),
         key=key,
         kind="angular speed",
     )

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial, nan, series, zoo
+from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial
 
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit, stand_in
 from derive.algebra.ranges import strict_sign_within
-from derive.algebra.taylor import NoSeries, taylor
+from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import only_coordinate
@@ -91,14 +91,7 @@ def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
     """The coefficient of u^n in the expansion about q = place."""
-    try:
-        found = taylor(explicit(value), {q: (place, Integer(1), *[Integer(0)] * order)}, order)[order]
-    except NoSeries:
-        found = nan
-    if not found.has(nan, zoo):
-        return found
-    u = stand_in("u")
-    return series(value.subs(q, place + u), u, 0, order + 1).removeO().expand().coeff(u, order)
+    return coefficient_along(explicit(value), {q: place}, {q: Integer(1)}, order)
 
 
 def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:

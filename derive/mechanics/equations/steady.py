@@ -123,7 +123,9 @@ def _of_equation(
         lambda *_: Relation(bound(equation.value.left, still), "=", 0),
         {"equation": equation, "coordinate": q.symbol},
         lines=Lines(put_in=None, arranged=lambda _: Relation(core, "=", 0)),
-        routes={"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))},
+        routes=matter.named(
+            {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
+        ),
         outcome="of_equation",
         telling=Telling(
             formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
@@ -174,7 +176,9 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
         lambda L: Relation(Partial(L, q.symbol), "=", 0),
         {"lagrangian": of},
         lines=Lines(put_in=None, motion=motion, arranged=lambda _: Relation(core, "=", 0)),
-        routes={"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))},
+        routes=matter.named(
+            {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
+        ),
         outcome="always" if core == 0 else "generic",
         telling=Telling(
             formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
@@ -299,7 +303,7 @@ def frequency_squared_about(
             },
             points_to={"where": at},
         ),
-        facts=[SquareOf(symbol)],
+        facts=[SquareOf(symbol, exists)],
     )
 
 
@@ -375,7 +379,9 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
     ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := _alone(condition, s)) is not None]
     if not ways:
         message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
-        raise Rejected(Complaint("wrong-argument", message))
+        others = [s.name for s in sorted(condition.free_symbols, key=str) if _alone(condition, s) is not None]
+        help_line = f"it can be for {' or '.join(others)}" if others else None
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return min(ways, key=lambda way: (int(lecture_form(bound(value, way)).count_ops()), str(way)))
 
 
@@ -388,7 +394,7 @@ def _alone(condition: Expr, s: Symbol) -> Expr | None:
         return tidied(-b / a)
     if powers == [2, 0] and s.is_positive:
         a, _, b = polynomial.all_coeffs()
-        return sqrt(tidied(-b / a))
+        return tidied(sqrt(tidied(-b / a)))
     return None
 
 

@@ -67,7 +67,7 @@ def put_in(
     for pair in there:
         if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # an earlier value may have taken it away
             value = _all_put(value, [pair], str(pair[0]), of, told)
-    result = _arranged(value, list(coordinates_of(of, *rests)))
+    result = arranged(value, list(coordinates_of(of, *rests)))
     _check_holds(of, result)
     name = _name(of, symbol)
     return establish(
@@ -269,7 +269,7 @@ def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
     return bound(value, final)
 
 
-def _arranged(value: Any, moving: Sequence[Symbol]) -> Any:
+def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     """Tidy; an equation of motion by its accelerations; of another relation to zero what is positive in all terms is
     left out."""
     if isinstance(value, MatrixBase):
@@ -286,6 +286,8 @@ def _arranged(value: Any, moving: Sequence[Symbol]) -> Any:
     left = lecture_form(value.left)
     kept = [f for f in Mul.make_args(left) if strict_sign_within(f) != 1]
     core = Mul(*kept) if kept else left
+    if value.mark == "=" and all(term.could_extract_minus_sign() for term in Add.make_args(core)):
+        core = -core  # x = 0, not -x = 0
     return Relation(lecture_form(core), value.mark, Integer(0))
 
 

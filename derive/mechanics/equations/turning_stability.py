@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Add, Expr, Integer, Poly, Symbol, cancel, discriminant
+from sympy import Add, Expr, Integer, Mul, Poly, Symbol, cancel, discriminant, factor
 
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
@@ -29,6 +29,7 @@ from derive.steps.step import Form, Level, Quantity
 __all__ = ["linear_stability"]
 
 ZERO = Integer(0)
+LARGEST = 200  # operations of a condition that is factored
 
 
 def linear_stability(
@@ -54,7 +55,7 @@ def linear_stability(
     needs = _needed(pencil)
     if any(pencil.sign(need) == -1 for need, _ in needs):
         return _verdict(characteristic, together, "unstable", key)
-    undecided = [(need, part) for need, part in needs if pencil.sign(need) != 1]
+    undecided = [(_open(need, pencil), part) for need, part in needs if pencil.sign(need) != 1]
     if not undecided:
         return _verdict(characteristic, together, "stable", key)
     conditions = [positive(need, *([letter] if isinstance(letter, Symbol) else [])) for need, _ in undecided]
@@ -78,6 +79,14 @@ def _needed(pencil: TurningPencil) -> list[tuple[Expr, Part]]:
             message = "`linear_stability`: the determinant has a factor of which no closed form of the roots is known"
         raise Rejected(Complaint("not-decided", message))
     return [(need, part) for part in pencil.parts for need in part.needs]
+
+
+def _open(need: Expr, pencil: TurningPencil) -> Expr:
+    """Its factors whose sign is not known where the state exists: K - m w^2 of (K - m w^2)(k - m w^2), if k > m w^2."""
+    if need.count_ops() > LARGEST:
+        return need
+    factors = Mul.make_args(factor(need))
+    return Mul(*(f / abs(f) if f.is_number else f for f in factors if pencil.sign(f) != 1))
 
 
 def _may_drift(part: Part, pencil: TurningPencil) -> bool:

@@ -36,7 +36,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.collect import spread
 from derive.algebra.expressions import Relation
-from derive.algebra.ranges import settled, strict_sign_within
+from derive.algebra.ranges import never_vanishes_within, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.steps.known_numbers import sign_known
@@ -44,7 +44,7 @@ from derive.steps.record import assume
 
 HIGHEST = 6  # power of a coordinate
 LARGEST_PRODUCT = 60  # operations of a sum that may be a product
-ONE = Integer(1)
+ZERO, ONE = Integer(0), Integer(1)
 
 
 class Unsolved(Exception):
@@ -194,16 +194,17 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
     What is added stands on one side, what is subtracted on the other: R omega^2 > g.
     """
-    core = Mul(*(f for f in Mul.make_args(tidied(value)) if strict_sign_within(f) != 1)).as_numer_denom()[0]
-    core = expand(core)
+    above, below = tidied(value).as_numer_denom()
+    open_ = (f for part in (above, below) for f in Mul.make_args(part) if strict_sign_within(f) != 1)
+    core = expand(Mul(*open_))  # a quotient has the sign of the product
     chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
     if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
         return solved
     terms = Add.make_args(core)
-    below = [-t for t in terms if t.could_extract_minus_sign()]
-    above = [t for t in terms if not t.could_extract_minus_sign()]
-    if len(below) == 1 and len(above) == 1 or not below:
-        return Relation(spread(Add(*above)), ">", spread(Add(*below)))
+    less = [-t for t in terms if t.could_extract_minus_sign()]
+    more = [t for t in terms if not t.could_extract_minus_sign()]
+    if len(less) == 1 and len(more) == 1 or not less:
+        return Relation(spread(Add(*more)), ">", spread(Add(*less)))
     return Relation(_in_factors(core), ">", 0)
 
 
@@ -220,7 +221,7 @@ def different_from_zero(value: Expr) -> Relation | None:
     """What must be so that a value by which one divides does not vanish, omega^2 != k/m; nothing where it cannot."""
     if sign_known(value) is not None:
         return None
-    condition = positive(value)
+    condition = positive(tidied(value).as_numer_denom()[0])
     return Relation(condition.left, "!=", condition.right)
 
 
@@ -255,6 +256,8 @@ def _roots(factor: Expr, x: Expr) -> list[Expr]:
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
     """Of a polynomial in q, or of sqrt(P(q)) less a constant."""
+    if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
+        return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
     if roots:
         return _of_root(factor, roots, q)
@@ -267,6 +270,34 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
     else:
         values = _roots(factor, q)
     return [zero for value in values for zero in _allowed(value, q)]
+
+
+def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
+    """The root of A q^a + B q^b, q^(a - b) = -B/A, where the exponents depend on letters and are never the same."""
+    terms: dict[Expr, Expr] = {}
+    for term in Add.make_args(expand(factor)):
+        outside, inside = term.as_independent(q, as_Add=False)
+        power = _exponent(inside, q)
+        if power.has(q):
+            raise Unsolved(factor)
+        terms[expand(power)] = terms.get(expand(power), ZERO) + outside
+    if len(terms) != 2:
+        raise Unsolved(factor)
+    (one, a), (other, b) = terms.items()
+    apart = tidied(one - other)
+    value = tidied(-b / a)
+    sign = 1 if _is_square_of_letters(value) else sign_by_factors(value)
+    if sign is None or not never_vanishes_within(apart):
+        raise Unsolved(factor)
+    if apart.could_extract_minus_sign():
+        apart, value = -apart, 1 / value
+    return [] if sign < 0 else [value ** (1 / apart)]
+
+
+def _exponent(product: Expr, q: Symbol) -> Expr:
+    """Of q^a q^b the sum, of 1 zero; of anything else q itself."""
+    parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
+    return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
 
 
 def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:

@@ -5,10 +5,12 @@ of a body by its particles, the shape of a potential by its derivatives. `establ
 """
 
 from derive.mechanics.outcomes import of_answers as of_answers
+from derive.mechanics.outcomes import of_approximations as of_approximations
 from derive.mechanics.outcomes import of_bodies as of_bodies
 from derive.mechanics.outcomes import of_conditions as of_conditions
 from derive.mechanics.outcomes import of_equilibria as of_equilibria
 from derive.mechanics.outcomes import of_gyroscopic as of_gyroscopic
+from derive.mechanics.outcomes import of_impulses as of_impulses
 from derive.mechanics.outcomes import of_lagrangians as of_lagrangians
 from derive.mechanics.outcomes import of_modes as of_modes
 from derive.mechanics.outcomes import of_motion as of_motion

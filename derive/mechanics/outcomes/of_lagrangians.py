@@ -10,7 +10,7 @@ from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.lagrangian import Energies
+from derive.mechanics.systems.lagrangian import Energies, energies_of
 from derive.mechanics.systems.phase_space import PhaseSpace
 from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
 from derive.steps.step import Quantity, is_zero
@@ -58,7 +58,21 @@ def _energy(conserved: bool, whole: bool, worked: bool = False) -> Predicate:
     return lambda facts: (_is_conserved(facts), _is_energy(facts), _is_worked_on(facts)) == (conserved, whole, worked)
 
 
+def _given(conserved: bool, worked: bool) -> Predicate:
+    """Of a Lagrangian that is no difference of two energies."""
+
+    def is_so(facts: Judged) -> bool:
+        L = facts.quantities["lagrangian"]
+        is_given = energies_of(L) is None
+        return is_given and (_is_conserved(facts), _is_worked_on(facts)) == (conserved, worked)
+
+    return is_so
+
+
 _ENERGIES = {
+    "given_conserved": _given(True, False),
+    "given_changing": _given(False, False),
+    "given_work": _given(False, True),
     "energy": _energy(True, True),
     "conserved": _energy(True, False),
     "changing_energy": _energy(False, True),
@@ -108,7 +122,8 @@ def _conserved(kind: str | None) -> Predicate:
         L, q = facts.quantities["lagrangian"], facts.inputs["coordinate"]
         matter = L.needed(Matter)
         by_time = by_functions_of_time(facts.result, matter.coordinates)
-        of_kind = L.coordinates[q] == kind if kind else L.coordinates[q] not in {"angle", "length"}
+        is_momentum = L.step.kind == "energy" and L.coordinates[q] in {"angle", "length"}
+        of_kind = is_momentum and L.coordinates[q] == kind if kind else not is_momentum
         return of_kind and bool(equal(by_time, matter.inertia_along(q) - matter.force_along(q)))
 
     return is_so
@@ -120,6 +135,8 @@ def _seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]
         L = facts.quantities["lagrangian"]
+        if energies_of(L) is None:
+            return bool(kept) and constants
         matter, potential = L.needed(Matter), explicit(L.needed(Energies).potential.value)
         at_rest = bound(matter.kinetic_energy(), {rate(q): Integer(0) for q in matter.coordinates})
         same = is_zero(facts.result - potential)
@@ -202,6 +219,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "reduced": _seen_by_the_rest(True, None),
         "driven": _seen_by_the_rest(False, True),
         "unchanged": _seen_by_the_rest(False, False),
+        "given": lambda facts: energies_of(facts.quantities["lagrangian"]) is None and _constants(facts) == 0,
     },
     "symmetry.change": {
         "none": lambda facts: facts.result.mark == "=" and is_zero(facts.result.right),

@@ -14,7 +14,7 @@ from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rati
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.ranges import rational_in_range
-from derive.mechanics.outcomes.signs import always_sign
+from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -118,16 +118,6 @@ def _repeated(facts: Judged) -> bool:
     return _is_root(facts.inputs["squared"], facts, 2)
 
 
-def _degree(wanted: int | None) -> Predicate:
-    """One coordinate has one squared frequency, several have as many."""
-
-    def is_so(facts: Judged) -> bool:
-        degree = Poly(facts.result.left, facts.inputs["omega"]).degree()
-        return bool(degree == 2 if wanted == 1 else degree > 2)
-
-    return is_so
-
-
 def _displaced(facts: Judged) -> bool:
     return any(not is_zero(value) for value in facts.inputs["place"])
 
@@ -151,7 +141,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "driven": _linear(displaced=False, lossy=None, driven=True),
         "displaced_driven": _linear(displaced=True, lossy=None, driven=True),
     },
-    "modes.characteristic": {"one": _degree(1), "several": _degree(None)},
+    "superposition.motion": {"generic": lasts, "zero": vanishes},
     "modes.frequency": {
         f"{word}{suffix}": _frequency(sign, repeated)
         for word, sign in (("oscillating", 1), ("growing", -1), ("free", 0), ("conditional", None))

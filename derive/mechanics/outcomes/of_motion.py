@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from sympy import Expr, diff
 
 from derive.algebra.expressions import Slope, explicit
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
-from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
+from derive.mechanics.outcomes.signs import always_sign, lasts, sign_where_it_exists, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -52,16 +54,15 @@ def _shape_by(order: int, derivative: Expr) -> str:
     return "minimum" if derivative.is_positive else "maximum" if derivative.is_negative else "conditional"
 
 
+def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
+    """In numbers, where the state of rest exists; that it vanishes or is of no known sign, by the letters."""
+    return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
+
+
 _SIGNS = {
-    "stable": always_sign(1),
-    "unstable": always_sign(-1),
-    "neutral": always_sign(0),
-    "conditional": always_sign(None),
+    word: _of_square(sign, lambda facts: facts.result)
+    for word, sign in (("stable", 1), ("unstable", -1), ("neutral", 0), ("conditional", None))
 }
-
-
-def _of_square(sign: int | None) -> Predicate:
-    return always_sign(sign, lambda facts: facts.inputs["squared"])
 
 
 def _free_bodies(facts: Judged) -> int:
@@ -86,10 +87,6 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "lagrangian.generalized_force": {"generic": lasts, "zero": vanishes},
     "lagrangian.equation_of_motion": {"generic": _not_cyclic, "cyclic": _cyclic},
-    "oscillations.linearised": {
-        "generic": lambda facts: is_zero(facts.inputs["place"]),
-        "displaced": lambda facts: not is_zero(facts.inputs["place"]),
-    },
     "oscillations.frequency_squared": _SIGNS,
     "oscillations.frequency": {
         "stable": _of_square(1),

@@ -35,10 +35,21 @@ def _of_a_centre(facts: Judged) -> bool:
     return "centre" in facts.inputs and is_zero(facts.result - facts.inputs["centre"])
 
 
+def _of_a_spring(facts: Judged, several: bool) -> bool:
+    """Whether a spring of the system is as long, the only one or one of several."""
+    springs = [each for each in facts.subject.body.between if each.is_spring]
+    return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "combination.combination": {
         "generic": lambda facts: bool(facts.inputs),
         "named": lambda facts: not facts.inputs,
+    },
+    "systems.distance": {
+        "spring": lambda facts: _of_a_spring(facts, several=False),
+        "springs": lambda facts: _of_a_spring(facts, several=True),
+        "other": lambda facts: not any(_of_a_spring(facts, several) for several in (False, True)),
     },
     "located.component": {"centre": _of_a_centre, "place": lambda facts: "centre" not in facts.inputs},
     "kept.constraint_force": {"generic": lasts, "zero": vanishes},

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from itertools import islice
 from typing import Any
 
-from sympy import Expr
+from sympy import Expr, Integer, Rational, Symbol, prime
 
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import range_of, strict_sign_within
+from derive.algebra.relation import Relation
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
-from derive.steps.known_numbers import sign_known
+from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate
 from derive.steps.step import is_zero
 
@@ -65,3 +66,31 @@ def _sign_in_ranges(value: Expr) -> int | None:
     except (Undefined, NoNumber):
         return None
     return sign if all(sign * number > 0 for number in found) else None
+
+
+def sign_where_it_exists(wanted: int, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
+    """The sign for the numbers that are given, or any in place of the letters that let the state of rest exist."""
+
+    def is_so(facts: Judged) -> bool:
+        return not is_zero(of(facts)) and _signs_where(of(facts), facts.inputs.get("exists")) == {wanted}
+
+    return is_so
+
+
+def _signs_where(value: Expr, exists: Relation | None) -> set[int]:
+    value = with_numbers(value)
+    condition = with_numbers(exists.residual) * (1 if exists.mark == ">" else -1) if exists is not None else Integer(1)
+    letters = sorted(value.free_symbols | condition.free_symbols, key=str)
+    found = set()
+    for shift in range(24):
+        numbers = {s: _number(s, i, shift) for i, s in enumerate(letters)}
+        if condition.xreplace(numbers).evalf(30) > 0:
+            found.add(1 if value.xreplace(numbers).evalf(30) > 0 else -1)
+    return found
+
+
+def _number(letter: Symbol, n: int, shift: int) -> Expr:
+    """One large where another is small; within the range of the letter where it has one."""
+    if (known := range_of(letter)) is not None:
+        return known.at(Rational(1 + (3 * n + 5 * shift) % 7, 8))
+    return Rational(prime(2 + (11 * n + 5 * shift + n * shift) % 29), 7 + n)

@@ -7,6 +7,7 @@ line. Here it is said what either must fulfil, with the result as the judge. `es
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import islice
 from typing import Any
 
@@ -138,6 +139,13 @@ def _difference(facts: Judged, outcome: str) -> bool:
     return is_zero(explicit(facts.result) - kinetic + potential - magnetic)
 
 
+def _names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
+    """An axis of the whole, of which a part has a moment, is that in the letter of the moment: I_z."""
+    seen, whole = facts.words.get("seen"), facts.words.get("whole")
+    by_letter = facts.symbol.name.partition("_")[2].partition("_")[0] if facts.symbol is not None else ""
+    return (whole is None or whole == by_letter) and (seen != "mapped" or not facts.subject.body.is_of_particles)
+
+
 def _as_asked_for(facts: Judged, outcome: str) -> bool:
     """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
     given = facts.inputs["equation"]
@@ -190,6 +198,16 @@ def _steady_as_its_potential(facts: Judged, outcome: str) -> bool:
     return bool(reduced) if told else of not in reduced or isinstance(facts.result, MatrixBase)
 
 
+def _an_oscillation(facts: Judged, outcome: str) -> bool:
+    """What is put in goes round once in the period of its frequency."""
+    return is_zero(facts.inputs["trial"].subs(TIME, 2 * pi / facts.inputs["omega"]) - 1)
+
+
+def _there_where_told(facts: Judged, outcome: str) -> bool:
+    """A place where something is extreme is real just where that is said."""
+    return _is_a_root_just_where_told(replace(facts, inputs={"positive": Integer(0), **facts.inputs}))
+
+
 def _says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
     """A factor below the line that might vanish is told not to; the first of several solutions says so for all."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
@@ -216,6 +234,8 @@ def _rates_of_its_equations(facts: Judged, outcome: str) -> bool:
 _TABLE: dict[str, Told] = {
     "roots.roots": _as_asked,
     "roots.roots_absent": _as_asked_for,
+    "gyroscopic.characteristic": _an_oscillation,
+    "extrema.place": _there_where_told,
     "solving.solved_for": _says_what_it_divides_by,
     "minima.stability_of_several": _about_an_energy,
     "minima.stability": _steady_as_its_potential,
@@ -237,6 +257,7 @@ _TABLE: dict[str, Told] = {
     "equations.at": _for_a_vector,
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
+    "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
     "modes.beats": _not_negative,

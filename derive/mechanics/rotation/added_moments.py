@@ -12,7 +12,7 @@ from derive.algebra.expressions import AXES, Factors, Terms, scalar
 from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.parts import PlacedPart
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.rotation.inertia import moment_of_inertia
+from derive.mechanics.rotation.inertia import moment_of_inertia, moment_seen
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Level, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
@@ -86,7 +86,9 @@ def _own_moment(body: Any, axis: str, letter: str, called: str) -> Quantity:
     if body.filling == "length" and axis == "z" and _all_on_axis(body):
         return _by_shape(body, axis, symbol, key, "none", lambda: Integer(0), {})
     if not (body.is_round and body.filling == "area" and axis != "z" and _is_flat(body)):
-        return moment_of_inertia(body, axis, symbol=symbol, key=key)
+        if axis == called:
+            return moment_of_inertia(body, axis, symbol=symbol, key=key)
+        return moment_seen(body, axis, "centre", symbol, key, {"seen": "part", "whole": called})
     axial = _own_moment(body, "z", letter, "xyz".replace(called, "")[-1])
     return _by_shape(body, axis, symbol, key, "flat", lambda I: Factors(Rational(1, 2), I), {"axial": axial})
 

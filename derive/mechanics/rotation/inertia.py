@@ -5,9 +5,9 @@ I_ij = integral of (r.r delta_ij - r_i r_j) dm, in kg m^2, a symmetric (3, 3) te
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol, cos, sin
 
@@ -39,6 +39,7 @@ from derive.steps.subject import Subject
 
 __all__ = ["agreement", "inertia_tensor", "moment_of_inertia", "moved_from_centre", "moved_to"]
 
+Moment: TypeAlias = Quantity
 Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
@@ -115,6 +116,16 @@ def moment_of_inertia(
     Errors: no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
+    return moment_seen(body, axis, about, symbol, key, {"seen": "own" if body.is_of_particles else "mapped"})
+
+
+def moment_seen(body: Body, axis: str, about: str, symbol: str, key: str, seen: Mapping[str, str]) -> Moment:
+    """A moment of inertia whose axis the sentence names as the problem does, which need not be by the body's own axes.
+
+    seen   own, mapped (no coordinates are counted from the point), across_plane (the plane of the motion), or part,
+           with `whole`, the axis of the whole to which it is parallel
+    Source: that of `moment_of_inertia`.
+    """
     point, i = body.point(about), "xyz".index(axis)
     in_its_way = body.derived_moment(axis, point, symbol, key)
     if in_its_way is not None:
@@ -132,7 +143,9 @@ def moment_of_inertia(
         kind="moment of inertia",
         parents=[body.density, *body.radii(point, region)],
         key=key,
-        telling=Telling(formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis}),
+        telling=Telling(
+            formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis, **seen}
+        ),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis)),
     )
 

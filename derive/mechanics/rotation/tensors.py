@@ -306,7 +306,7 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
         "tensors.radius_of_gyration",
         scalar(symbol, nonnegative=True),
         lambda I, mass: Root(Ratio(I, mass)),
-        {"moment": moment, "mass": body.mass},
+        {"moment": moment, "mass": body.mass_as_found},
         key=key,
         kind="length",
         routes=body.another_way(lambda r: tensor_at(r)[i, i], point, of=lambda k: body.mass * k**2),

@@ -82,7 +82,10 @@ def poisson_bracket(
             arranged=_written,
             after=_told_among(value, among),
         ),
-        routes={"rules": by_rules, **({"along_the_motion": along_the_motion} if flow else {})},
+        routes={
+            "rules": by_rules,
+            **(flow.lagrangian.needed(Matter).named({"along_the_motion": along_the_motion}) if flow else {}),
+        },
         outcome=outcome,
         telling=Telling(judged_by={"momenta": tuple(p for _, p in pairs), "coordinates": tuple(q for q, _ in pairs)}),
         key=key or f"bracket_{_called(f)}_{_called(g)}",
@@ -94,7 +97,7 @@ def poisson_bracket(
 
 def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
     own = {q.symbol: q.kind for q in coordinates}
-    return {**own, **{letter_of_momentum(q): kind_of_momentum(q.kind) or "number" for q in coordinates}}
+    return {**own, **{letter_of_momentum(q): kind_of_momentum(q.kind) or "" for q in coordinates}}
 
 
 def _called(of: Any) -> str:

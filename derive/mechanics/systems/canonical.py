@@ -17,7 +17,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_fu
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.energy import outcome_of_energy, told_of_excess
 from derive.mechanics.systems.forced import ActedOn, applied_force
-from derive.mechanics.systems.lagrangian import Energies, coordinates_of
+from derive.mechanics.systems.lagrangian import coordinates_of, energies_of
 from derive.mechanics.systems.phase_space import (
     PhaseSpace,
     beside_potential,
@@ -41,15 +41,17 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     of   the Lagrangian, J
     The momenta and the rates that belong to them are steps of their own.
     Second route: T_2 - T_0 + U, with the parts of T of degree 2 and 0 in the rates; and with the momenta in it dH/dp is
-    q_dot, and -dH/dq is the sum of F . dr/dq, of forces F with a potential energy, and of m v . d(dr/dq)/dt.
+    q_dot, and -dH/dq is the sum of F . dr/dq, of forces F with a potential energy, and of m v . d(dr/dq)/dt; where L is
+    given, the sum of p dH/dp, less H, is L again with the momenta put in.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U).
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U);
+    given_conserved, given_changing, given_work (L is given).
     Errors: the momenta do not determine the rates, or too many would have to be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     moving = coordinates_of(of)
-    energies, matter = of.needed(Energies), of.needed(Matter)
-    letters = {letter_of_momentum(q): kind_of_momentum(q.kind) or "number" for q in moving}
+    energies, matter = energies_of(of), of.needed(Matter)
+    letters = {letter_of_momentum(q): kind_of_momentum(q.kind, of.step.kind) or "" for q in moving}
     given = momenta(of)
     space = PhaseSpace(tuple(moving), given, of)
     rates = rates_by_momenta(of, given, varying=True, key=f"{key}_rate")
@@ -60,9 +62,14 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
         return Terms(*(Factors(p, v) for p, v in zip(both[: len(moving)], both[len(moving) :], strict=True)), -L)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
+        assert energies is not None
         kinetic, names = energies.kinetic.value, [q.rate for q in moving]
         parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
         return found, bound(parts, put_in) + energies.potential.value
+
+    def there_and_back(found: Expr) -> tuple[Expr, Expr]:
+        back = [p * diff(found, p) for _, p in space.pairs]
+        return bound(Add(*back) - found, in_rates), explicit(of.value)
 
     def canonical(found: Expr) -> tuple[Any, Any]:
         onwards = [bound(diff(found, p), in_rates) for _, p in space.pairs]
@@ -88,11 +95,14 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
             arranged=lambda _: written,
             after=kinetic_first(written, list(letters)),
         ),
-        routes={"by_degree": by_degree, "canonical": canonical},
+        routes={
+            **({"by_degree": by_degree} if energies is not None else {"there_and_back": there_and_back}),
+            **matter.named({"canonical": canonical}),
+        },
         outcome=outcome_of_energy(h, of),
         telling=Telling(formulas=told_of_excess(h, of, [q.rate for q in moving]), points_to={"whole": of}),
         key=key,
-        kind="energy",
+        kind=of.step.kind,
         facts=[space],
         scope=Scope(coordinates=letters),
     )
@@ -174,7 +184,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
         law,
         {"hamiltonian": of, **{push.key: push for push in pushes}},
         lines=Lines(put_in=None, arranged=lambda found: _by_terms(found, [p for _, p in space.pairs])),
-        routes={"virtual_work": by_virtual_work},
+        routes=matter.named({"virtual_work": by_virtual_work}),
         outcome="applied" if pushes or held else "cyclic" if cyclic else "force",
         telling=Telling(judged_by={"coordinate": q.symbol, "momentum": p}),
         key=f"canonical_{p.name}",

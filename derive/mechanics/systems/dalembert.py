@@ -9,7 +9,7 @@ Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert'
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -18,7 +18,7 @@ from sympy import Expr, Integer, Matrix, Symbol
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.taylor import slope
 from derive.mechanics.systems.coordinates import by_functions_of_time
-from derive.steps.step import Fact
+from derive.steps.step import Fact, Route
 
 Vector = tuple[Expr, ...]
 
@@ -106,6 +106,19 @@ class Matter(Fact):
         others = (*self.others, *other.others)
         fields = (*self.fields, *other.fields)
         return Matter((*self.points, *other.points), (*self.loads, *other.loads), tuple(both), others, fields)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it tells what moves, or what has a potential energy."""
+        return bool(self.points or self.loads)
+
+    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
+        """Second routes by the names that tell on what they stand."""
+        return dict(routes)
+
+    def further_routes(self, q: Symbol) -> dict[str, Route]:
+        """To an equation of motion, besides the virtual work."""
+        return {}
 
     @property
     def is_driven(self) -> bool:

@@ -11,7 +11,6 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
-from derive.algebra.collect import by_rates
 from derive.algebra.expressions import (
     TIME,
     At,
@@ -28,7 +27,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.kept_momentum import value_kept
-from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
+from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
 from derive.mechanics.systems.phase_space import (
     beside_potential,
     kind_of_momentum,
@@ -36,10 +35,11 @@ from derive.mechanics.systems.phase_space import (
     letter_of_momentum,
     part_of_degree,
     rates_by_momenta,
+    written_momentum,
 )
 from derive.steps.establish import Lines, establish
 from derive.steps.record import free_letter
-from derive.steps.step import Fact, Level, Quantity, compared_with, lettered
+from derive.steps.step import Fact, Level, Quantity, Route, compared_with, lettered
 
 __all__ = ["conserved", "effective_potential", "routhian"]
 
@@ -67,6 +67,9 @@ class ReducedMatter(Matter):
 
     def kinetic_energy(self) -> Expr:
         return self._put_in(self.whole.kinetic_energy())
+
+    def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
+        return self.whole.named(routes)
 
     def momentum_along(self, q: Symbol) -> Expr:
         return self._put_in(self.whole.momentum_along(q))
@@ -145,14 +148,16 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
         letter,
         lambda L, _: Partial(L, q.rate),
         {"lagrangian": of, "coordinate": q.symbol},
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
-        routes={
-            "along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol)),
-            "virtual_work": by_virtual_work,
-        },
-        outcome={"angle": "angular", "length": "linear"}.get(q.kind, "other"),
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named(
+            {
+                "along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol)),
+                "virtual_work": by_virtual_work,
+            }
+        ),
+        outcome={"angle": "angular", "length": "linear"}.get(q.kind, "other") if of.step.kind == "energy" else "other",
         key=f"conserved_{q.symbol.name}" if key is None or known is not None else key,
-        kind=kind_of_momentum(q.kind),
+        kind=kind_of_momentum(q.kind, of.step.kind),
         facts=[FromLagrangian(of), OfCoordinate(q), Constant(q)],
     )
     return momentum if known is None else value_kept(momentum, known, matter, key or f"constant_{q.symbol.name}")
@@ -219,9 +224,11 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
             theirs += [reduced.momentum_along(q.symbol), pushed]
         return ImmutableDenseMatrix(ours), ImmutableDenseMatrix(theirs)
 
+    parts = energies_of(of)
+
     def energies(found: Expr) -> tuple[Expr, Expr]:
-        energies = of.needed(Energies)
-        return found, bound(explicit(energies.kinetic.value), put_in) - energies.potential.value - carried
+        assert parts is not None
+        return found, bound(explicit(parts.kinetic.value), put_in) - parts.potential.value - carried
 
     def law(L: Expr, *both: Expr) -> Expr:
         n = len(constants)
@@ -239,10 +246,10 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
             arranged=lambda _: written,
             after=kinetic_first(written, [*(q.rate for q in left), *letters]),
         ),
-        routes={"matter": by_matter, "energies": energies},
+        routes={**matter.named({"matter": by_matter}), **({"energies": energies} if parts is not None else {})},
         outcome="one" if len(constants) == 1 else "several",
         key=key,
-        kind="energy",
+        kind=of.step.kind,
         facts=[reduced],
     )
 
@@ -268,7 +275,8 @@ def effective_potential(
     Without cyclic coordinates it is U - T_0: that of a prescribed rotation.
     Second route: at rest -dU_eff/dq is the sum of (F - m a) . dr/dq, with the conserved momenta put in; and T_2 - T_0
     + U with the rates put in.
-    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U).
+    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither: it is U), given (L is
+    given).
     Errors: L contains the time; no coordinate is left; a force without a potential energy acts at rest.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
@@ -279,7 +287,7 @@ def effective_potential(
     left = _put_aside(of, constants, "effective_potential")
     rates = rates_by_momenta(of, constants) if constants else ()
     put_in = {v.symbol: v.value for v in rates}
-    matter, potential = of.needed(Matter), of.needed(Energies).potential
+    matter, energies = of.needed(Matter), energies_of(of)
     reduced = ReducedMatter((), (), tuple(q.symbol for q in left), whole=matter, rates=tuple(put_in.items()))
     still = dict.fromkeys([s for q in left for s in (q.rate, q.acceleration)], ZERO)
     letters = [each.symbol for each in constants]
@@ -299,9 +307,10 @@ def effective_potential(
         return ImmutableDenseMatrix(ours), bound(ImmutableDenseMatrix(theirs), still)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
-        kinetic, names = of.needed(Energies).kinetic.value, [q.rate for q in coordinates_of(of)]
+        assert energies is not None
+        kinetic, names = energies.kinetic.value, [q.rate for q in coordinates_of(of)]
         parts = part_of_degree(kinetic, names, 2) - part_of_degree(kinetic, names, 0)
-        return found, bound(bound(parts, put_in), still) + potential.value
+        return found, bound(bound(parts, put_in), still) + energies.potential.value
 
     written = beside_potential(whole, of, letters)
     return establish(
@@ -310,10 +319,10 @@ def effective_potential(
         law,
         _inputs(of, constants, rates, put_in),
         lines=Lines(put_in=None, result=False, arranged=lambda _: written, after=kinetic_first(written, letters)),
-        routes={"forces": forces, "by_degree": by_degree},
-        outcome="reduced" if constants else "driven" if _is_driven(of) else "unchanged",
+        routes={**matter.named({"forces": forces}), **({"by_degree": by_degree} if energies is not None else {})},
+        outcome="reduced" if constants else _without_constants(of),
         key=key,
-        kind="energy",
+        kind=of.step.kind,
         facts=[FromLagrangian(of), SeenWith(of, tuple(constants), reduced)],
     )
 
@@ -322,6 +331,12 @@ def _cyclic(of: Quantity) -> tuple[Quantity, ...]:
     """The momenta of all coordinates that the Lagrangian does not contain."""
     L = explicit(of.value)
     return tuple(conserved(of, q) for q in coordinates_of(of) if not L.has(q.symbol) and L.has(q.rate))
+
+
+def _without_constants(of: Quantity) -> str:
+    if energies_of(of) is None:
+        return "given"
+    return "driven" if _is_driven(of) else "unchanged"
 
 
 def _is_driven(of: Quantity) -> bool:

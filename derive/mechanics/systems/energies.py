@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
 
 from derive.algebra.collect import by_rates, by_terms, spread, with_constants_together, with_weights_in_front
 from derive.algebra.derivatives import derivative
@@ -14,20 +14,22 @@ from derive.algebra.expressions import (
     TIME,
     Dot,
     Factors,
+    Relation,
     Terms,
     TimeRate,
     applied,
     bound,
-    column,
     explicit,
     rate,
     scalar,
     stand_in,
 )
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.systems.coordinates import by_functions_of_time, rate_of
 from derive.mechanics.systems.dalembert import MassPoint, Matter
+from derive.mechanics.systems.distances import long_distances
 from derive.mechanics.systems.forced import acting_on, squares_of_rates
 from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.rigid import (
@@ -39,7 +41,7 @@ from derive.mechanics.systems.rigid import (
 )
 from derive.mechanics.systems.system import HALF, ZERO, Eliminated, System
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import free_letter
+from derive.steps.record import assumed, free_letter
 from derive.steps.step import Level, Quantity, compared_with, lettered, value_behind
 from derive.steps.subject import EVERYTHING, Subject
 
@@ -278,6 +280,9 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     stored = [bound(each.energy, {each.distance: each.length}) for each in system.between]
     stored += [each.energy for each in system.stored]
 
+    lengths = long_distances(system)
+    kept = [each for each in system.between if each.is_spring and Relation(each.length, ">", ZERO) in assumed()]
+
     def law(*given: Expr) -> Expr:
         known = dict(zip(named, given, strict=True))
         heights = [known.get(f"height_{i}", y) for i, (_, y) in enumerate(higher)]
@@ -300,6 +305,8 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
             arranged=explicit if named else lambda value: _terms_together(value, moving),
         ),
         facts=[replace(matter, points=(), fields=()), *acting_on(system)],
+        parents=lengths,
+        telling=Telling(words={"seen": "stretched" if kept else "any"}),
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
 
@@ -333,9 +340,6 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         works = (matter.deflection_along(q) * mark for q, mark in pairs)
         return Add(*(slope * mark for slope, mark in zip(slopes, marks, strict=True))), Add(*works)
 
-    first = matter.fields[0]
-    in_space = column(*(*first.vector_potential, ZERO)[:3])
-    told = {"potential": (in_space, _half_across(first.field, first.place))} if len(matter.fields) == 1 else {}
     return establish(
         "systems.magnetic_term",
         scalar(symbol),
@@ -345,14 +349,15 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         kind="energy",
         routes={"deflection": deflection},
         outcome="several" if len(matter.fields) > 1 else "alone",
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
-        telling=Telling(formulas=told, judged_by={"fields": len(matter.fields)}),
+        lines=Lines(put_in=None, arranged=lambda value: _with_common_factor(by_rates(value, moving))),
+        telling=Telling(judged_by={"fields": len(matter.fields)}),
         facts=[matter],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
 
 
-def _half_across(field: tuple[Expr, ...], place: tuple[Expr, ...]) -> ImmutableDenseMatrix:
-    """(1/2) B x r, by the product of two matrices: in a plane B is that across it."""
-    b, r = Matrix([0, 0, *field] if len(place) == 2 else field), Matrix([*place, 0][:3])
-    return ImmutableDenseMatrix(b.cross(r) / 2)
+def _with_common_factor(value: Expr) -> Expr:
+    """(1/2) q B (x y_dot - y x_dot): what all terms have in common in front."""
+    terms = Add.make_args(value)
+    common = common_factor(list(terms)) if len(terms) > 1 else Integer(1)
+    return value if common == 1 else Mul(common, Add(*(tidied(term / common) for term in terms)), evaluate=False)

@@ -18,7 +18,8 @@ from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.forced import ActedOn, applied_force
-from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
+from derive.mechanics.systems.given_lagrangian import Varied, energy_of, rate_of_energy
+from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of, energies_of
 from derive.mechanics.systems.phase_space import beside_potential, kinetic_first, part_of_degree
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import free_letter
@@ -29,12 +30,21 @@ __all__ = ["energy_function", "energy_function_rate"]
 
 def outcome_of_energy(value: Expr, of: Quantity) -> str:
     """Whether an energy function in coordinates and rates is T + U, and whether it is conserved."""
+    if energies_of(of) is None:
+        return _of_given(of)
     whole = is_zero(value - of.needed(Energies).whole)
     if not is_zero(_power_beside(of)):
         return "work_energy" if whole else "work"
     if TIME not in explicit(of.value).free_symbols:
         return "energy" if whole else "conserved"
     return "changing_energy" if whole else "changing"
+
+
+def _of_given(of: Quantity) -> str:
+    """Of a Lagrangian that is given no energy is known, but whether the function is conserved."""
+    if not is_zero(_power_beside(of)):
+        return "given_work"
+    return "given_changing" if TIME in explicit(of.value).free_symbols else "given_conserved"
 
 
 def _power_beside(of: Quantity) -> Expr:
@@ -55,6 +65,8 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
     """What T + U has more than the energy function, and the same by the parts of T."""
+    if energies_of(of) is None:
+        return {}
     excess = by_rates(tidied(of.needed(Energies).whole - value), [q.symbol for q in coordinates_of(of)])
     if is_zero(excess):
         return {}
@@ -68,23 +80,33 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
-    Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates.
+    Second route: T_2 - T_0 + U, with the parts of T that are of degree 2 and 0 in the rates; where L is given, what L
+    gains where all rates are stretched, and by the energy identity its rate as a function of time.
     Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U).
-    Errors: L is not the difference of two energies.
+    time), changing (neither); work_energy (T + U, but forces without a potential energy do work), work (nor T + U);
+    given_conserved, given_changing, given_work (L is given).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
     moving = coordinates_of(of)
     rates = [q.rate for q in moving]
-    energies = of.needed(Energies)
+    energies, matter = energies_of(of), of.needed(Matter)
 
     def law(L: Expr) -> Expr:
         return Terms(*(Factors(Partial(L, v), v) for v in rates), -L)
 
     def by_degree(found: Expr) -> tuple[Expr, Expr]:
+        assert energies is not None
         kinetic = energies.kinetic.value
         parts = part_of_degree(kinetic, rates, 2) - part_of_degree(kinetic, rates, 0)
         return found, parts + energies.potential.value
+
+    def identity(found: Expr) -> tuple[Expr, Expr]:
+        assert isinstance(matter, Varied)
+        return by_functions_of_time(found, matter.coordinates), rate_of_energy(matter)
+
+    def stretched(found: Expr) -> tuple[Expr, Expr]:
+        assert isinstance(matter, Varied)
+        return found, energy_of(matter)
 
     carried = Add(*(explicit(Partial(of.value, v)) * v for v in rates))
     plain = beside_potential(explicit(carried - of.value), of, [], [q.symbol for q in moving])
@@ -94,11 +116,13 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
         law,
         {"lagrangian": of},
         lines=Lines(put_in=None, result=False, arranged=lambda _: plain, after=kinetic_first(plain, rates)),
-        routes={"by_degree": by_degree},
+        routes={"by_degree": by_degree}
+        if energies is not None
+        else {"energy_identity": identity, "stretched": stretched},
         outcome=lambda value: outcome_of_energy(value, of),
         telling=Telling(formulas=told_of_excess(plain, of, rates)),
         key=key,
-        kind="energy",
+        kind=of.step.kind,
         facts=[FromLagrangian(of)],
     )
 
@@ -149,7 +173,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
             arranged=lambda found: found,
             after=[Form(Relation(TimeRate(of.symbol, *moving), "=", rate_of_it), "result")],
         ),
-        routes={"along_the_motion": along_the_motion},
+        routes=matter.named({"along_the_motion": along_the_motion}),
         outcome=_sort_of_rate(rate_of_it, in_time, moving),
         telling=Telling(judged_by={"moving": tuple(moving)}),
         key=key or f"{of.key}_rate",

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
-from sympy import Add, Expr, Integer, Pow, Rational, Symbol, diff
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates, by_terms, spread
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.forces import Damper, GivenForce
-from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Quantity, compared_with
 from derive.steps.subject import Subject
@@ -45,7 +44,21 @@ class ForcedMotion(Fact):
     lagrangian: Quantity
 
 
-def acting_on(system: System) -> tuple[Fact, ...]:
+@runtime_checkable
+class WithForces(Protocol):
+    """What moves in coordinates, and what acts on it besides what has a potential energy."""
+
+    @property
+    def coordinates(self) -> Mapping[Symbol, str]: ...
+    @property
+    def constraints(self) -> tuple[Constraint, ...]: ...
+    @property
+    def given_forces(self) -> tuple[GivenForce, ...]: ...
+    @property
+    def dampers(self) -> tuple[Damper, ...]: ...
+
+
+def acting_on(system: WithForces) -> tuple[Fact, ...]:
     """What the Lagrangian of a system must hand on to its equations of motion."""
     found: list[Fact] = [Kept(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
@@ -59,7 +72,7 @@ def acting(*energies: Quantity) -> list[Fact]:
     return [fact for energy in energies for fact in energy.facts if isinstance(fact, ActedOn | Kept)]
 
 
-def dissipation_function(system: System, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
+def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
     """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over what damps a system, in W.
 
     system   its dampers: c in kg/s for a place, in N m s for an angle
@@ -126,6 +139,10 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         if f != 0
     ]
 
+    kept = of.fact(Kept)
+    here = {s for f in acted.forces for c in f.components for s in c.free_symbols}
+    held = {c.force: c.kind_of_force or "" for c in (kept.constraints if kept else ()) if c.force in here}
+
     def law(*dissipated: Expr) -> Expr:
         lost = [-Partial(d, q.rate) for d in dissipated]
         terms = [*works, *lost]
@@ -146,7 +163,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         outcome=lambda value: "zero" if value == 0 else "generic",
         telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key or f"applied_force_{q.symbol.name}",
-        scope=Scope(coordinates=of.coordinates, about=Subject(body=acted.system)),
+        scope=Scope(coordinates={**of.coordinates, **held}, about=Subject(body=acted.system)),
     )
 
 
@@ -194,7 +211,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         law,
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},
         lines=Lines(put_in=None, arranged=lambda found: _sides(found, moving, constraints)),
-        routes={"virtual_work": compared_with(by_virtual_work)},
+        routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
         telling=Telling(judged_by={"coordinate": q.symbol, "letters": tuple(c.force for c in constraints)}),
         key=key,
@@ -215,10 +232,20 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
     letters = [c.force for c in constraints]
     alone = [term for term in Add.make_args(whole) if _drives(term, moving, letters)]
     driven = -Add(*alone)
-    held = Add(*(spread(diff(driven, letter)) * letter for letter in letters))
+    held = _times_forces({letter: spread(diff(driven, letter)) for letter in letters})
     given = driven.xreplace(dict.fromkeys(letters, ZERO))
     left = by_accelerations(whole - Add(*alone), moving)
     return Relation(left, "=", Add(by_terms(tidied(given)), held))
+
+
+def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
+    """R (S_1 - S_2), not R S_1 - R S_2: what forces of constraint are multiplied by, in front of them."""
+    acting = {letter: each for letter, each in coefficients.items() if each != 0}
+    common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
+    common = -common if common.could_extract_minus_sign() else common
+    apart = {letter: tidied(each / common) if common.free_symbols else each for letter, each in acting.items()}
+    inside = Add(*(each * letter for letter, each in apart.items()))
+    return Mul(common, inside, evaluate=False) if common.free_symbols else inside
 
 
 def _drives(term: Expr, moving: Sequence[Symbol], letters: Sequence[Symbol]) -> bool:

@@ -74,7 +74,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
             law=Level.STANDARD,
             after=[Form(found, "divided", nonzero=(common,))],
         ),
-        routes={"along_the_motion": along_the_motion},
+        routes=matter.named({"along_the_motion": along_the_motion}),
         telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key,
         facts=[OfCoordinate(q), KeptMomentum(momentum.symbol, explicit(value), q.symbol, turning)],

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sympy import Add, Expr, Integer, Mul, Symbol
+from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
@@ -21,10 +21,11 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_fu
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.systems.forced import ActedOn, acting, forced_equation
+from derive.mechanics.systems.given_lagrangian import Varied
 from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import changes, free_letter
-from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
 __all__ = [
     "equation_of_motion",
@@ -60,37 +61,34 @@ class Energies(Fact):
         return explicit(self.kinetic.value + self.potential.value)
 
 
-def lagrangian(
-    kinetic: Quantity | System, potential: Quantity | None = None, symbol: str | None = None, key: str = "lagrangian"
-) -> Quantity:
+def energies_of(lagrangian: Quantity) -> Energies | None:
+    """The energies that it is the difference of; nothing where it is given."""
+    return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
+
+
+def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian") -> Quantity:
     """Lagrangian, L = T - U; of charges in magnetic fields L = T - U + sum of q v . A.
 
-    kinetic, potential   energies in J of one body in one motion; or in place of both a system, whose energies they are;
-                         with the symbol "L_2" these are T_2 and U_2
+    system   particles and bodies, and what acts on them; with the symbol "L_2" its energies are T_2 and U_2
     Second route: the sum of q_dot dL/dq_dot, less L, is the energy T + U, for constraints that do not move; where the
     time itself occurs, or a magnetic field, L and U less q v . A are the kinetic energy of the mass points.
-    Errors: T and U belong to different bodies, masses or motions.
+    Errors: this is no system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
+    if not isinstance(system, System):
+        raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a `System`"))
     symbol = symbol or free_letter("L")
     base, _, index = symbol.partition("_")
-    if isinstance(kinetic, System):
-        system = kinetic
-        letters = [free_letter(f"{letter}_{index}" if index else letter) for letter in "TU"]
-        keys = [f"{name}_{index}" if index else name for name in ("kinetic_energy", "potential_energy")]
-        kinetic = kinetic_energy_of(system, letters[0], keys[0])
-        potential = potential_energy_of(system, letters[1], keys[1])
-    require_kind("lagrangian", "kinetic", kinetic, "energy")
-    if potential is None:
-        raise Rejected(Complaint("wrong-argument", "`lagrangian` needs a potential energy, or a system alone"))
-    require_kind("lagrangian", "potential", potential, "energy")
+    own = f"_{index}" if index else ""
+    letters = [free_letter(f"{letter}{own}") for letter in "TU"]
+    kinetic = kinetic_energy_of(system, letters[0], f"kinetic_energy{own}")
+    potential = potential_energy_of(system, letters[1], f"potential_energy{own}")
     moving = {**kinetic.coordinates, **potential.coordinates}
 
     matter = (kinetic.fact(Matter) or Matter()) + (potential.fact(Matter) or Matter())
-    whole, magnetic = kinetic.subject.body, None
-    if isinstance(whole, System) and whole.fields:
-        own = f"_{index}" if index else ""
-        magnetic = magnetic_term_of(whole, f"{base}_B{own}", f"magnetic_term{own}")
+    magnetic = None
+    if system.fields:
+        magnetic = magnetic_term_of(system, f"{base}_B{own}", f"magnetic_term{own}")
         matter += magnetic.needed(Matter)
     beside = {"magnetic": magnetic} if magnetic is not None else {}
 
@@ -164,6 +162,9 @@ def equation_of_motion(
         ),
         moving,
     )
+    if found and of.fact(Varied) is not None:
+        terms = explicit(found[2].value) - explicit(found[0].value)
+        gathered = min((gathered, terms), key=lambda form: int(form.count_ops()))
     alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
     left = _without_common_factor(gathered, moving) if alone else gathered
 
@@ -183,7 +184,7 @@ def equation_of_motion(
             put_in=None,
             arranged=lambda _: Relation(left, "=", 0),
         ),
-        routes={"virtual_work": compared_with(by_virtual_work)},
+        routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome="cyclic" if is_zero(slope(explicit(of.value), q.symbol)) else "generic",
         telling=Telling(judged_by={"coordinate": q.symbol}),
         key=key,
@@ -195,16 +196,47 @@ def equation_of_motion(
 def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """l theta_ddot + g sin(theta) of m l^2 theta_ddot + m g l sin(theta): what is positive in all terms is left out.
 
-    Not what holds a coordinate, which would stand with the acceleration, nor what is below; not numbers where there are
-    brackets, in which others stand.
+    Not what holds a coordinate, which would stand with the acceleration, nor what is below; numbers that are in
+    brackets count as well.
     """
     terms = Add.make_args(left)
-    bracketed = any(f.is_Add for term in terms for f in Mul.make_args(term))
     factors = Mul.make_args(common_factor(list(terms)))
     constant = [f for f in factors if f.is_positive and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
-    common = Mul(*(f for f in constant if not (bracketed and f.is_number)))
-    divided = Add(*(part for term in terms for part in Add.make_args(_divided(term, common))), evaluate=False)
-    return min((divided, left), key=lambda form: int(form.count_ops()))
+    common = Mul(*(f for f in constant if not f.is_number))
+    divided = [part for term in terms for part in Add.make_args(_divided(term, common))]
+    forms = [Add(*each, evaluate=False) for each in (_in_whole_numbers(divided), divided)]
+    return min((*forms, left), key=lambda form: int(form.count_ops()))
+
+
+def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
+    """2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2: no number that all have in common.
+
+    But I + M a^2/4 stays what it is, a moment of inertia.
+    """
+    apart: list[tuple[Expr, list[Expr]]] = []
+    for term in terms:
+        parts = [
+            each.primitive() if each.is_Add and not _has_some_fractions(each) else each.as_coeff_Mul()
+            for each in Mul.make_args(term)
+        ]
+        apart.append((Mul(*(number for number, _ in parts)), [rest for _, rest in parts if rest != 1]))
+    below = ilcm(1, 1, *(number.q for number, _ in apart))
+    shared = Rational(igcd(0, *(int(number * below) for number, _ in apart)), below)
+    if below > 1 and any(map(_has_some_fractions, (f for _, factors in apart for f in factors))):
+        return list(terms)
+    return [_product(number / shared, *factors) for number, factors in apart]
+
+
+def _has_some_fractions(factor: Expr) -> bool:
+    """A sum in which some terms have a number below and some have none."""
+    below = {term.as_coeff_Mul()[0].q > 1 for term in Add.make_args(factor)} if factor.is_Add else set()
+    return len(below) == 2
+
+
+def _product(*factors: Expr) -> Expr:
+    """Its sums stay in their brackets."""
+    written = any(each.is_Add for each in factors)
+    return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
 
 
 def _divided(term: Expr, common: Expr) -> Expr:
@@ -253,13 +285,17 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         lambda L: Partial(L, q.symbol),
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
-        routes={
-            "virtual_work": compared_with(
-                lambda: (
-                    matter.force_along(q.symbol) - matter.other_force_along(q.symbol) + matter.turning_along(q.symbol)
-                )
-            ),
-        },
+        routes=matter.named(
+            {
+                "virtual_work": compared_with(
+                    lambda: (
+                        matter.force_along(q.symbol)
+                        - matter.other_force_along(q.symbol)
+                        + matter.turning_along(q.symbol)
+                    )
+                ),
+            }
+        ),
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or _key_of(of, f"force_{q.symbol.name}"),
     )
@@ -280,7 +316,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
         lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
-        routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
+        routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
         key=key or _key_of(of, f"momentum_{q.symbol.name}"),
         facts=[FromLagrangian(of), OfCoordinate(q)],
     )

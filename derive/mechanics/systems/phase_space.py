@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import chain, permutations, product
 
 from sympy import (
     Add,
@@ -18,25 +18,30 @@ from sympy import (
     Integer,
     Matrix,
     Mul,
+    Pow,
     Rational,
     Symbol,
     cos,
     diff,
     expand,
+    factor,
     factor_terms,
     sin,
+    together,
 )
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.collect import by_rates, spread, with_weights_in_front
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Partial, Terms, bound, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, coordinate, required
 from derive.mechanics.systems.dalembert import Matter
-from derive.mechanics.systems.lagrangian import Energies, FromLagrangian, coordinates_of
+from derive.mechanics.systems.inverted_momenta import by_quadratic_form, roots_together
+from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of, energies_of
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.step import Fact, Form, Quantity, compared_with, lettered
 
@@ -71,10 +76,13 @@ def letter_of_momentum(q: Coordinate) -> Symbol:
     return scalar(f"p_{q.symbol.name}")
 
 
-def kind_of_momentum(kind: str) -> str | None:
-    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name."""
+def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None:
+    """A length has a momentum, an angle an angular momentum; what has another dimension may have one without a name,
+    as where the Lagrangian is no energy."""
+    if lagrangian is None:
+        return None
     return kind_of_dimension(
-        dimension_of_kind("energy") * dimension_of_kind("time") / dimension_of_kind(kind),
+        dimension_of_kind(lagrangian) * dimension_of_kind("time") / dimension_of_kind(kind),
     )
 
 
@@ -108,13 +116,21 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
         letter,
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, list(of.coordinates))),
-        routes={"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))},
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or letter.name,
-        kind=kind_of_momentum(q.kind),
+        kind=kind_of_momentum(q.kind, of.step.kind),
         facts=[FromLagrangian(of), OfCoordinate(q)],
     )
+
+
+def written_momentum(value: Expr, of: Quantity) -> Expr:
+    """By rates; of a Lagrangian that is given term by term where that is shorter, as beside a root."""
+    forms = [by_rates(value, list(of.coordinates))]
+    if energies_of(of) is None:
+        forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))
+    return _shortest(forms)
 
 
 def momenta(of: Quantity) -> tuple[Quantity, ...]:
@@ -179,8 +195,15 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
     if matrix.has(*rates):
+        by_form = by_quadratic_form(momenta_of, rates)
+        if by_form is not None:
+            return {v: squared_below_roots(found, list(momenta_of)) for v, found in by_form.items()}
         raise Rejected(
-            Complaint("wrong-argument", "rates can be solved from momenta only where these are linear in them")
+            Complaint(
+                "wrong-argument",
+                "rates can be solved from momenta only where these are linear in them, or where the Lagrangian holds "
+                "the rates by one sum of squares",
+            )
         )
     found: dict[Symbol, Expr] = {}
     for block in _coupled(matrix):
@@ -237,7 +260,7 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     apart = Add(*(by_one_square(part) for part in (quadratic, linear, rest)))
     if not parts.get(1) or len(present) > LARGEST:
         return apart
-    return _shortest([apart, _squares(value, present)])  # (p - q A)^2, with what is linear in p
+    return _shortest([apart, _squares(chain(*parts.values()), present)])  # (p - q A)^2, with what is linear in p
 
 
 def by_one_square(value: Expr) -> Expr:
@@ -250,10 +273,10 @@ def by_one_square(value: Expr) -> Expr:
         return Add(*(by_one_square(term) for term in value.args))
     sign: Expr = Integer(1)
     factors: list[Expr] = []
-    for factor in Mul.make_args(value):
-        if factor.is_Mul:
-            factor = by_one_square(factor)
-        base, power = factor.as_base_exp()
+    for part in Mul.make_args(value):
+        if part.is_Mul:
+            part = by_one_square(part)
+        base, power = part.as_base_exp()
         if base.is_Add and power.is_Integer:
             base = _shortest([base, *(factor_terms(expand(square(base))) for square in (TR5, TR6))])
             if power.is_negative and base.could_extract_minus_sign():
@@ -280,25 +303,40 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
     mixed = {p for monomial, _ in terms if monomial.is_Mul for p in monomial.free_symbols}
     if not mixed:
         return _added(terms)
-    coupled = _added(term for term in terms if term[0].free_symbols & mixed)
+    together = [term for term in terms if term[0].free_symbols & mixed]
+    coupled = _added(together)
     alone = _added(term for term in terms if not term[0].free_symbols & mixed)
     orders = permutations(sorted(mixed, key=str)) if len(mixed) <= 3 and coupled.count_ops() <= LONGEST_SQUARED else ()
-    return alone + _shortest([coupled, tidied(coupled), *(_squares(coupled, order) for order in orders)])
+    return alone + _shortest([coupled, tidied(coupled), *(_squares(together, order) for order in orders)])
 
 
-def _squares(value: Expr, order: Sequence[Symbol]) -> Expr:
+def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Expr:
     """a (p + b q/a)^2 + ..., letter after letter, each bracket with no denominator of its own."""
     squares: list[Expr] = []
-    rest = value
+    rest = {_letters_in(monomial): c for monomial, c in terms}
     for p in order:
-        a = tidied(diff(rest, p, 2) / 2)
+        a = tidied(rest.pop((p, p), ZERO))
         if a == 0:
             continue
-        inner = tidied(p + tidied((diff(rest, p) / 2 - a * p) / a))
-        above, below = inner.as_numer_denom()
+        beside = {_without(p, letters): tidied(rest.pop(letters) / (2 * a)) for letters in list(rest) if p in letters}
+        above, below = tidied(p + Add(*(Mul(*others, c) for others, c in beside.items()))).as_numer_denom()
         squares.append(spread(a / below**2) * above**2)
-        rest = tidied(rest - a * (p + (diff(rest, p) / 2 - a * p) / a) ** 2)
-    return Add(*squares, rest)
+        for (one, b), (other, c) in product(beside.items(), repeat=2):
+            letters = tuple(sorted(one + other, key=str))
+            rest[letters] = rest.get(letters, ZERO) - a * b * c
+        rest = {letters: tidied(c) for letters, c in rest.items()}
+    return Add(*squares, tidied(Add(*(Mul(*letters, c) for letters, c in rest.items()))))
+
+
+def _letters_in(monomial: Expr) -> tuple[Symbol, ...]:
+    """p, p for p^2; p, q for p q."""
+    powers = sorted(monomial.as_powers_dict().items(), key=str) if monomial != 1 else []
+    return tuple(sorted((p for p, n in powers for _ in range(int(n))), key=str))
+
+
+def _without(p: Symbol, letters: tuple[Symbol, ...]) -> tuple[Symbol, ...]:
+    at = letters.index(p)
+    return letters[:at] + letters[at + 1 :]
 
 
 def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
@@ -318,11 +356,36 @@ def beside_potential(
     letters   momenta, constant or not; `moving` are coordinates whose rates still occur
     sign      that of the potential energy: -1 in a Lagrangian
     """
-    potential = explicit(of.needed(Energies).potential.value)
+    energies = energies_of(of)
+    if energies is None:
+        return of_given(value, letters, moving)
+    potential = explicit(energies.potential.value)
     at_rest = bound(value, {rate(q): ZERO for q in moving})
     kinetic = by_one_square(by_rates(tidied(value - at_rest), list(moving), halves=True)) if moving else ZERO
     kinetic = with_weights_in_front(kinetic, list(moving), of.needed(Matter).weights)
     return Add(kinetic, sign * (by_letters(sign * at_rest - potential, letters) + potential))
+
+
+def of_given(value: Expr, letters: Sequence[Symbol], moving: Sequence[Symbol]) -> Expr:
+    """An energy of a Lagrangian that is given, where nothing tells which part of it is potential."""
+    fast = [*letters, *(rate(q) for q in moving)]
+    terms = Add.make_args(explicit(value).expand())
+    alone = tidied(Add(*(term for term in terms if not term.has(*fast))))
+    whole = Add(*(term for term in terms if term.has(*fast)))
+    forms = [roots_together(whole), tidied(whole), by_letters(whole, letters), factor(together(whole)), whole]
+    if moving:
+        forms.append(by_rates(whole, list(moving), halves=True))
+    return squared_below_roots(_shortest([explicit(form) for form in forms]), letters) + alone
+
+
+def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
+    """sqrt((p_x + b y)^2 + m^2 c^2), its squares completed where that is shorter."""
+    roots = {
+        power: by_letters(power.base, letters) ** power.exp
+        for power in value.atoms(Pow)
+        if power.exp.is_Rational and not power.exp.is_Integer
+    }
+    return value.xreplace(roots)
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
@@ -342,5 +405,7 @@ def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
     """The part of a quadratic expression that is homogeneous in the rates of degree 0, 1 or 2."""
     u = Dummy("u")
     scaled = bound(explicit(value), {v: u * v for v in rates})
-    factor = Rational(1, 2) if degree == 2 else Integer(1)
-    return factor * bound(diff(scaled, u, degree) if degree else scaled, {u: ZERO})
+    halved = Rational(1, 2) if degree == 2 else Integer(1)
+    for _ in range(degree):
+        scaled = derivative(scaled, u)
+    return halved * bound(scaled, {u: ZERO})

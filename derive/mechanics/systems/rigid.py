@@ -12,7 +12,7 @@ from derive.algebra.expressions import TimeRate, column, explicit, scaled, vecto
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import XYZ, PlacedBody, after
-from derive.mechanics.rotation.inertia import inertia_tensor, moment_of_inertia
+from derive.mechanics.rotation.inertia import inertia_tensor, moment_seen
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.places import Axes, space
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -163,7 +163,7 @@ def inertia_of(placed: PlacedBody) -> Inertia:
         return tensor
     if axis is None:
         return inertia_tensor(body, about=about)
-    return moment_of_inertia(body, axis=XYZ[axis], about=about)
+    return moment_seen(body, XYZ[axis], about, "I", "moment_of_inertia", {"seen": "across_plane"})
 
 
 def _check_moments(placed: PlacedBody) -> None:

@@ -17,8 +17,9 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time, required
 from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.given_lagrangian import Varied
 from derive.mechanics.systems.lagrangian import FromLagrangian, coordinates_of
-from derive.mechanics.systems.phase_space import conjugate_momentum
+from derive.mechanics.systems.phase_space import conjugate_momentum, written_momentum
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Form, Level, Quantity
 
@@ -62,6 +63,8 @@ def noether(
         return by_functions_of_time(found, moving), Add(*work)
 
     def carried(found: Expr) -> tuple[Expr, Expr]:
+        if isinstance(matter, Varied):
+            return found, Add(*(x * matter.momentum_along(q) for q, x in xi.items())) - gain
         in_fields = (x * matter.field_momentum_along(q) for q, x in xi.items())
         return found, Add(*(m * way * v for m, way, v in _ways(matter, xi)), *in_fields) - gain
 
@@ -70,8 +73,8 @@ def noether(
         scalar(symbol),
         law,
         {f"momentum_{q.symbol.name}": p for q, p in momenta.items()},
-        lines=Lines(put_in=None, arranged=lambda value: by_rates(value, moving)),
-        routes={"along_the_shift": along_the_shift, "carried": carried},
+        lines=Lines(put_in=None, arranged=lambda value: written_momentum(value, of)),
+        routes=matter.named({"along_the_shift": along_the_shift, "carried": carried}),
         outcome="with_gain" if gain != 0 else "symmetry",
         telling=Telling(judged_by={"gain": gain}, points_to={"change": changed}),
         key=key,
@@ -125,13 +128,19 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         still = [Partial(L, q) for q, x in xi.items() if x != 0]
         return Relation(Terms(*(terms or still)), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
 
+    def changed_by(gain: Expr) -> Expr:
+        return by_functions_of_time(gain, moving)
+
     def by_places(found: Relation) -> tuple[Any, Any]:
         """What the points gain of (1/2) m v.v on their way, and the work of the loads on it."""
+        if isinstance(matter, Varied):
+            left = matter.change_along(xi)
+            return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])
         done = [m * by_functions_of_time(way, moving) * v for m, way, v in _ways(matter, xi)]
         done += [matter.force_along(q) * x for q, x in xi.items()]
         done += [by_functions_of_time(matter.field_momentum_along(q) * x, moving) for q, x in xi.items()]
         both = [found.left, found.right]
-        return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), by_functions_of_time(gain, moving)])
+        return ImmutableDenseMatrix(both), ImmutableDenseMatrix([Add(*done), changed_by(gain)])
 
     return establish(
         "symmetry.change",
@@ -139,7 +148,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         law,
         {"lagrangian": of, **told},
         lines=Lines(put_in=None, result=False, arranged=explicit, after=_worked(L, ways, gain, moving)),
-        routes={"places": by_places},
+        routes=matter.named({"places": by_places}),
         outcome="none" if explicit(TimeRate(gain, *moving)) == 0 else "gain",
         telling=Telling(judged_by={"moved": tuple(ways)}),
         key=f"{key}_change",

@@ -66,18 +66,22 @@ class Central:
     energy: Expr
     pull: Expr
 
+    @property
+    def is_spring(self) -> bool:
+        return self.distance is DISTANCE
+
     @cached_property
     def length(self) -> Expr:
         """Of a way along one line, its component there, where that is positive at rest and then taken to stay so."""
         components = [c for c in (self.end - self.start).components if c != 0]
         if len(components) == 1 and _is_sum_of_letters(components[0]):
             (way,) = components
-            return _of_one_sign(way) or Abs(way)
+            return _of_one_sign(way, self.is_spring) or Abs(way)
         length = sqrt(factor(tidied(Add(*(c**2 for c in components)))))
         along = next(iter(length.atoms(Abs)), ZERO)
         if length != along or not isinstance(along, Abs):
             return length
-        return _of_one_sign(along.args[0]) or length
+        return _of_one_sign(along.args[0], self.is_spring) or length
 
     def pulls(self) -> tuple[Load, Load]:
         """The forces at its two ends, towards each other where the energy grows with the distance."""
@@ -313,7 +317,7 @@ def mass_points(placed: PlacedBody) -> list[MassPoint]:
     return [point for point in points if point.mass != 0]
 
 
-def _of_one_sign(way: Expr) -> Expr | None:
+def _of_one_sign(way: Expr, in_words: bool) -> Expr | None:
     """The way as a length that is taken to stay positive, where it has a sign at rest."""
     moving = coordinates_in(way)
     at_rest = way.xreplace(dict.fromkeys(moving, ZERO))
@@ -323,7 +327,7 @@ def _of_one_sign(way: Expr) -> Expr | None:
     stays = Relation(length, ">", ZERO)
     if not _is_so(stays, moving):
         raise Unverified(Complaint("unverified", f"a distance of {stays} would be negative at rest"))
-    assume(stays)
+    assume(stays, in_words)
     return length
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from sympy import Expr, Float, Symbol
 from sympy.core.function import AppliedUndef
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import TIME, explicit
 from derive.errors import Complaint, Rejected
 from derive.figures.extrema import values_along
 from derive.figures.marks import PLANE, Drawing
@@ -115,6 +115,8 @@ def best_stance(drawing: Drawing, numbers: Numbers) -> Stance:
     """The usual stance, turned where vectors would point at the eye or fall on one another."""
     if drawing.view == PLANE:
         return FLAT
+    if TIME in dict(drawing.values):  # a plane that is carried round has been turned to be seen from its front
+        return USUAL
     shown = [[unit(numbers.vector(each)) for each in mark.directions] for mark in drawing.marks]
     vectors = [v for directions in shown if len(directions) == 1 for v in directions if size_of(v)]
     pairs = [

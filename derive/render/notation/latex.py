@@ -54,6 +54,7 @@ TEX_OPERATORS = {
     "start": "",
     "on": r"\qquad ",
 }
+COLUMN_STRUT = r"\rule[-.95em]{0pt}{2.45em}"  # keeps fractions below one another apart
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
@@ -115,7 +116,10 @@ class _Printer:
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
         """Fractions are small in a matrix and have their full size in a column."""
         if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
-            return r" \\[3pt] ".join(rf"\displaystyle {self.show(entry)}" for (entry,) in rows)
+            return r" \\[3pt] ".join(
+                rf"{COLUMN_STRUT if _is_tall(entry, inline=False) else ''}\displaystyle {self.show(entry)}"
+                for (entry,) in rows
+            )
         return r" \\ ".join(" & ".join(_Printer(True).show(entry) for entry in line) for line in rows)
 
     def _row(self, items: tuple[Layout, ...]) -> str:

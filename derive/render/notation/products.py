@@ -145,7 +145,8 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 
 def roots_together(expr: Expr) -> Expr:
-    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers within it as square roots.
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers and of sums within it as
+    square roots.
 
     A single root stays as it is, and so do roots of numbers alone.
     """
@@ -175,6 +176,9 @@ def higher_roots_together(expr: Expr) -> Expr:
     index = ilcm(*(root.exp.q for root in roots)) if len(roots) > 1 else 2
     if not any(root.free_symbols and root.exp.q > 2 for root in roots):
         return expr
+    square = [root for root in roots if abs(root.exp) == Rational(1, 2)]
+    if index == 4 and square and all(root in square or _is_fourth_root(root) for root in roots):
+        return expr  # which `roots_together` writes
     wholes = [int(root.exp) if root.exp > 0 else 0 for root in roots]
     inside = [Pow(root.base, index * (root.exp - n)) for root, n in zip(roots, wholes, strict=True)]
     outside = [Pow(root.base, n) for root, n in zip(roots, wholes, strict=True)]
@@ -182,8 +186,8 @@ def higher_roots_together(expr: Expr) -> Expr:
 
 
 def _is_fourth_root(factor: Pow) -> bool:
-    """2^(1/4), which under a square root is sqrt(2)."""
-    return bool(factor.base.is_Integer and factor.exp.is_Rational and factor.exp.q == 4)
+    """2^(1/4), which under a square root is sqrt(2), or that of a sum: a plate swings with its diagonal there."""
+    return bool((factor.base.is_Integer or factor.base.is_Add) and factor.exp.is_Rational and factor.exp.q == 4)
 
 
 class Place(IntEnum):

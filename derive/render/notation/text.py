@@ -167,6 +167,8 @@ def _line(layout: Layout) -> str:
             exponent = _line(power).replace(" ", "")
             small = exponent.translate(_RAISED)
             letter = f"({_line(base)})" if isinstance(base, Name) and base.dots else _line(base)
+            if exponent.isalpha():
+                return f"{letter}^{exponent}"
             return letter + (small if set(exponent) <= set("0123456789-+") else f"^({exponent})")
         case RootSign(inside):
             inner = plain(inside)

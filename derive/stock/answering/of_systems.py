@@ -26,6 +26,7 @@ from derive.mechanics import (
     energy_function_rate,
     equation_of_motion,
     equilibria,
+    given_lagrangian,
     hamilton_equations,
     hamiltonian,
     kinetic_energy_of,
@@ -45,6 +46,9 @@ from derive.mechanics.equations.linearised import Rest
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
+from derive.stock.answering.held_rest import rest_with_forces
+from derive.stock.answering.of_blows import BlowAnswers
+from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
@@ -72,9 +76,13 @@ class OfSystem(Protocol):
     @property
     def results(self) -> tuple[Result, ...]: ...
     @property
+    def blow(self) -> DescribedBlow | None: ...
+    @property
     def brought(self) -> Mapping[str, Place]: ...
     @property
     def place(self) -> Place | None: ...
+    @property
+    def given(self) -> tuple[Expr, str | None] | None: ...
 
 
 def constant(name: str, positive: bool = False) -> Symbol:
@@ -93,10 +101,14 @@ class Answers:
         self._on_the_way: list[str] = []
         self._known: dict[str, Any] = {}
         self._moving: dict[str, Quantity] = {}
+        self._blow: BlowAnswers | None = None
 
     @cached_property
     def system(self) -> System:
         described = self.described
+        if described.given is not None:
+            message = "this needs bodies and forces, but the Lagrangian is given in place of them"
+            raise Rejected(Complaint("given-lagrangian", message))
         parts = [part.made() for part in described.parts if part.maker not in ("body", "rolling")]
         if described.gravity is not None:
             parts.append(weight(described.gravity))
@@ -134,7 +146,11 @@ class Answers:
 
     @cached_property
     def lagrangian(self) -> Quantity:
-        return lagrangian(self.system)
+        if self.described.given is None:
+            return lagrangian(self.system)
+        function, kind = self.described.given
+        with told_at(self.described.place):
+            return given_lagrangian(function, *(part.made() for part in self.described.parts), kind=kind)
 
     @cached_property
     def cyclic(self) -> dict[str, Quantity]:
@@ -203,6 +219,8 @@ class Answers:
     @cached_property
     def potential_at_rest(self) -> Quantity:
         """The effective potential where something turns or a momentum is constant, else the potential energy."""
+        if self.described.given is not None:
+            return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
         for momentum in self.cyclic.values():
@@ -215,6 +233,13 @@ class Answers:
     @cached_property
     def equilibria(self) -> tuple[Quantity, ...]:
         return equilibria(self.potential_at_rest)
+
+    @property
+    def rest(self) -> tuple[Quantity, ...]:
+        """States of rest; where forces keep conditions, the places and the forces that the equations tell."""
+        if self.described.given is not None or not self.system.constraints:
+            return self.equilibria
+        return rest_with_forces(self.motions, self.independent, [each.force for each in self.system.constraints])
 
     @cached_property
     def stability(self) -> tuple[Quantity, ...]:
@@ -254,10 +279,14 @@ class Answers:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
             at = at or self.equilibria[0]
-        elif at is None and self.system.given_forces and len(self.equilibria) == 1:
+        elif at is None and self._is_pushed and len(self.equilibria) == 1:
             at = self.equilibria[0]
         found = linearised(motions, at=at, key=key)
         return found if isinstance(found, tuple) else (found,)
+
+    @property
+    def _is_pushed(self) -> bool:
+        return self.described.given is not None or bool(self.system.given_forces)
 
     @cached_property
     def normal_modes(self) -> tuple[Quantity, ...]:
@@ -271,7 +300,7 @@ class Answers:
     def period(self) -> Quantity:
         if len(self.normal_modes) != 1:
             raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
-        if self.normal_modes[0].step.outcome == "free":
+        if self.normal_modes[0].value == 0:
             message = "nothing drives the system back to this state, so that it does not oscillate about it"
             raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
         return period(self.normal_modes[0])
@@ -291,7 +320,7 @@ class Answers:
             "hamilton_equations": lambda: hamilton_equations(self.hamiltonian),
             "routhian": lambda: self.routhian,
             "effective_potential": lambda: self.effective_potential,
-            "equilibria": lambda: self.equilibria,
+            "equilibria": lambda: self.rest,
             "stability": lambda: self.stability,
             "linearised": lambda: self.linearised,
             "normal_modes": lambda: self.normal_modes,
@@ -316,11 +345,18 @@ class Answers:
             if name in dict(self.described.kept):
                 found[f"constant_{name}"] = partial(self._one_kept, name)
             found[f"acceleration_{name}"] = partial(self._one_of, "accelerations", f"acceleration_{name}")
-        for constraint in self.system.constraints:
+        for constraint in self.system.constraints if self.described.given is None else ():
             found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
+        if self.described.blow is not None:
+            found |= self.blow_of(self.described.blow).asks()
         for result in self.described.results:
             found[result.name] = partial(result.made, self.named, self.coordinates)
         return found
+
+    def blow_of(self, described: DescribedBlow) -> BlowAnswers:
+        if self._blow is None:
+            self._blow = BlowAnswers(described, self.coordinates, lambda: self.system, lambda: self.kinetic_energy)
+        return self._blow
 
     def check_letters(self) -> None:
         """What a letter of the description is found to be, and what else a step calls so, are of one kind."""

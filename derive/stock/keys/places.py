@@ -33,14 +33,14 @@ from derive.mechanics import X, Y, Z, point, space
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.places import Axes, Location
 
-ANGLE, LENGTH = "angle", "length"
+ANGLE, LENGTH, CHARGE = "angle", "length", "charge"
 
 
 def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
-    return sort_of_letter(node, name, faults, (ANGLE, LENGTH))
+    return sort_of_letter(node, name, faults, (ANGLE, LENGTH, CHARGE))
 
 
-COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH)), _sort))
+COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH, CHARGE)), _sort))
 COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
 TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of turns, such as `[{z: phi}, {x: theta}]`"))
 AXIS_OF = {"x": X, "y": Y, "z": Z}
@@ -135,7 +135,10 @@ class Places:
         written: Mapping[Word, WrittenPlace],
         turns: Mapping[Word, tuple[Mapping[Word, Tree], ...]],
         letters: InLetters,
+        carried: Mapping[Word, WrittenPlace | None] | None = None,
     ):
+        """`carried` are those of particles, which one may call by the names of these."""
+        self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
         self.letters = letters
@@ -149,9 +152,11 @@ class Places:
         return str(name), self.named(name)
 
     def named(self, name: Word) -> Location:
-        written = self.written.get(name)
+        written = self.written.get(name) or self.carried.get(name)
         if written is None:
-            help_line = did_you_mean(name, self.written) or "give it under `places`, or write its components"
+            help_line = (
+                did_you_mean(name, [*self.written, *self.carried]) or "give it under `places`, or write its components"
+            )
             rejected("no-such-place", f"there is no place `{name}`", name.place, help_line)
         if name in self.on_the_way:
             rejected("circle", f"the way to `{name}` begins at `{name}` itself", written.place)

@@ -22,7 +22,6 @@ from derive.mechanics import (
     frequency,
     frequency_squared_about,
     leaves_contact,
-    limiting_case,
     maximum,
     minimum,
     noether,
@@ -44,6 +43,8 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.formulas import Formula, formula
+from derive.stock.keys.limits import in_limit
+from derive.stock.keys.starts import from_start
 
 NAMES = as_written(one_or_more(TEXT.schema))
 EXPRESSIONS = as_written(one_or_more(SCALAR.schema))
@@ -74,7 +75,11 @@ class ResultKeys(Record):
     leaves: Tree | None = key(
         "a force of contact that vanishes where contact is lost, for `for`, from `start` on", NAMES
     )
-    solution: Tree | None = key("a linear equation of motion of `for`, solved from `start` and `start_rate`", NAMES)
+    solution: Tree | None = key(
+        "a linear equation of motion of `for`, solved from `start` and `start_rate`; or `normal_modes`, for the motion "
+        "of all coordinates from their `values` at the start, `{x_1: A, x_2_dot: v}`",
+        NAMES,
+    )
     amplitude: Tree | None = key("a driven linear equation of motion of `for`, in its steady state", NAMES)
     speed: Tree | None = key("a conserved energy, which gives the rate of `for` from `start` and `start_rate`", NAMES)
     period: Tree | None = key("a squared rate, as `speed` gives it, to the `order` in the amplitude", NAMES)
@@ -273,7 +278,7 @@ def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     given = result.named({"to": result.to, "order": result.order})
-    return limiting_case(result.only(of), result.letter, key=result.name, **given, **result.symbol)
+    return in_limit(result.only(of), result.letter, key=result.name, **given, **result.symbol)
 
 
 def _where(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
@@ -294,6 +299,8 @@ def _leaves(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
 
 
 def _solution(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
+    if len(of) > 1 and result.start is None:
+        return from_start(of, result.values, q, result.name, result.case)
     extra = result.named({"start_rate": result.start_rate, "case": result.case})
     return solution(result.only(of), result.coordinate(q), _started(result), key=result.name, **extra)
 

@@ -8,6 +8,7 @@ import pytest
 from sympy import symbols
 
 from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, explicit
 from derive.building.solution import rendered
 from tests.stock.described import PENDULUM, course_with, edited, messages, solved
 
@@ -219,3 +220,31 @@ def test_where_several_conditions_are_needed_the_page_has_all_of_them(tmp_path: 
 def test_one_may_ask_for_small_motions_and_for_the_stability_that_they_decide(tmp_path: Path) -> None:
     text = edited(TRIANGLE, ("  at: {x: 0, y: 0}\n", ""), ("3*sqrt(3)/2*(1 - 2*mu)*x*y", "0*mu*x*y"))
     assert {"linearised_x", "stability_1"} <= solved(tmp_path, text).keys() or "stability" in solved(tmp_path, text)
+
+
+BEAM = """\
+title: A carriage on a turning beam
+solve: system
+symbols: {m: mass, k: spring constant, K: spring constant, r_0: length, omega: angular speed}
+given:
+  coordinates: {r: positive length, y: length}
+  axes: {beam: [{z: omega*t}]}
+  places: {O: [0, 0, 0], carriage: {in: beam, by: [r, 0, 0]}, mass: {in: beam, by: [r, y, 0]}}
+  particles: {mass: {mass: m, at: mass}}
+  springs:
+    - {constant: k, length: r_0, from: O, to: carriage}
+    - {constant: K, from: carriage, to: mass}
+statement: A carriage.
+parts:
+  - ask: Where is it at rest?
+    answer: [equilibria, stability]
+"""
+
+
+def test_rest_on_a_turning_beam_needs_what_keeps_it_and_stability_what_holds_it_across(tmp_path: Path) -> None:
+    """Goldstein, problem 2.21: at r = k r_0/(k - m omega^2), where omega^2 < k/m; stable where omega^2 < K/m too."""
+    found = solved(tmp_path, BEAM)
+    m, k, K, r, w = symbols("m k K r_0 omega", positive=True)
+    assert found["rest"].step.outcome == "where"
+    assert equal(found["rest"].value[0], k * r / (k - m * w**2))
+    assert explicit(found["stability"].value) == Relation(w**2, "<", K / m)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from sympy import symbols
 
-from tests.stock.described import PENDULUM, edited, loaded, messages
+from derive.algebra.equality import equal
+from derive.algebra.expressions import explicit
+from tests.stock.described import PENDULUM, edited, loaded, messages, solved
 
 PLACES = "{A: [l*sin(theta), -l*cos(theta)]}"
 
@@ -56,3 +59,31 @@ def test_axes_turn_about_one_of_three(tmp_path: Path) -> None:
 def test_a_coordinate_is_a_letter(tmp_path: Path) -> None:
     found = messages(tmp_path, edited(PENDULUM, ("{theta: angle}", "{theta: angle, x y: angle, t: length}")))
     assert found == ["5: `x y` is no letter for a coordinate", "5: `t` is no letter for a coordinate"]
+
+
+def test_where_a_particle_is_may_be_called_by_its_name(tmp_path: Path) -> None:
+    """A cart between two springs: Goldstein, problem 8.26."""
+    text = """\
+title: A cart between two springs
+solve: system
+symbols: {m: mass, k: spring constant, K: spring constant, a: length, b: damping constant}
+given:
+  coordinates: {x: length}
+  places: {left: [0, 0], right: [a, 0]}
+  particles: {cart: {mass: m, at: [x, 0]}}
+  springs: [{constant: k, from: left, to: cart}, {constant: K, from: cart, to: right}]
+  damping: {constant: b, at: cart}
+statement: A cart.
+parts:
+  - ask: How does it move?
+    answer: motion_x
+reference:
+  source: Goldstein, Classical Mechanics, problem 8.26
+"""
+    m, k, K, a, b = symbols("m k K a b", positive=True)
+    x, v, c = symbols("x x_dot x_ddot", real=True)
+    left = explicit(solved(tmp_path, text)["motion_x"].value).residual
+    assert equal(left, m * c + b * v + (k + K) * x - K * a)
+    assert any("there is no place `car`" in said for said in messages(tmp_path, text.replace("at: cart", "at: car")))
+    own = text.replace("at: [x, 0]", "at: cart")
+    assert any("there is no place `cart`" in said for said in messages(tmp_path, own))

@@ -1,0 +1,275 @@
+"""A blow: what acts on a system in a moment, where it is then and how it moves before."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+
+from derive.algebra.expressions import At, Factors, Partial, TimeRate, explicit, rate
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.unknowns import unknown
+from derive.mechanics.systems.constraint import Constraint
+from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+from derive.steps.record import coordinates_in, require_constant
+from derive.steps.step import is_zero
+
+__all__ = ["Blow", "angular_impulse", "collision", "impulse"]
+
+ZERO = Integer(0)
+Vector = tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class Impulse:
+    """A given impulse at a place, N s; or on an angle, N m s."""
+
+    components: Vector
+    at: Vector
+
+
+@dataclass(frozen=True)
+class Collision:
+    """Two places that meet, or one that meets what is at rest, where `start` is none.
+
+    along         the common normal, along which the impulse acts; without one the two stay together
+    restitution   the part of the speed of approach with which they part
+    letter        of the impulse; that of each component has its axis as index where they stay together
+    """
+
+    start: Location | None
+    end: Location
+    along: Vector
+    restitution: Expr
+    letter: str
+
+
+def impulse(components: Any, at: Location) -> Impulse:
+    """A given impulse, the integral of a force over the short time of a blow, at a place, N s."""
+    if not isinstance(at, Location) or len(components) != len(at.components):
+        message = "`impulse` needs a place, and as many components as that has"
+        raise Rejected(Complaint("wrong-argument", message))
+    return Impulse(tuple(ZERO + c for c in components), at.components)
+
+
+def angular_impulse(amount: Any, on: Any) -> Impulse:
+    """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
+    if not coordinates_in(ZERO + on):
+        raise Rejected(Complaint("wrong-argument", f"`angular_impulse` turns something, but {on} does not move"))
+    return Impulse((ZERO + amount,), (ZERO + on,))
+
+
+def collision(
+    start: Location | None,
+    end: Location,
+    along: Sequence[Any] = (),
+    restitution: Any = ZERO,
+    letter: str = "K",
+) -> Collision:
+    """A collision of two places, or of one with what is at rest: smooth along a normal, or they stay together.
+
+    start, end    the places, `start` none where the other meets what is at rest
+    along         the common normal, from `start` to `end`; without it the two have one velocity afterwards
+    restitution   1 where it is elastic, 0 where they do not part; a number
+    letter        of the impulse, N s, which acts on the end, and with the other sign on the start
+    """
+    size = len(end.components)
+    if start is not None and len(start.components) != size:
+        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other three"))
+    normal = tuple(ZERO + c for c in along)
+    if normal and (len(normal) != size or all(c == 0 for c in normal)):
+        message = f"`collision` needs {size} components as its normal, not all zero"
+        raise Rejected(Complaint("wrong-argument", message))
+    part = ZERO + restitution
+    if not normal and part != 0:
+        message = "a collision after which two places part again needs its normal"
+        raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
+    if (part < 0) == True or (part > 1) == True:  # noqa: E712  which may be undecided
+        raise Rejected(
+            Complaint("wrong-argument", f"a coefficient of restitution is between 0 and 1, but this is {part}")
+        )
+    return Collision(start, end, normal, part, letter)
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """One condition on the rates just after a blow, and the impulse that brings it about.
+
+    gap          what changes at the rate that the condition is about; of a condition in rates this rate itself
+    restitution  the part of it that is left, with the other sign
+    what         "together", "elastic", "rebound" or "kept"
+    ends         of a collision the two places, the impulse being on the second, and its direction
+    """
+
+    gap: Expr
+    restitution: Expr
+    letter: Symbol
+    what: str
+    in_rates: bool = False
+    ends: tuple[Vector, Vector, Vector] | None = None
+
+    def speed(self, moving: Sequence[Symbol]) -> Any:
+        return self.gap if self.in_rates else TimeRate(self.gap, *moving)
+
+    def along(self, q: Symbol) -> Any:
+        return diff(self.gap, rate(q)) if self.in_rates else Partial(self.gap, q)
+
+    def slope(self, q: Symbol) -> Expr:
+        return diff(self.gap, rate(q) if self.in_rates else q)
+
+    def speed_by_time(self, moving: Sequence[Symbol]) -> Expr:
+        """The speed by the second route, of a collision from the velocities of its two places."""
+        if self.in_rates:
+            return self.gap
+        if self.ends is None:
+            return by_functions_of_time(self.gap, moving)
+        start, end, along = self.ends
+        velocities = [[by_functions_of_time(c, moving) for c in place] for place in (start, end)]
+        return Add(*(n * (v - u) for u, v, n in zip(*velocities, along, strict=True)))
+
+
+class Blow:
+    """What happens to a system in a moment.
+
+    system   its particles and bodies; the constraints that forces keep are kept by impulses too
+    acts     impulses that are given, and collisions
+    at       coordinate -> its value in that moment; of others it may have any
+    before   coordinate -> its rate before; that of the others is zero
+    """
+
+    def __init__(
+        self,
+        system: System,
+        *acts: Impulse | Collision,
+        at: Mapping[Any, Any] | None = None,
+        before: Mapping[Any, Any] | None = None,
+    ):
+        self.system = system
+        self.moving = list(system.coordinates)
+        self.at = {self._coordinate(q): ZERO + value for q, value in (at or {}).items()}
+        given = {self._coordinate(q): ZERO + value for q, value in (before or {}).items()}
+        for value in (*self.at.values(), *given.values()):
+            require_constant("Blow", "state", value)
+        self.before = {rate(q): given.get(q, ZERO) for q in self.moving}
+        if not acts:
+            raise Rejected(Complaint("wrong-argument", "a `Blow` needs an impulse or a collision"))
+        known = system.known
+        self.impulses = [
+            Impulse(tuple(self.there(c) for c in act.components), tuple(c.subs(known) for c in act.at))
+            for act in acts
+            if isinstance(act, Impulse)
+        ]
+        self.meetings = [m for act in acts if isinstance(act, Collision) for m in self._meetings(act)]
+        self.meetings += [self._kept(c) for c in system.constraints]
+        letters = [m.letter for m in self.meetings]
+        if len(set(letters)) < len(letters):
+            message = "two impulses of this blow have one letter"
+            raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
+
+    def _coordinate(self, q: Any) -> Symbol:
+        symbol = q.symbol if isinstance(q, Coordinate) else q
+        if symbol not in self.moving:
+            message = f"nothing in this `Blow` moves by {symbol}"
+            raise Rejected(Complaint("wrong-argument", message))
+        return symbol
+
+    def there(self, value: Any) -> Expr:
+        """The value in the moment of the blow."""
+        return explicit(value).subs(self.at, simultaneous=True)
+
+    def shown_there(self, value: Any, holds: Any) -> Any:
+        """The same as one writes it, with the places at which it is taken; `holds` is what it is made of."""
+        for q, place in self.at.items():
+            if explicit(holds).has(q) and q != place:
+                value = At(value, q, place)
+        return value
+
+    def earlier(self, value: Any) -> Expr:
+        """The value just before."""
+        return self.there(value).xreplace(self.before)
+
+    def _meetings(self, act: Collision) -> list[Meeting]:
+        size = len(act.end.components)
+        start, end = (
+            tuple(c.subs(self.system.known) for c in at.components) if at else (ZERO,) * size
+            for at in (act.start, act.end)
+        )
+        way = [b - a for a, b in zip(start, end, strict=True)]
+        along = tuple(self.there(c) for c in act.along)
+        if along and (coordinates := coordinates_in(ImmutableDenseMatrix(along))):
+            name = next(iter(coordinates)).name
+            raise Rejected(
+                Complaint(
+                    "changes", f"the normal of this collision depends on {name}", help="give its value under `at`"
+                )
+            )
+        if act.start is not None:
+            self._check_meet([self.there(c) for c in way], along)
+        if not along:
+            names = [f"{act.letter}_{axis}" for axis in ("xy" if size == 2 else "xyz")]
+            units = [tuple(Integer(i == k) for i in range(size)) for k in range(size)]
+            given = zip(way, names, units, strict=True)
+            every = [self._meeting(gap, ZERO, name, "together", (start, end, unit)) for gap, name, unit in given]
+            found = [each for each in every if each is not None]
+            if not found:
+                raise Rejected(
+                    Complaint("nothing-happens", "the two places of this collision have one velocity already")
+                )
+            return found
+        gap = Add(*(c * w for c, w in zip(along, way, strict=True)))
+        what = "together" if act.restitution == 0 else "elastic" if act.restitution == 1 else "rebound"
+        one = self._meeting(gap, act.restitution, act.letter, what, (start, end, along))
+        if one is None:
+            raise Rejected(Complaint("nothing-happens", "along the normal of this collision nothing moves"))
+        if not self.impulses and is_zero(self.earlier(TimeRate(gap, *self.moving))):
+            message = "the two do not approach each other before this collision"
+            raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
+        return [one]
+
+    def _meeting(
+        self, gap: Expr, restitution: Expr, letter: str, what: str, ends: tuple[Vector, Vector, Vector]
+    ) -> Meeting | None:
+        """None of a component in which neither moves."""
+        if is_zero(self.there(TimeRate(gap, *self.moving))):
+            return None
+        return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends)
+
+    def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
+        """Two places meet where they are one, or where the way from one to the other is along the normal: two balls."""
+        across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
+        if not all(is_zero(c) for c in across):
+            message = "the two places of this collision do not meet"
+            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates of that moment under `at`"))
+
+    def _kept(self, c: Constraint) -> Meeting:
+        if not is_zero(self.earlier(c.velocity(self.moving))):
+            message = "the rates before this blow do not keep a constraint of the system"
+            raise Rejected(Complaint("wrong-argument", message))
+        kind = "angular momentum" if c.kind_of_force == "torque" else "momentum"
+        letter = unknown(f"J_{c.force.name}", kind)
+        return Meeting(c.residual, ZERO, letter, "kept", c.in_rates)
+
+    def shares(self, q: Symbol) -> list[Expr]:
+        """J . dr/dq of each impulse, given or not."""
+        pairs = [(j, c) for one in self.impulses for j, c in zip(one.components, one.at, strict=True) if j != 0]
+        acting = [(j, c) for j, c in pairs if not is_zero(self.there(diff(c, q)))]
+        found = [Factors(j, self.shown_there(Partial(c, q), diff(c, q))) for j, c in acting]
+        for each in self.meetings:
+            if not is_zero(self.there(each.slope(q))):
+                slope = each.along(q)
+                found.append(Factors(each.letter, self.shown_there(slope, explicit(slope))))
+        return found
+
+    def power(self) -> Expr:
+        """The sum of J . v, by the places as functions of the time."""
+        found = ZERO
+        for one in self.impulses:
+            for j, c in zip(one.components, one.at, strict=True):
+                found += j * self.there(by_functions_of_time(c, self.moving))
+        for each in self.meetings:
+            found += each.letter * self.there(each.speed_by_time(self.moving))
+        return found

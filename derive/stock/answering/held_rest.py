@@ -1,0 +1,34 @@
+"""Rest where forces keep conditions: the equations of motion with nothing moving, solved for places and forces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from sympy import Expr, Integer, Symbol
+
+from derive.algebra.expressions import explicit
+from derive.errors import Complaint, Rejected
+from derive.mechanics import Coordinate, put_in, solved_for
+from derive.steps.step import Quantity
+
+
+def rest_with_forces(
+    motions: Mapping[str, Quantity], coordinates: Mapping[str, Coordinate], forces: Sequence[Symbol]
+) -> tuple[Quantity, ...]:
+    """The static equations, and what they tell together: as many places and forces as there are equations."""
+    still = [_still(name, motion, coordinates) for name, motion in motions.items()]
+    present = {s for each in still for s in explicit(each.value).free_symbols}
+    unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + [s for s in forces if s in present]
+    if len(unknown) != len(still):
+        names = ", ".join(s.name for s in unknown) or "nothing"
+        message = f"{len(still)} equations of rest do not tell {names}, where forces keep conditions"
+        help_line = "write the places by fewer coordinates, so that no force keeps them on their way"
+        raise Rejected(Complaint("constrained", message, help=help_line))
+    return solved_for(tuple(still), *unknown, keys=[f"rest_{s.name}" for s in unknown])
+
+
+def _still(name: str, motion: Quantity, coordinates: Mapping[str, Coordinate]) -> Quantity:
+    held = {s.name for s in explicit(motion.value).free_symbols}
+    moving = [s for q in coordinates.values() for s in (q.rate, q.acceleration) if s.name in held]
+    values: dict[str, Expr] = {s.name: Integer(0) for s in moving}
+    return put_in(motion, key=f"still_{name}", **values) if values else motion

@@ -1,0 +1,164 @@
+"""What happens in a moment: impulses and collisions, as `given:` describes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from sympy import Expr, Integer
+
+from derive.algebra.expressions import scalar
+from derive.course.expression import Declared
+from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
+from derive.course.stock import InLetters, each, told_at
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Place, did_you_mean, rejected
+from derive.mechanics import angular_impulse, collision, impulse
+from derive.mechanics.systems.coordinates import kind_of_rate
+from derive.stock.keys.parts import list_of_parts
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
+
+RATE = "_dot"
+MAKERS = {"impulse": impulse, "angular": angular_impulse, "collision": collision}
+
+
+@dataclass(frozen=True)
+class Act:
+    """One impulse or collision: by which verb it is made, of what, and where it was described."""
+
+    maker: str
+    of: tuple[Any, ...]
+    place: Place | None = field(default=None, repr=False, compare=False)
+
+    def made(self) -> Any:
+        with told_at(self.place):
+            return MAKERS[self.maker](*self.of)  # type: ignore[operator]
+
+
+@dataclass(frozen=True)
+class ImpulseKeys(Record):
+    """The keys of one of `impulses:`, at a place or on an angle."""
+
+    components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
+    at: WrittenPlace | None = key("the place on which it acts", PLACE)
+    angular: Tree | None = key("in place of them, an angular impulse", SCALAR)
+    on: Tree | None = key("the angle by which that turns something", SCALAR)
+
+    def act(self, places: Places, letters: InLetters) -> Act:
+        if self.components and self.at and not (self.angular or self.on):
+            found = each([partial(letters.of_kind, node, "a component", "momentum") for node in self.components])
+            return Act("impulse", (tuple(found), places.at(self.at, "at")), self.places[""])
+        if self.angular and self.on and not (self.components or self.at):
+            amount = letters.of_kind(self.angular, "angular", "angular momentum")
+            return Act("angular", (amount, letters.of_kind(self.on, "on", "angle")), self.places[""])
+        rejected("missing-key", "an impulse needs `components` and `at`, or `angular` and `on`", self.places[""])
+
+
+@dataclass(frozen=True)
+class CollisionKeys(Record):
+    """The keys of one of `collisions:`."""
+
+    start: WrittenPlace | None = key("one of the places that meet", PLACE, called="from")
+    end: WrittenPlace | None = key("the other one", PLACE, called="to")
+    at: WrittenPlace | None = key("in place of both, the place that meets what is at rest", PLACE)
+    along: tuple[Tree, ...] = key(
+        "components of the common normal, along which the impulse acts; without it the two stay together", COMPONENTS
+    )
+    restitution: Tree | None = key(
+        "with `along`, the part of the speed of approach with which they part: 1 where the collision is elastic", SCALAR
+    )
+    letter: Word | None = key(
+        "the letter of the impulse, without it `K`; of what stays together its components are `K_x`, `K_y`",
+        TEXT,
+        called="impulse",
+    )
+
+    def act(self, places: Places, letters: InLetters) -> Act:
+        if (self.at is None) == (self.start is None and self.end is None) or (self.start is None) != (self.end is None):
+            rejected("missing-key", "a collision needs `from` and `to`, or `at`", self.places[""])
+        if self.along and self.restitution is None:
+            help_line = "write `restitution: 1` where it is elastic, 0 where the two do not part"
+            rejected("missing-key", "a collision along a normal needs its `restitution`", self.places[""], help_line)
+        start = places.at(self.start, "from") if self.start else None
+        end = places.at(self.end or self.at, "to" if self.end else "at")  # type: ignore[arg-type]
+        along = tuple(each([partial(letters.of_kind, node, "a component", "number") for node in self.along]))
+        part = letters.of_kind(self.restitution, "restitution", "number") if self.restitution else Integer(0)
+        return Act("collision", (start, end, along, part, self.name), self.places[""])
+
+    @property
+    def name(self) -> str:
+        return str(self.letter or "K")
+
+    def brings(self, letters: InLetters, size: int) -> list[str]:
+        """The letters of its impulse."""
+        if self.letter is not None and not is_letter(self.letter):
+            rejected("symbol", f"`{self.letter}` is no letter for an impulse", self.letter.place, "write `impulse: K`")
+        place = self.letter.place if self.letter is not None else self.places[""]
+        names = [self.name] if self.along else [f"{self.name}_{axis}" for axis in ("xy" if size == 2 else "xyz")]
+        help_line = "leave it out of `symbols`, or give the impulse another letter, `impulse: K`"
+        return [letters.unused(Word.at(name, place), help_line) for name in names]
+
+
+@dataclass(frozen=True)
+class BlowKeys(Record):
+    """The keys of `blow:`, of what happens in a moment."""
+
+    at: Mapping[Word, Tree] = key("the values of coordinates in that moment: `{theta: 0}`", mapping_of(SCALAR))
+    before: Mapping[Word, Tree] = key("rates just before it, the others are zero: `{x_dot: v}`", mapping_of(SCALAR))
+    impulses: Sequence[ImpulseKeys] = key("given impulses", list_of_parts(ImpulseKeys, "an impulse"))
+    collisions: Sequence[CollisionKeys] = key("what meets", list_of_parts(CollisionKeys, "a collision"))
+
+    def read(
+        self, coordinates: Mapping[str, Declared], forces: Mapping[str, Declared], places: Places, letters: InLetters
+    ) -> DescribedBlow:
+        """In letters; `forces` are those that keep constraints."""
+        both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
+        acts = each([partial(one.act, places, letters) for one in both])
+        if not acts:
+            rejected("missing-key", "`blow` needs `impulses` or `collisions`", self.places[""])
+        sizes = [len(act.of[1].components) for act in acts if act.maker == "collision"]
+        brought: list[str] = []
+        for one, size in zip(self.collisions, sizes, strict=True):
+            brought += one.brings(letters, size)
+        brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another letter") for force in forces]
+        values = [("", self.at), (RATE, self.before)]
+        at, before = (
+            tuple(each([partial(_value, q, node, ending, coordinates, letters) for q, node in written.items()]))
+            for ending, written in values
+        )
+        return DescribedBlow(
+            acts=tuple(acts),
+            at=at,
+            before=before,
+            letters={name: Declared(name, scalar(name), "momentum") for name in brought},
+            place=self.places[""],
+        )
+
+
+def _value(
+    name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
+) -> tuple[str, Expr]:
+    """A coordinate, the one of a rate where the name ends so, and its value."""
+    q = str(name).removesuffix(ending)
+    known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
+    if name not in known:
+        what = "rate" if ending else "coordinate"
+        rejected("no-such-coordinate", f"there is no {what} `{name}`", name.place, did_you_mean(name, known))
+    kind = coordinates[q].kind
+    return q, letters.of_kind(node, str(name), kind_of_rate(kind) if ending else kind)
+
+
+@dataclass(frozen=True)
+class DescribedBlow:
+    """A blow in letters; those of its impulses are its own."""
+
+    acts: tuple[Act, ...]
+    at: tuple[tuple[str, Expr], ...]
+    before: tuple[tuple[str, Expr], ...]
+    letters: Mapping[str, Declared] = field(default_factory=dict)
+    place: Place | None = field(default=None, repr=False, compare=False)
+
+
+BLOW = record_of(BlowKeys, "a blow", "a mapping with `impulses` or `collisions`")

@@ -1,0 +1,49 @@
+"""A Lagrangian that is given, as `given:` describes it, and what may not stand beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from sympy import Expr
+
+from derive.algebra.kinds import kind_of_dimension
+from derive.course.stock import InLetters
+from derive.course.yaml_tree import Tree
+from derive.errors import Place, rejected
+
+WITH_BODIES = (
+    "axes",
+    "places",
+    "particles",
+    "bodies",
+    "rolling",
+    "gravity",
+    "springs",
+    "central",
+    "potential",
+    "charges",
+    "constraints",
+    "blow",
+)
+
+
+class WithLagrangian(Protocol):
+    """Keys among which a Lagrangian may be given, with the places where they stand."""
+
+    @property
+    def lagrangian(self) -> Tree | None: ...
+    @property
+    def places(self) -> Mapping[str, Place]: ...
+
+
+def read_lagrangian(written: WithLagrangian, letters: InLetters) -> tuple[Expr, str | None] | None:
+    """The formula, and the kind of quantity that it is, if it has a name."""
+    if written.lagrangian is None:
+        return None
+    beside = next((name for name in WITH_BODIES if name in written.places), None)
+    if beside is not None:
+        message = f"`{beside}` cannot stand beside `lagrangian`, which is given in place of bodies"
+        rejected("given-lagrangian", message, written.places[beside], "put it into the formula")
+    value, dimension = letters.read(written.lagrangian, "lagrangian", "a formula of coordinates and rates")
+    return value, kind_of_dimension(dimension)

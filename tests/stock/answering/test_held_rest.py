@@ -1,0 +1,56 @@
+"""Rest where forces keep conditions, in YAML alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import sin, symbols
+
+from derive.algebra.equality import equal
+from derive.mechanics.equations import solving
+from tests.stock.described import edited, messages, solved
+
+BLOCKS = """\
+title: Two blocks on a string
+solve: system
+symbols: {m: mass, M: mass, g: acceleration, k: spring constant, d: length, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, y: length}
+  places: {A: [x*cos(alpha), x*sin(alpha)], B: [0, -y]}
+  particles: {one: {mass: m, at: A}, other: {mass: M, at: B}}
+  gravity: g
+  potential: k*x**2/2
+  constraints: [{condition: x + y, equals: d, force: Q}]
+statement: Blocks.
+parts:
+  - ask: Where are they at rest?
+    answer: equilibria
+"""
+m, M, g, k, alpha = symbols("m M g k alpha", positive=True)
+
+
+def test_the_tension_at_rest(tmp_path: Path) -> None:
+    """Q = -M g carries the hanging block, and k x = -(M + m sin(alpha)) g."""
+    steps = solved(tmp_path, BLOCKS)
+    assert equal(steps["rest_Q"].value, -M * g)
+    assert equal(steps["rest_x"].value, -(M + m * sin(alpha)) * g / k)
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (("  potential: k*x**2/2\n", ""), "do not tell Q"),
+        (("k*x**2/2", "k*x**4/(4*d**2)"), "linear"),
+        (("answer: equilibria", "answer: stability"), "are tied by x + y = d"),
+    ],
+)
+def test_a_rest_that_is_not_told_is_refused(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
+    found = messages(tmp_path, edited(BLOCKS, edit))
+    assert any(said in message for message in found), found
+
+
+def test_a_wrong_solution_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = solving.tidied
+    monkeypatch.setattr(solving, "tidied", lambda value: 2 * right(value))
+    assert messages(tmp_path, BLOCKS)
