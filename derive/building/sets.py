@@ -310,7 +310,10 @@ class _Build:
             return
         limit = self.options.limit
         beside = [file for file in files if file[0].endswith(".pdf")]
-        work = partial(typeset, tex, self.outputs / pdf, self.engine, timeout=limit, numbers=numbers, beside=beside)
+        work = partial(
+            typeset, tex, self.outputs / pdf, self.engine,
+            timeout=limit, numbers=numbers, beside=beside, formats=self.cache,
+        )  # fmt: skip
         job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 

@@ -19,8 +19,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.building.cache import Kept
+from derive.building import preamble
+from derive.building.cache import NO_CACHE, Cache, Kept
 from derive.building.files import cannot_write, folder, shown_path, write, writing
+from derive.building.preamble import shared_by_all
 from derive.errors import BuildFailed, Complaint, Misused, Place
 
 WHEEL = "tinytex"
@@ -52,12 +54,17 @@ class Engine:
         stat = self.path.stat()
         return f"{self.name}:{self.path}:{stat.st_size}:{stat.st_mtime_ns}"
 
-    def command(self, source: str) -> list[str]:
+    @property
+    def dumps(self) -> bool:
+        """Whether it can take in what documents begin with once for all."""
+        return self.name in (WHEEL, "pdflatex")
+
+    def command(self, source: str, *options: str) -> list[str]:
         if self.name == "latexmk":
             return [str(self.path), "-norc", "-pdf", *_SAFE[:3], "-latexoption=-no-shell-escape", source]
         if self.name == "tectonic":
             return [str(self.path), "--untrusted", "--keep-logs", source]
-        return [str(self.path), *_SAFE, source]
+        return [str(self.path), *_SAFE, *options, source]
 
 
 def engines() -> list[Engine]:
@@ -110,11 +117,12 @@ def typeset(
     log: Path | None = None,
     numbers: Kept | None = None,
     beside: Sequence[tuple[str, bytes]] = (),
+    formats: Cache = NO_CACHE,
 ) -> bool:
     """The PDF of `tex` at `target`; whether its content changed. On failure `target` is as it was.
 
     `numbers` are the page numbers of the last time, kept for the next: if they still hold, one run is enough; `beside`
-    are files that the source includes, such as its drawings.
+    are files that the source includes, such as its drawings; `formats` keeps what all documents begin with.
     """
     kept = (log or target.parent / "log") / target.stem
     with writing(Path(tempfile.gettempdir())):
@@ -128,7 +136,9 @@ def typeset(
         begun = numbers.recalled() if numbers else None
         if begun is not None:
             noted.write_bytes(begun)
-        output = _passes(engine, source, timeout)
+        output = _by_format(engine, source, tex, timeout, formats)
+        if output is not None:
+            output = _passes(engine, source, timeout)
         if output is not None and begun is not None:  # perhaps they were those of another document
             noted.unlink(missing_ok=True)
             output = _passes(engine, source, timeout)
@@ -158,13 +168,31 @@ def _is_whole(content: bytes, log: Path) -> bool:
     return written and content.startswith(b"%PDF-") and b"startxref" in content[-1024:] and b"%%EOF" in content[-1024:]
 
 
-def _passes(engine: Engine, source: Path, timeout: float) -> str | None:
+def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache) -> str | None:
+    """The same by a format of the preamble; if that fails in any way the source stands again as it is."""
+    failed = "no format"
+    if not engine.dumps:
+        return failed
+    place = source.parent
+    shared = shared_by_all(tex, str(engine.path), engine.identity, _SAFE, formats, place, _environment(engine))
+    if shared is None:
+        return failed
+    dumped = place / f"{preamble.NAME}.fmt"
+    dumped.write_bytes(shared.format)
+    write(source, shared.source)
+    output = _passes(engine, source, timeout, f"-fmt={preamble.NAME}")
+    dumped.unlink(missing_ok=True)
+    write(source, tex)
+    return output if source.with_suffix(".pdf").is_file() else failed
+
+
+def _passes(engine: Engine, source: Path, timeout: float, *options: str) -> str | None:
     """Run as often as the log asks for; what the engine printed if it failed."""
     log = source.with_suffix(".log")
     for _ in range(PASSES):
         try:
             run = subprocess.run(
-                engine.command(source.name), cwd=source.parent, env=_environment(engine), timeout=timeout,
+                engine.command(source.name, *options), cwd=source.parent, env=_environment(engine), timeout=timeout,
                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             )  # fmt: skip
         except subprocess.TimeoutExpired:

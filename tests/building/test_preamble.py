@@ -1,0 +1,97 @@
+"""The preamble as a format: the same pages, made once, and given up where TeX cannot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from pypdf import PdfReader
+
+from derive.building import preamble
+from derive.building.cache import Cache
+from derive.building.preamble import DIFFERS
+from derive.building.tex import chosen_engine, typeset
+from derive.errors import BuildFailed
+
+ABOVE = r"""\documentclass{article}
+\usepackage[T1]{fontenc}\usepackage{lmodern,amsmath}
+\newcommand{\mass}{M}
+"""
+BELOW = r"""\newcommand{\own}[1]{of #1}
+\begin{document}
+%% derive: hw9/block part b
+A block \own{two}: $\mass a^2$ %s
+\end{document}
+"""
+
+
+@pytest.fixture
+def target(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("DERIVE_ENGINE", raising=False)
+    return tmp_path / "block.pdf"
+
+
+def document(more: str = "", above: str = ABOVE, differs: str = DIFFERS) -> str:
+    return above + differs + BELOW.replace("%s", more)
+
+
+def text_of(pdf: Path) -> str:
+    return "".join(page.extract_text() for page in PdfReader(pdf).pages)
+
+
+def test_the_pages_are_the_same_and_the_format_is_made_once(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = Cache(target.parent / "kept")
+    typeset(document(), target, chosen_engine(None))
+    plain = text_of(target)
+    assert "of two" in plain
+    dumps = []
+    dumped = preamble._dumped
+    monkeypatch.setattr(preamble, "_dumped", lambda *given: dumps.append(1) or dumped(*given))
+    for more in ("", "again"):
+        typeset(document(more), target, chosen_engine(None), formats=kept)
+        assert text_of(target).split() == [*plain.split()[:-1], *([more] if more else []), plain.split()[-1]]
+    assert dumps == [1]
+    assert kept.folder
+    assert max(file.stat().st_size for file in kept.folder.iterdir()) > 1_000_000, "what TeX dumped"
+
+
+def test_a_mistake_is_told_as_without_a_format(target: Path) -> None:
+    told = []
+    for formats in (Cache(), Cache(target.parent / "kept")):
+        with pytest.raises(BuildFailed) as caught:
+            typeset(document(r"\nosuch"), target, chosen_engine(None), formats=formats)
+        told.append([each.shown() for each in caught.value.complaints])
+    assert told[0] == told[1]
+    assert r"Undefined control sequence \nosuch" in told[0][0]
+
+
+@pytest.mark.parametrize(
+    "tex",
+    [
+        document(differs=""),
+        document(above=ABOVE + "\\AtBeginDocument{}\\everyjob{\\stop}\n"),
+    ],
+    ids=["no such line", "a format that stops"],
+)
+def test_where_it_cannot_be_done_the_document_is_typeset_as_it_stands(target: Path, tex: str) -> None:
+    typeset(tex, target, chosen_engine(None), formats=Cache(target.parent / "kept"))
+    assert "of two" in text_of(target)
+
+
+def test_what_cannot_be_dumped_is_not_tried_again(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = Cache(target.parent / "kept")
+    tex = document(above=ABOVE + "\\gdef\\mass{M}\\begingroup\n").replace(DIFFERS, DIFFERS + "\\endgroup")
+    typeset(tex, target, chosen_engine(None), formats=kept)
+    assert "of two" in text_of(target)
+    monkeypatch.setattr(preamble, "_dumped", lambda *_: pytest.fail("tried again"))
+    typeset(tex.replace("two", "three"), target, chosen_engine(None), formats=kept)
+    assert "of three" in text_of(target)
+
+
+def test_the_documents_of_a_set_say_where_they_differ() -> None:
+    template = (Path(__file__).parents[2] / "templates" / "latex" / "document.tex.j2").read_text()
+    above, differs, below = template.partition(DIFFERS)
+    assert differs
+    assert "<<" not in above, "what differs stands below the line"
+    assert "\\usepackage" not in below
