@@ -38,7 +38,13 @@ EXCEPTIONS = {
     **dict.fromkeys(
         [
             (rule, "sign")
-            for rule in ("modes.frequency", "modes.period", "modes.beats", "linear_motion.steady_amplitude")
+            for rule in (
+                "modes.frequency",
+                "modes.period",
+                "modes.beats",
+                "linear_motion.steady_amplitude",
+                "tensors.radius_of_gyration",
+            )
         ],
         "the routes see its square; that it is not negative is asked of it by its word",
     ),

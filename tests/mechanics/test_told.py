@@ -136,7 +136,9 @@ def test_the_component_along_the_axis_is_that_along_z() -> None:
     assert not told_rightly("bodies.centre_component", "on_axis", wrong)
 
 
-@pytest.mark.parametrize("rule", ["modes.period", "modes.beats", "linear_motion.steady_amplitude"])
+@pytest.mark.parametrize(
+    "rule", ["modes.period", "modes.beats", "tensors.radius_of_gyration", "linear_motion.steady_amplitude"]
+)
 def test_what_is_a_size_is_not_negative(rule: str) -> None:
     of = {"equation": Relation(x, "=", 0), "q": x}
     assert told_rightly(rule, "generic", Judged(a / R, of))

@@ -260,6 +260,7 @@ _TABLE: dict[str, Told] = {
     "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
+    "tensors.radius_of_gyration": _not_negative,
     "modes.beats": _not_negative,
     "linear_motion.solution": _starts_as_told,
     "steady.frequency_squared": _taken_out_by_its_condition,
