@@ -44,10 +44,23 @@ EXCEPTIONS = {
                 "modes.beats",
                 "linear_motion.steady_amplitude",
                 "tensors.radius_of_gyration",
+                "gyroscopic.frequency",
+                "damped.frequency",
             )
         ],
         "the routes see its square; that it is not negative is asked of it by its word",
     ),
+    **{
+        (rule, what): "the amplitudes of a mode are in proportion: it has no size and no sign"
+        for rule in ("gyroscopic.motion", "damped.shape")
+        for what in ("sign", "scale", "order")
+    },
+    **{
+        ("gyroscopic.stability", what): "the route sees the border; on which side it is stable is asked by its word"
+        for what in ("mark", "sides")
+    },
+    ("equilibria.rest", "sign of an entry"): "the angle -pi is pi",
+    ("symmetry.change", "mark"): "nothing is left on either side",
     ("principal.principal_moments", "order"): "which moment of a tensor that is not diagonal is the first is a name",
 }
 

@@ -375,9 +375,10 @@ def _rest(
     if len(sought) == 1 and (excluded := _level_where(conditions[0].value.left, sought[0])) is not None:
         told["excluded"] = (excluded, Relation(excluded.right, "!=", excluded.left))
 
-    def no_force(_: Any) -> tuple[Expr, Expr]:
+    def no_force(found: Any) -> tuple[Expr, Expr]:
         marks = [stand_in(f"u_{i}") for i in range(len(sought))]
-        left = [slope_otherwise(potential, q).subs(dict(state.values), simultaneous=True) for q in sought]
+        there = dict(zip(held, [found] if single else found, strict=True))
+        left = [slope_otherwise(potential, q).subs(there, simultaneous=True) for q in sought]
         return Add(*(tidied(force) * mark for force, mark in zip(left, marks, strict=True))), ZERO
 
     def counted(found: Any) -> Verdict:

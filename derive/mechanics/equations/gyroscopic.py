@@ -133,7 +133,7 @@ def in_quadrature(
 ) -> tuple[Relation, Relation]:
     """Cosines and sines of real amplitudes put in: twice as many real equations, whose determinant is the square."""
     whole = of_cosines_and_sines(linear, together, letter)
-    return Relation(explicit(found.left) ** 2, "=", 0), Relation(whole, "=", 0)
+    return Relation(explicit(found).residual ** 2, found.mark, 0), Relation(whole, "=", 0)
 
 
 def _tidy_entry(entry: Expr) -> Expr:
