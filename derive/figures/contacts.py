@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sympy import Add, Float, Integer
+from sympy import Add, Expr, Float, Integer, sqrt
 
 from derive.algebra.expressions import column
-from derive.figures.annotations import PointMark
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import Line, PointMark
 from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, is_fixed, link_from_fixed
+from derive.figures.recognition import Link, is_fixed, link_from_fixed, moving_in
 from derive.figures.surfaces import Circle
 from derive.figures.turning import angle_marks
 from derive.mechanics.systems.no_slip import Rolling
@@ -36,12 +37,23 @@ def contact_marks(system: System) -> Iterable[Mark]:
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
     """Seen along its axis, with the way from there to the contact and the angle of that."""
     centre, contact = column_of(link.start), column_of(link.end)
-    around = Circle(centre, ACROSS, link.length, _is_outside(system, link, rolling), name="a fixed cylinder")
-    yield around
+    outside = _is_outside(system, link, rolling)
+    yield Circle(centre, ACROSS, link.length, outside, name="a fixed cylinder")
     yield PointMark(centre)
-    yield ConnectionMark(centre, contact, label=link.length)
+    between = _between_axes(system, link, rolling)
+    if outside or between is None:
+        yield ConnectionMark(centre, contact, label=link.length)
+    else:  # the way to the contact lies under the body that rolls within
+        yield Line(centre, column_of(rolling.body.centre), label=between)
     yield PointMark(contact)
     yield from angle_marks(system, link)
+
+
+def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
+    """How far apart the two axes are, where that is constant."""
+    way = [c.subs(system.known) for c in (rolling.body.centre - link.start).components]
+    length = sqrt(tidied(Add(*(c**2 for c in way))))
+    return None if length == 0 or moving_in(system, length) else length
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:

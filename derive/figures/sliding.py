@@ -114,9 +114,11 @@ class Sliding:
             yield DistanceMark(start, at, ImmutableDenseMatrix([0, 1]), CLEAR + 10 + 16 * len(before), label=track.by)
 
     def _free_side(self, i: int) -> int:
-        """Of what hangs: the side on which nothing hangs or lies at the other end of its string."""
+        """Of what hangs: the side on which nothing hangs or lies at the other end of its string, nor a pulley."""
         other = next((k for pair in (*self.ropes, *self.strings) if i in pair for k in pair if k != i), None)
-        return 1 if other is not None and self._numeric((self._at(other) - self._at(i)).components[0]) < 0 else -1
+        beside = [self._at(other)] if other is not None else [placed.centre for placed in self.system.bodies]
+        ways = [self._numeric((place - self._at(i)).components[0]) for place in beside]
+        return 1 if ways and max(ways) < 0 else -1
 
     def _is_measured(self, i: int) -> bool:
         """Of two on a string that one from whose line's foot the coordinate is counted, else the first."""

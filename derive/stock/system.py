@@ -23,6 +23,7 @@ from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
+from derive.stock.keys.formulas import FoundLetter
 from derive.stock.keys.lagrangians import read_lagrangian
 from derive.stock.keys.parts import (
     CENTRAL,
@@ -227,7 +228,7 @@ def _multipliers(parts: Sequence[Part]) -> dict[str, Declared]:
     """The letters of forces of constraint, which results may be solved for."""
     makers = ("constraint", "rolling")
     names = [dict(part.named)["force"] for part in parts if part.maker in makers and "force" in dict(part.named)]
-    return {name: Declared(name, scalar(name), "force") for name in names}
+    return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
 def letters_at(written: SystemKeys) -> list[Word]:

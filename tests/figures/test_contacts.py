@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Matrix, cos, sin, symbols
 
 from derive.figures import sketch
-from derive.figures.annotations import PointMark
+from derive.figures.annotations import Line, PointMark
 from derive.figures.parts import ConnectionMark
 from derive.figures.pieces import Bullet
 from derive.figures.placed_bodies import SilhouetteMark
@@ -53,8 +53,14 @@ def test_a_disc_that_rolls_inside_a_cylinder_hides_nothing_of_it() -> None:
         phi, psi = coordinate("phi"), coordinate("psi")
         disc = Disc(a, M).placed(psi, point(b * sin(phi), -b * cos(phi)), across="z")
         rolling = no_slip(disc, at=point((a + b) * sin(phi), -(a + b) * cos(phi)))
-        circle = next(m for m in sketch("inside", System(disc, rolling, weight(a))).marks if isinstance(m, Circle))
+        marks = sketch("inside", System(disc, rolling, weight(a))).marks
+    circle = next(mark for mark in marks if isinstance(mark, Circle))
     assert (circle.radius, circle.filled) == (a + b, False)
+    # The way to the contact would lie under the disc; that between the axes is drawn over it.
+    assert not any(isinstance(mark, ConnectionMark) for mark in marks)
+    assert [(list(mark.end), mark.label) for mark in marks if isinstance(mark, Line)] == [
+        ([b * sin(phi.symbol), -b * cos(phi.symbol)], b)
+    ]
     assert next(mark for mark in SLAB.marks if isinstance(mark, Circle)).filled
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from sympy import Rational, cos, sin
 
+from derive.figures import sketch
 from derive.figures.parts import (
     BLOCK,
     BarMark,
@@ -18,7 +19,9 @@ from derive.figures.parts import (
 )  # fmt: skip
 from derive.figures.pieces import Stroke
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, FloorMark
-from tests.figures.machines import SKETCHES, R, a, alpha, at, h, l, labels, letter, of, seen
+from derive.mechanics import Disc, Particle, System, constraint, coordinate, point
+from derive.steps.record import recorded
+from tests.figures.machines import SKETCHES, R, W, a, alpha, at, h, l, labels, letter, m, of, seen
 from tests.figures.scenery import strokes
 
 
@@ -121,3 +124,13 @@ def test_what_hangs_on_a_spring_has_no_floor() -> None:
     found = SKETCHES["hanging"]
     assert of(found, FloorMark) == []
     assert labels(found, DistanceMark) == ["y"]
+
+
+def test_a_depth_beside_a_heavy_pulley_is_measured_outside_of_it() -> None:
+    with recorded():
+        x, y, phi = coordinate("x", "length"), coordinate("y", "length"), coordinate("phi")
+        pulley = Disc(R, m).held(phi, "centre", across="z")
+        hanging = Particle(m, point(-R, -x.symbol)), Particle(2 * m, point(R, -y.symbol))
+        over = constraint(R * phi.symbol - x.symbol, 0, "S_1"), constraint(-R * phi.symbol - y.symbol, 0, "S_2")
+        found = sketch("pulley", System(pulley, *hanging, *over, W))
+    assert [mark.aside[0] for mark in of(found, DistanceMark)] == [-1, 1]

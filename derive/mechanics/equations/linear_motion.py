@@ -37,7 +37,7 @@ from derive.algebra.collect import by_terms
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.unknowns import coordinates_of, lecture_form, residual_of
+from derive.mechanics.equations.unknowns import coordinates_of, is_number, lecture_form, residual_of
 from derive.mechanics.equations.zeros import different_from_zero
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
@@ -86,7 +86,7 @@ def solution(
     a s^2 + b s + c, q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
     equation     a q_ddot + b q_dot + c q = f(t), with f a sum of powers of t, exponentials, sines and cosines; or of
-    first order, a = 0
+    first order, a = 0; or q_ddot, q_dot as they were solved for
     q            the coordinate
     start        its value at t = 0
     start_rate   its rate at t = 0, for an equation of second order; 0 where none is given
@@ -114,7 +114,7 @@ def solution(
     values = _constants(basis, particular, first, initial)
     free = _free(basis, values, linear, sort)
     found = _joined(free, particular)
-    found = by_terms(found.expand()) if sort == "uniform" else found  # v t - g t^2/2
+    found = _by_powers(found) if sort == "uniform" else found  # v t - g t^2/2
 
     def from_the_start(motion: Expr) -> tuple[Any, Any]:
         at = [motion.subs(TIME, 0), *([] if initial is None else [diff(motion, TIME).subs(TIME, 0)])]
@@ -135,6 +135,15 @@ def solution(
             judged_by={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
     )
+
+
+def _by_powers(motion: Expr) -> Expr:
+    """Power by power of the time, each with one factor; as it is where it is no polynomial."""
+    powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
+    if powers is None:
+        return by_terms(motion.expand())
+    terms = ((n, lecture_form(c)) for (n,), c in powers.terms())
+    return Add(*(by_terms(c.expand()) if c.is_Add and n == 0 else c * TIME**n for n, c in terms))
 
 
 def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) -> Expr:
@@ -166,7 +175,7 @@ def _equals(left: Expr, right: Expr) -> Relation:
 
 
 def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
-    left = residual_of("solution", equation).expand()
+    left = _left_of(equation, q).expand()
     state = (q.acceleration, q.rate, q.symbol)
     a, b, c = (tidied(diff(left, s)) for s in state)
     rest = left.xreplace(dict.fromkeys(state, ZERO))
@@ -180,6 +189,13 @@ def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
     return Linear(sign * a, sign * b, sign * c, -sign * rest)
+
+
+def _left_of(equation: Quantity, q: Coordinate) -> Expr:
+    """What vanishes; of the acceleration or the rate as it was solved for, that less what it is."""
+    if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
+        return equation.symbol - explicit(equation.value)
+    return residual_of("solution", equation)
 
 
 def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:

@@ -31,16 +31,22 @@ class OfKnownDimension(Declared):
 
 
 @dataclass(frozen=True)
+class FoundLetter(Declared):
+    """The letter of what is an answer too, such as a force of constraint: in a formula it stands for that answer."""
+
+
+@dataclass(frozen=True)
 class Formula:
-    """An expression whose names are letters or answers; a letter comes before an answer of its name."""
+    """An expression whose names are letters or answers; a letter that is given comes before an answer of its name."""
 
     node: Scalar
     letters: Mapping[str, Declared]
 
     @property
     def answers(self) -> tuple[Word, ...]:
-        """The names in it that are no letters."""
-        found = {str(name): name for name in names_in(self.node) if name not in self.letters}
+        """The names in it that are no letters of what is given."""
+        given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
+        found = {str(name): name for name in names_in(self.node) if name not in given}
         return tuple(found.values())
 
     def made(self, answers: Callable[[Word], Quantity], key: str, symbol: str | None) -> Quantity:

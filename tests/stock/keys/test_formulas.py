@@ -8,7 +8,7 @@ import pytest
 from sympy import Rational, exp, pi, sqrt, symbols
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import TIME, explicit
 from tests.stock.described import edited, messages, solved
 
 m, A, a, r_0, g, mu, v_0 = symbols("m A a r_0 g mu v_0", positive=True)
@@ -165,3 +165,30 @@ def test_brackets_of_formulas_in_coordinates_and_momenta(tmp_path: Path) -> None
 def test_what_is_no_bracket_or_symmetry_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
     found = messages(tmp_path, edited(SPRING, (old, new)))
     assert any(said in message for message in found), found
+
+
+ATWOOD = """\
+title: Two weights on a string
+solve: system
+symbols: {m: mass, M: mass, g: acceleration, l: length}
+given:
+  coordinates: {x: length, y: length}
+  particles: {one: {mass: m, at: [0, -x]}, other: {mass: M, at: [0, -y]}}
+  gravity: g
+  constraints: {condition: x + y, equals: l, force: S}
+  results:
+    tension: {value: -S}
+    fall: {solution: acceleration_x, for: x, start: 0}
+statement: Atwood's machine.
+parts:
+  - ask: How does it move?
+    answer: [tension, fall]
+"""
+
+
+def test_a_force_that_is_found_is_itself_in_a_formula_and_an_acceleration_is_integrated(tmp_path: Path) -> None:
+    """Morin, section 3.1: S = 2 m M g/(m + M), and the fall with (m - M) g/(m + M)."""
+    M = symbols("M", positive=True)
+    found = solved(tmp_path, ATWOOD)
+    assert equal(found["tension"].value, 2 * m * M * g / (m + M))
+    assert equal(found["fall"].value, (m - M) * g * TIME**2 / (2 * (m + M)))
