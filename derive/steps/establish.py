@@ -166,6 +166,7 @@ def establish(
     result = lines.arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **lines.motion}))
     _check_letter(key, symbol, result, lines.means)
     check_can_hold(key, result)
+    _check_number_of_names(key, symbol, result)
     chain = lines.chain(symbol, formula, substituted, result)
     evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **lines.means})
     evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
@@ -177,7 +178,8 @@ def establish(
     subject = scope.around(together, result)
     chosen = outcome(result) if callable(outcome) else outcome
     values = {**dict(zip(inputs, given, strict=True)), **telling.told, **telling.judged_by}
-    judged = Judged(result, values, quantities, plain_symbol, subject, words)
+    _check_pointed(key, telling.points_to)
+    judged = Judged(result, values, {**quantities, **telling.points_to}, plain_symbol, subject, words)
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
     step = Step(
         key=key,
@@ -219,6 +221,19 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
         verdict = equal(formula, otherwise)
         if not verdict:
             raise refused(key, f"what its sentence says of `{role}` is not so", formula, otherwise, verdict)
+
+
+def _check_number_of_names(key: str, symbol: Any, result: Any) -> None:
+    """Several results together have a name each."""
+    if isinstance(symbol, MatrixBase) and symbol.shape != getattr(result, "shape", None):
+        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} does not name each of its results"))
+
+
+def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
+    """A sentence that names several things by their numbers does not name one of them twice."""
+    if len({id(quantity) for quantity in pointed.values()}) < len(pointed):
+        message = f"`{key}`: its sentence names one step as {' and as '.join(pointed)}"
+        raise Unverified(Complaint("unverified", message))
 
 
 def _called(value: Any) -> Any:

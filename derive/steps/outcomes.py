@@ -23,7 +23,7 @@ class Judged:
 
     result      what was established
     inputs      role -> value
-    quantities  role -> the quantity that the value came from, where one did
+    quantities  role -> the quantity that the value came from, where one did, and what the sentence points to
     symbol      what the page calls the result
     subject     what the result is about
     words       the terms that the phrase has

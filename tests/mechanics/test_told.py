@@ -6,9 +6,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import ImmutableDenseMatrix, Integer, cos, pi, sin, symbols, zeros
+from sympy import ImmutableDenseMatrix, Integer, cos, pi, sin, sqrt, symbols, tan, zeros
+from sympy.core.symbol import Str
 
-from derive.algebra.expressions import Relation, rate, scalar
+from derive.algebra.expressions import TIME, Relation, rate, scalar
 from derive.errors import Unverified
 from derive.steps.establish import establish
 from derive.steps.outcomes import Judged, told_rightly
@@ -135,7 +136,42 @@ def test_the_component_along_the_axis_is_that_along_z() -> None:
     assert not told_rightly("bodies.centre_component", "on_axis", wrong)
 
 
-@pytest.mark.parametrize("rule", ["modes.period", "modes.beats", "linear_motion.steady_amplitude"])
+@pytest.mark.parametrize(
+    "rule", ["modes.period", "modes.beats", "tensors.radius_of_gyration", "linear_motion.steady_amplitude"]
+)
 def test_what_is_a_size_is_not_negative(rule: str) -> None:
-    assert told_rightly(rule, "generic", Judged(a / R))
-    assert not told_rightly(rule, "generic", Judged(-a / R))
+    of = {"equation": Relation(x, "=", 0), "q": x}
+    assert told_rightly(rule, "generic", Judged(a / R, of))
+    assert not told_rightly(rule, "generic", Judged(-a / R, of))
+
+
+ROOTS = {"equation": Relation(a * q**2, "=", z), "unknown": q, "positive": Integer(0), "count": Integer(2)}
+
+
+def test_a_root_is_real_where_it_is_said_to_be_and_nowhere_else() -> None:
+    facts = {"symbol": scalar("q_1"), "words": {"asked": "roots"}}
+    root = sqrt(x / a)
+    assert told_rightly("roots.roots", "several", Judged(root, ROOTS | {"condition": Relation(x, ">", 0)}, **facts))
+    for told in ({}, {"condition": Relation(x, "<", 0)}, {"condition": Relation(a, ">", 0)}):
+        assert not told_rightly("roots.roots", "several", Judged(root, ROOTS | told, **facts))
+    assert not told_rightly("roots.roots", "several", Judged(R, ROOTS, **(facts | {"symbol": q})))
+
+
+def test_a_motion_starts_as_its_sentence_says() -> None:
+    of = {"equation": Relation(x, "=", 0), "q": x}
+    start = {"start": Relation(x, "=", R), "start_rate": Relation(rate(x), "=", a)}
+    assert told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, of | start))
+    assert not told_rightly("linear_motion.solution", "uniform", Judged(a + R * TIME, of | start))
+    other = of | start | {"q": Relation(x, "=", 0)}
+    assert not told_rightly("linear_motion.solution", "uniform", Judged(R + a * TIME, other))
+
+
+def test_a_comparison_has_the_word_of_its_mark() -> None:
+    at_most = {"words": {"comparison": "at_most"}}
+    assert told_rightly("conditions.where", "solved", Judged(R, {"mark": Str("<=")}, **at_most))
+    assert not told_rightly("conditions.where", "solved", Judged(R, {"mark": Str("=")}, **at_most))
+
+
+def test_the_tangent_of_a_lag_is_told_as_such() -> None:
+    assert told_rightly("linear_motion.lag", "damped", Judged(R, symbol=tan(theta)))
+    assert not told_rightly("linear_motion.lag", "damped", Judged(R, symbol=theta))

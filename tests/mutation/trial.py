@@ -138,6 +138,12 @@ class _Marked(ast.NodeTransformer):
         return node
 
 
+@functools.cache
+def _watching(module: str) -> dict[str, types.CodeType]:
+    """The codes of a module's functions that tell where they come to."""
+    return _codes_of(module, _Marked(module, ast.parse(SOURCES[module])).functions())
+
+
 @contextlib.contextmanager
 def _watched(modules: Sequence[str], come_to: Callable[[str, str, int, int], None]) -> Iterator[None]:
     """Within, the functions of the modules tell where they come to."""
@@ -145,8 +151,7 @@ def _watched(modules: Sequence[str], come_to: Callable[[str, str, int, int], Non
     for name in modules:
         module = import_module(f"derive.{name}")
         vars(module)["_come_to"] = come_to
-        tree = _Marked(name, ast.parse(SOURCES[name])).functions()
-        for where, code in _codes_of(name, tree).items():
+        for where, code in _watching(name).items():
             function = _function(module, where)
             if isinstance(function, types.FunctionType):
                 kept.append((function, function.__code__))

@@ -32,6 +32,12 @@ def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[Immu
     return reduce(add, (mass * of(place) for mass, place in particles))
 
 
+def counted_from(point: Point, place: ImmutableMatrix) -> ImmutableMatrix:
+    """A place by its projections on the axes of a point: told otherwise than where one integrates, as a check of it."""
+    way = [place[j] - point.position[j] for j in range(3)]
+    return column(*(sum(point.axes[j, k] * way[j] for j in range(3)) for k in range(3)))
+
+
 class OfParticles:
     """What has particles that stand for it."""
 
@@ -51,7 +57,7 @@ class OfParticles:
         """
 
         def by_particles(found: Any) -> tuple[Any, Any]:
-            return of(found), summed(self.particles(), lambda r: explicit(integrand(point.seen(r))))
+            return of(found), summed(self.particles(), lambda r: explicit(integrand(counted_from(point, r))))
 
         return {"particles": by_particles}
 

@@ -29,7 +29,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import ORIGIN as ZERO
 from derive.mechanics.bodies.body import Body, density
-from derive.mechanics.bodies.equimomental import Particles, from_moments
+from derive.mechanics.bodies.equimomental import Particles, counted_from, from_moments
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
 from derive.mechanics.bodies.quadrature import agrees
@@ -156,7 +156,7 @@ class GeneralBody(Body):
         position, limits = self.map()
 
         def by_cells(found: Any) -> Verdict:
-            there = self.mass / self.size * self._profile * explicit(integrand(point.seen(position)))
+            there = self.mass / self.size * self._profile * explicit(integrand(counted_from(point, position)))
             return agrees(of(found), there, position, limits)
 
         return {"quadrature": by_cells}

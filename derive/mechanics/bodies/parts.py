@@ -66,8 +66,14 @@ class PlacedPart:
 
     @property
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Its particles where they are, of negative mass for what is cut out."""
-        return [(self.sign * mass, self.seen(place)) for mass, place in self.body.particles()]
+        """Its particles where they are, of negative mass for what is cut out; turned and then shifted, as a check."""
+        held = self.body.point(self.of).position
+        shift = [self.position[i] - sum(self.turn[i, j] * held[j] for j in range(3)) for i in range(3)]
+        turned = (
+            (mass, [sum(self.turn[i, j] * place[j] for j in range(3)) for i in range(3)])
+            for mass, place in self.body.particles()
+        )
+        return [(self.sign * mass, column(*(a + b for a, b in zip(way, shift, strict=True)))) for mass, way in turned]
 
 
 def place_of(*place: Any) -> ImmutableMatrix:

@@ -6,6 +6,7 @@ from itertools import islice
 from typing import Any
 
 from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, sqrt
+from sympy.core.symbol import Str
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
@@ -100,7 +101,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         telling=Telling(
             words={"comparison": WORDS[mark]},
             formulas=_told(excluded=excluded, existing=existing),
-            judged_by={"unknown": unknown},
+            judged_by={"unknown": unknown, "mark": Str(mark)},
         ),
         key=key,
     )
@@ -268,7 +269,10 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
         lines=Lines(put_in=Level.STANDARD if sign else None, result=False, arranged=explicit),
         routes={"points": lambda found: _same_truth(Relation(Integer(1), "=", 1), found.residual, found.mark, None)},
         outcome="always" if holds else "never" if sign else "equal",
-        telling=Telling(words={"comparison": WORDS[mark]}, judged_by={"difference": difference, "sign": Integer(sign)}),
+        telling=Telling(
+            words={"comparison": WORDS[mark]},
+            judged_by={"difference": difference, "sign": Integer(sign), "mark": Str(mark)},
+        ),
         key=key,
     )
 

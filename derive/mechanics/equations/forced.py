@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, atan, cos, diff, expand, pi, sin, sqrt, tan
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, atan, cos, diff, pi, sin, sqrt, tan
 
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Root, Terms, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation
+from derive.mechanics.equations.linear_motion import Linear, is_linear_in_time, linear_equation, put_back
 from derive.mechanics.equations.unknowns import lecture_form
 from derive.mechanics.equations.zeros import different_from_zero, positive
 from derive.mechanics.systems.coordinates import Coordinate
@@ -46,17 +46,16 @@ def steady_amplitude(
     size = scalar(symbol)
     lag = scalar("delta")
 
-    def put_back(amplitude: Expr) -> tuple[Any, Any]:
+    def forced(amplitude: Expr) -> tuple[Any, Any]:
         """cos(delta) and sin(delta) are the two legs over F/A."""
         over = force / amplitude
         motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
-        return expand(linear.residual(motion)), Integer(0)
+        return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
         """With sin(delta) = tan(delta) cos(delta), what the oscillation leaves a quarter turn on vanishes."""
         motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
-        left = linear.a * diff(motion, TIME, 2) + linear.b * diff(motion, TIME) + linear.c * motion
-        return expand(left).coeff(sin(angle)), Integer(0)
+        return put_back(equation, q, motion).coeff(sin(angle)), Integer(0)
 
     in_phase = None if excluded is None else positive(stiff)
 
@@ -72,7 +71,7 @@ def steady_amplitude(
         lambda *_: Ratio(force, Root(Terms(Pow(stiff, 2), Pow(loss, 2)))),
         {"equation": equation, "q": q.symbol},
         lines=Lines(law=Level.FULL, put_in=None, arranged=lambda value: _amplitude(force, stiff, loss)),
-        routes={"put_back": put_back},
+        routes={"put_back": forced},
         outcome=damped,
         key=key,
         kind=q.kind,

@@ -117,8 +117,9 @@ def solution(
     found = _by_powers(found) if sort == "uniform" else found  # v t - g t^2/2
 
     def from_the_start(motion: Expr) -> tuple[Any, Any]:
-        at = [motion.subs(TIME, 0), *([] if initial is None else [diff(motion, TIME).subs(TIME, 0)])]
-        return ImmutableDenseMatrix(at), ImmutableDenseMatrix([first, *([] if initial is None else [initial])])
+        asked = [start, *([] if linear.order == 1 else [start_rate or ZERO])]
+        at = [diff(motion, TIME, n).subs(TIME, 0) for n in range(len(asked))]
+        return ImmutableDenseMatrix(at), ImmutableDenseMatrix([explicit(value_behind(each)) for each in asked])
 
     return establish(
         "linear_motion.solution",
@@ -126,7 +127,7 @@ def solution(
         lambda *_: Terms(Add(*(C * e for C, e in zip(values, basis, strict=True))), particular),
         {"equation": equation, "q": q.symbol},
         lines=Lines(law=Level.FULL, put_in=None, arranged=lambda _: found),
-        routes={"put_back": lambda motion: (expand(linear.residual(motion)), ZERO), "start": from_the_start},
+        routes={"put_back": lambda motion: (put_back(equation, q, motion), ZERO), "start": from_the_start},
         outcome=sort,
         key=key or f"{q.symbol.name}_of_t",
         kind=q.kind,
@@ -172,6 +173,12 @@ def _told(
 
 def _equals(left: Expr, right: Expr) -> Relation:
     return Relation(left, "=", right)
+
+
+def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
+    """What is left of an equation, as it was found, for this function of the time."""
+    state = (q.symbol, q.rate, q.acceleration)
+    return expand(explicit(equation.value).residual.xreplace({s: diff(motion, TIME, n) for n, s in enumerate(state)}))
 
 
 def linear_equation(equation: Quantity, q: Coordinate) -> Linear:

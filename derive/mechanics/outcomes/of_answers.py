@@ -9,22 +9,16 @@ from sympy import Expr, Integer, Poly, Rational, Symbol, acos, asin, atan, cos, 
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.ranges import range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
-from derive.mechanics.outcomes.signs import sign_is
+from derive.mechanics.outcomes.signs import MARK_OF, sign_is
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
+TRIED, LITTLE = 8, 1e-12
 _CAN_BE = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
-_MARK_OF = {
-    "equal_to": "=",
-    "different_from": "!=",
-    "greater_than": ">",
-    "less_than": "<",
-    "at_least": ">=",
-    "at_most": "<=",
-}
 
 
 def _one_of(alone: bool, first: bool) -> Predicate:
@@ -57,7 +51,26 @@ def _double(facts: Judged) -> bool:
 
 def _only(facts: Judged) -> bool:
     """Another root is there, at which the polynomial divided by this one vanishes; it is complex or not positive."""
-    return facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
+    alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
+    return alone and all(_only_there(facts, point) for point in islice(points(_letters(facts), 4099), TRIED))
+
+
+def _letters(facts: Judged) -> set[Any]:
+    return letters_of(_polynomial(facts).as_expr()) - {facts.inputs["gen"]}
+
+
+def _only_there(facts: Judged, point: Any) -> bool:
+    """In numbers no other root is one that could be taken."""
+    own = complex(value_at(explicit(facts.result), point))
+    there = Poly(_polynomial(facts).as_expr().xreplace(point), facts.inputs["gen"])
+    numbers = sorted((complex(root) for root in there.nroots(n=20, maxsteps=200)), key=lambda root: abs(root - own))
+    unknown, size = facts.inputs["unknown"], max(map(abs, numbers)) or 1
+    known, limited = range_of(unknown), isinstance(unknown, sin | cos)
+    for other in numbers[1:]:
+        beside = limited and abs(other) > 1 or known is not None and not known.least < other.real < known.greatest
+        if abs(other.imag) < LITTLE * size and (other.real > 0 or facts.inputs["positive"] == 0) and not beside:
+            return abs(own.imag) > LITTLE * size
+    return True
 
 
 def _of_several(first: bool) -> Predicate:
@@ -101,7 +114,7 @@ def _always(wanted: bool) -> Predicate:
     """Whether the sign that the difference has for all values of the letters is one that was asked for."""
 
     def is_so(facts: Judged) -> bool:
-        held = facts.inputs["sign"] in _CAN_BE[_MARK_OF[facts.words["comparison"]]]
+        held = facts.inputs["sign"] in _CAN_BE[MARK_OF[facts.words["comparison"]]]
         difference = with_numbers(facts.inputs["difference"])
         letters = sorted(difference.free_symbols, key=str)
         there = difference.subs({letter: Integer(3 + 2 * i) / 4 for i, letter in enumerate(letters)}).evalf(20)

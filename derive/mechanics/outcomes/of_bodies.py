@@ -10,6 +10,7 @@ from sympy import diag as diagonal
 
 from derive.algebra.expressions import AXES, explicit
 from derive.algebra.tidy import tidied
+from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.outcomes.signs import lasts
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import Quantity, is_zero
@@ -89,7 +90,7 @@ def _is_round(facts: Judged) -> bool:
     """Whether the particles of the body have the same moment about x and y, and no product, seen from its centre."""
     body = facts.subject.body
     centre = body.middle
-    places = [(m, centre.seen(r)) for m, r in body.particles()]
+    places = [(m, counted_from(centre, r)) for m, r in body.particles()]
     across = sum((m * (r[0] ** 2 - r[1] ** 2) for m, r in places), Integer(0))
     products = [sum((m * r[i] * r[j] for m, r in places), Integer(0)) for i, j in ((0, 1), (0, 2), (1, 2))]
     return is_zero(across) and all(is_zero(product) for product in products)

@@ -17,6 +17,14 @@ from derive.steps.outcomes import Judged, Predicate
 from derive.steps.step import is_zero
 
 TRIED = 12  # numbers of the ranges
+MARK_OF = {  # what a comparison is called
+    "equal_to": "=",
+    "different_from": "!=",
+    "greater_than": ">",
+    "less_than": "<",
+    "at_least": ">=",
+    "at_most": "<=",
+}
 
 
 def vanishes(facts: Judged) -> bool:

@@ -7,14 +7,20 @@ line. Here it is said what either must fulfil, with the result as the judge. `es
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from itertools import islice
 from typing import Any
 
-from sympy import Integer, Symbol, diff, integrate, pi
+from sympy import Integer, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, pi, sin, tan
 
-from derive.algebra.expressions import Relation, explicit, rate
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.mechanics.outcomes.signs import MARK_OF
 from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, told_by
 from derive.steps.step import is_zero
+
+POINTS = 24
 
 Told = Callable[[Judged, str], bool]
 
@@ -84,6 +90,30 @@ def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
     )
 
 
+def _starts_as_told(facts: Judged, outcome: str) -> bool:
+    """The motion has the value and the rate at the start that the sentence says."""
+    told = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs]
+    at = [diff(facts.result, TIME, n).subs(TIME, 0) for n in range(len(told))]
+    right = all(is_zero(value - each.right) for value, each in zip(at, told, strict=True))
+    return right and _of_an_equation(facts, outcome)
+
+
+def _taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
+    """With what the letter that is taken out is said to be, the condition holds."""
+    told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
+    if told is None or not isinstance(where, Relation):
+        return True
+    return is_zero(explicit(where).residual.subs(told.left, told.right))
+
+
+def _of_an_equation(facts: Judged, outcome: str) -> bool:
+    return isinstance(facts.inputs["equation"], Relation) and isinstance(facts.inputs["q"], Symbol)
+
+
+def _swings_of_its_equation(facts: Judged, outcome: str) -> bool:
+    return _not_negative(facts, outcome) and _of_an_equation(facts, outcome)
+
+
 def _not_negative(facts: Judged, outcome: str) -> bool:
     """A period, a frequency or an amplitude; where its sign depends on the letters its condition is told."""
     return sign_known(facts.result) != -1
@@ -116,7 +146,7 @@ def _names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     return (whole is None or whole == by_letter) and (seen != "mapped" or not facts.subject.body.is_of_particles)
 
 
-def _as_asked(facts: Judged, outcome: str) -> bool:
+def _as_asked_for(facts: Judged, outcome: str) -> bool:
     """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
     given = facts.inputs["equation"]
     beside = facts.inputs.get("elsewhere")
@@ -124,9 +154,93 @@ def _as_asked(facts: Judged, outcome: str) -> bool:
     return vanishes and (facts.words["asked"] == "roots") == isinstance(given, Relation)
 
 
+def _as_asked(facts: Judged, outcome: str) -> bool:
+    numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
+    limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
+    return numbered and limited and _as_asked_for(facts, outcome) and _is_a_root_just_where_told(facts)
+
+
+def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
+    """ "at most" for <=: the first line shows the mark, and what follows is compared with that."""
+    return MARK_OF.get(facts.words["comparison"]) == str(facts.inputs["mark"])
+
+
+def _is_a_root_just_where_told(facts: Judged) -> bool:
+    """In numbers it is real, and positive where it must be, where the condition holds and nowhere else."""
+    told, given, value = facts.inputs.get("condition"), facts.inputs.get("existing"), explicit(facts.result)
+    conditions = [explicit(each.residual) for each in (told, given) if each is not None]
+    letters = letters_of(value).union(*map(letters_of, conditions))
+    for point in islice(points(letters, seed_of(value)), POINTS):
+        try:
+            number = value_at(value, point)
+            if given is not None and not _is_so(given, point):
+                continue
+            is_root = bool(number.is_real) and (facts.inputs["positive"] == 0 or told is None or number > 0)
+            if is_root != (told is None or _is_so(told, point)):
+                return False
+        except (Undefined, NoNumber):
+            continue
+    return True
+
+
+def _is_so(condition: Relation, point: Any) -> bool:
+    residual = value_at(explicit(condition.residual), point)
+    return bool(residual > 0 if condition.mark in {">", ">="} else residual < 0)
+
+
+def _steady_as_its_potential(facts: Judged, outcome: str) -> bool:
+    """Where momenta are kept a coordinate that stays is no rest: the sentence says that others move steadily."""
+    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
+    reduced = [
+        e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("effective.effective_potential", "reduced")
+    ]
+    told = "steady" in facts.inputs
+    return bool(reduced) if told else of not in reduced or isinstance(facts.result, MatrixBase)
+
+
+def _an_oscillation(facts: Judged, outcome: str) -> bool:
+    """What is put in goes round once in the period of its frequency."""
+    return is_zero(facts.inputs["trial"].subs(TIME, 2 * pi / facts.inputs["omega"]) - 1)
+
+
+def _there_where_told(facts: Judged, outcome: str) -> bool:
+    """A place where something is extreme is real just where that is said."""
+    return _is_a_root_just_where_told(replace(facts, inputs={"positive": Integer(0), **facts.inputs}))
+
+
+def _says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
+    """A factor below the line that might vanish is told not to; the first of several solutions says so for all."""
+    below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
+    unsure = [f for f in Mul.make_args(factor(below)) if sign_known(f) is None and not f.as_base_exp()[0].is_nonzero]
+    return not unsure or outcome == "following" or "excluded" in facts.inputs
+
+
+def _about_an_energy(facts: Judged, outcome: str) -> bool:
+    return not isinstance(facts.inputs["potential"], MatrixBase)
+
+
+def _lag_as_written(facts: Judged, outcome: str) -> bool:
+    """With a loss its tangent is told, without one the angle itself."""
+    return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
+
+
+def _rates_of_its_equations(facts: Judged, outcome: str) -> bool:
+    """Each of the equations that are named is that of its component: the third says that the last is constant."""
+    letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
+    named = [facts.quantities[role].value for role in ("first", "second", "third")]
+    return all(rate(w) in _letters_of(equation) for w, equation in zip(letters, named, strict=True))
+
+
 _TABLE: dict[str, Told] = {
     "roots.roots": _as_asked,
-    "roots.roots_absent": _as_asked,
+    "roots.roots_absent": _as_asked_for,
+    "gyroscopic.characteristic": _an_oscillation,
+    "extrema.place": _there_where_told,
+    "solving.solved_for": _says_what_it_divides_by,
+    "minima.stability_of_several": _about_an_energy,
+    "minima.stability": _steady_as_its_potential,
+    "equilibria.condition": _steady_as_its_potential,
+    "equilibria.rest": _steady_as_its_potential,
     "rotation.kinetic_energy": _of_their_kinds,
     "rotation.angular_momentum": _of_their_kinds,
     "rotation.torque": _of_their_kinds,
@@ -134,6 +248,7 @@ _TABLE: dict[str, Told] = {
     "bodies.volume": _cylindrical,
     "roots.together": _equation_in_its_unknown,
     "roots.one_of_two": _says_its_bound,
+    "conditions.where": _word_of_its_mark,
     "effective.value_kept": _of_its_coordinate,
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
@@ -145,8 +260,13 @@ _TABLE: dict[str, Told] = {
     "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
+    "tensors.radius_of_gyration": _not_negative,
     "modes.beats": _not_negative,
-    "linear_motion.steady_amplitude": _not_negative,
+    "linear_motion.solution": _starts_as_told,
+    "steady.frequency_squared": _taken_out_by_its_condition,
+    "linear_motion.steady_amplitude": _swings_of_its_equation,
+    "linear_motion.lag": _lag_as_written,
+    "wobble.body_cone_rate": _rates_of_its_equations,
 }
 
 for _rule, _told in _TABLE.items():

@@ -9,6 +9,7 @@ from sympy import Add, Expr, Integer, Pow, Rational
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import AXES, Factors, Terms, scalar
+from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.parts import PlacedPart
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.rotation.inertia import moment_of_inertia, moment_seen
@@ -147,4 +148,6 @@ def _squared_distance(r: ImmutableMatrix, k: int) -> Expr:
 
 
 def _from_particles(body: Any, point: Point, k: int) -> Expr:
-    return sum((mass * _squared_distance(point.seen(place), k) for mass, place in body.particles()), Integer(0))
+    return sum(
+        (mass * _squared_distance(counted_from(point, place), k) for mass, place in body.particles()), Integer(0)
+    )

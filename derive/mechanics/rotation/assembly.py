@@ -31,7 +31,7 @@ from derive.algebra.expressions import (
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
-from derive.mechanics.bodies.equimomental import Particles, squared_distance, summed, tensor_at
+from derive.mechanics.bodies.equimomental import Particles, counted_from, squared_distance, summed, tensor_at
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
@@ -273,12 +273,16 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
 
     body    its parts
     start   the point
-    Second route: the integral of r dm over all parts.
+    Second route: the integral of r dm over all parts; the mean place of the particles that stand for them.
     Outcomes: generic, cut_out.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     terms = [scaled(part.mass, start.seen(part.centre)) for part in body.parts]
     whole = terms[0] if len(terms) == 1 else MatAdd(*terms)
+
+    def mean_place(found: Any) -> tuple[Any, Any]:
+        return body.mass * found, summed(body.particles(), lambda r: counted_from(start, r))
+
     return establish(
         "assembly.centre_of_mass",
         vector(symbol),
@@ -287,7 +291,10 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
         key=key,
         kind="length",
         parents=list(body.shares),
-        routes={"integration": lambda r: (body.mass * r, body.over_mass(lambda at: at, start))},
+        routes={
+            "integration": lambda r: (body.mass * r, body.over_mass(lambda at: at, start)),
+            "particles": mean_place,
+        },
         outcome="cut_out" if any(part.sign < 0 for part in body.parts) else "generic",
         lines=Lines(put_in=Level.FULL),
         facts=[CountedFrom(start)],
@@ -370,7 +377,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
         return MatAdd(along, _steiner(part.body.mass, to_it[0])) if to_it else along
 
     def any_axis(found: Any) -> tuple[Expr, Expr]:
-        return _about_any_axis(found, [(m, point.seen(r)) for m, r in here.particles])
+        return _about_any_axis(found, [(m, counted_from(point, r)) for m, r in here.particles])
 
     return establish(
         "assembly.part_tensor",

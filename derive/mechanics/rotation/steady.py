@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Expr, Integer
+from sympy import Expr
 
 from derive.algebra.expressions import column, vector
 from derive.errors import Complaint, Rejected
@@ -46,7 +46,7 @@ def momentary_angular_velocity(
 def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key: str) -> Quantity:
     if len(components) != 3:
         raise Rejected(Complaint("wrong-argument", f"an angular velocity has three components, not {len(components)}"))
-    omega = column(*(Integer(0) + component for component in components))
+    omega = column(*components)
     if is_zero(omega):
         raise Rejected(Complaint("zero-vector", "a body whose angular velocity vanishes does not turn"))
     for component in omega:

@@ -12,7 +12,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.collect import by_rates
 from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar, stand_in
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
@@ -59,11 +59,22 @@ def rolling_constraint(
 ) -> tuple[Constraint, ...]:
     """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
     conditions = list(_independent(body, at, ground))
+    _check_against_particle(body, at, ground, [each.left for each in conditions])
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
     return tuple(
         Constraint(each.left, ZERO, scalar(letter), in_rates=True)
         for each, letter in zip(conditions, letters, strict=True)
     )
+
+
+def _check_against_particle(body: PlacedBody, at: Location, ground: Location | None, conditions: list[Expr]) -> None:
+    """No line of a page shows that these say neither more nor less than that the particle at the contact is at rest."""
+    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    at_rest = velocity_of_particle(body, at, ground)
+    ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
+    if len(ranks) > 1:
+        message = "the conditions of rolling are not those of a particle that is at rest where the body touches"
+        raise Unverified(Complaint("unverified", message))
 
 
 @dataclass(frozen=True)

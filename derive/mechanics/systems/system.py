@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, factor, sqrt
 
-from derive.algebra.expressions import TIME, Factors, Relation, Terms, column
+from derive.algebra.expressions import TIME, Factors, Relation, Terms, column, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
@@ -23,7 +23,7 @@ from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.record import assume, coordinates_in, require_constant
-from derive.steps.step import Fact, Quantity
+from derive.steps.step import Fact, Quantity, is_zero
 
 __all__ = ["Particle", "System", "central", "spring", "weight"]
 
@@ -188,6 +188,8 @@ class System:
             message = "nothing in this `System` moves: its places depend on no coordinate"
             raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
         self._check_what_acts()
+        for condition in self.conditions:
+            _check_kept(condition)
         letters = [each.force.name for each in self.constraints]
         if len(set(letters)) < len(letters):
             message = "two constraints of this `System` have forces of one letter"
@@ -256,6 +258,19 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
         help_line = "a condition of rolling that cannot be integrated is kept by forces: `*rolling_constraint(...)`"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return found.coordinate, found.function
+
+
+def _check_kept(condition: Quantity) -> None:
+    """With the coordinate that it gives by others, a condition on rates holds whatever these do."""
+    q, function = _known_by(condition)
+    value = explicit(condition.value)
+    if isinstance(value, Relation):
+        its_rate = Add(*(diff(function, each) * rate(each) for each in coordinates_in(function)))
+        left = value.residual.xreplace({rate(q): its_rate}).xreplace({q: function})
+    else:
+        left = value - function
+    if not is_zero(left):
+        raise Unverified(Complaint("unverified", f"`{condition.key}` is not kept by {q} = {function}"))
 
 
 def _is_put_into(condition: Quantity, parts: Sequence[PartOfSystem]) -> bool:
