@@ -145,8 +145,8 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 
 def roots_together(expr: Expr) -> Expr:
-    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, 1/(sqrt(L) sqrt(C)) as one over a root, fourth roots of
-    numbers and of sums within it as square roots.
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, 1/(sqrt(L) sqrt(C)) as one over a root, fourth roots
+    of numbers and of sums within it as square roots.
 
     A single root stays as it is, and so do roots of numbers alone.
     """
