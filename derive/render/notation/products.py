@@ -145,8 +145,8 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
 
 
 def roots_together(expr: Expr) -> Expr:
-    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, fourth roots of numbers and of sums within it as
-    square roots.
+    """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, 1/(sqrt(L) sqrt(C)) as one over a root, fourth roots
+    of numbers and of sums within it as square roots.
 
     A single root stays as it is, and so do roots of numbers alone.
     """
@@ -154,9 +154,12 @@ def roots_together(expr: Expr) -> Expr:
     roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
     if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
         return expr
-    squares = (Mul.make_args(Pow(root.base, 2 * root.exp)) for root in roots)
+    sign = -1 if all(root.exp < 0 for root in roots) else 1
+    squares = (Mul.make_args(Pow(root.base, 2 * sign * root.exp)) for root in roots)
     inside = Mul(*(f for square in squares for f in square), evaluate=False)
     others = Mul(*(f for f in factors if f not in roots))
+    if sign < 0:
+        return Mul(others, Pow(ex.Root(inside), -1))
     times, under = _below_under_root(others.as_coeff_Mul()[0], inside.as_coeff_Mul()[0])
     if times != 1 and (not inside.has(Add) or fraction(inside)[1] != 1):
         others, inside = others / times, Mul(under, *(f for f in inside.args if not f.is_Rational), evaluate=False)
