@@ -252,6 +252,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     for known in nonzero:
         factor = _without_factor(factor, known)
     known_sign = _known_sign(factor)
+    if known_sign is None and (cleared := _cleared(left, right)) is not None:
+        return _equivalent(*cleared, nonzero)
     if not _same_mark(left.mark, right.mark, known_sign or 0):
         return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}")
     if known_sign is None and not _never_vanishes(factor):
@@ -270,6 +272,16 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
         return Verdict(Grade.REFUTED, f"`{left}` against `{right}`")
     verdicts = [_equal_matrices(left.left - left.right, sign * (right.left - right.right)) for sign in (1, -1)]
     return next((verdict for verdict in verdicts if verdict), verdicts[0])
+
+
+def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
+    """Strict inequalities n/d > 0 as n d > 0, which says the same: neither holds where d vanishes."""
+    strict = {left.mark, right.mark} <= {"<", ">"}
+    quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
+    if not strict or not any(d.free_symbols for _, d in quotients):
+        return None
+    one, other = (Relation(n * d, each.mark, 0) for each, (n, d) in zip((left, right), quotients, strict=True))
+    return one, other
 
 
 def _known_sign(factor: Expr) -> int | None:

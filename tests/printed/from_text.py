@@ -3,7 +3,7 @@
     sum       sign? product ((" + " | " - " | " ± ") product)*
     product   run ("·" | "×" | " × ") run ...        from left to right: scalar, dot and cross products
     run       factor (" "? factor | "/" factor)*     from left to right: `1/2 M a` is ((1/2) M) a
-    factor    atom power?                            `a²`, `(a + b)^(3/2)`
+    factor    atom power?                            `a²`, `(a + b)^(3/2)`, `a^n`
     atom      number, name, unit, (sum), (a, b, c), |a|, √a, sin a, [F](a..b), d/dt factor, dL/dt, a matrix of lines
 
 A number never stands behind another factor without a dot, and a sign only at the beginning of a sum.
@@ -47,7 +47,7 @@ from derive.render.notation.text import TextBox
 from tests.printed.meaning import differentiated, in_unit, over_the_mass, taken_at
 from tests.printed.names import Misprint
 
-EULER = r"e(?=\^\(|[⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺])"  # with its power: a letter e would be in the names
+EULER = r"e(?=\^|[⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺])"  # with its power: a letter e would be in the names
 FUNCTIONS: Mapping[str, Any] = {
     "sin": sin, "cos": cos, "tan": tan, "arcsin": asin, "arccos": acos, "arctan": atan, "sinh": sinh, "cosh": cosh,
     "tanh": tanh, "exp": exp, "ln": log,
@@ -264,6 +264,8 @@ class TextReader:
             value = self.sum()
             self.need(")")
             return value
+        if self.take("^"):
+            return self.atom()
         found = self.matched(f"[{''.join(RAISED)}]+")
         return Integer("".join(RAISED[c] for c in found[0])) if found else None
 

@@ -55,8 +55,8 @@ MENDED = [
     (ex.Cross(ex.scaled(a, ex.Cross(w, L)), w), "(a ω⃗ × L⃗) × ω⃗"),
     # a function's argument
     (sin(2) * M, "sin(2) M"),
-    (cos(theta) * M**n, "M^(n) cos θ"),
-    (sin(theta) ** 2 * theta**n, "sin² θ·θ^(n)"),
+    (cos(theta) * M**n, "M^n cos θ"),
+    (sin(theta) ** 2 * theta**n, "sin² θ·θ^n"),
     (ex.Ratio(sin(theta), Integer(2)), "(sin θ)/2"),
     (ex.Ratio(Integer(1), sin(theta)), "1/(sin θ)"),
     # numbers behind factors, plus or minus, places

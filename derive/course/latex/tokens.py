@@ -43,6 +43,9 @@ DEEPEST_FORMULA = 40
 MAX_TOKENS = 1500
 
 _PIECE = re.compile(r"(?P<number>\d+(?:\.\d+)?|\.\d+)|(?P<letter>[A-Za-z])|(?P<space>[\s~]+)|(?P<mark>.)", re.DOTALL)
+_STRUT = re.compile(
+    r"\\rule\s*(\[[^]]*\])?\s*\{0(pt|em|ex|mm|cm|in)?\}\s*\{[^{}]*\}"
+)  # a rule without width is not seen
 _LENGTH = re.compile(r"\[\s*-?(\d+\.?\d*|\.\d+)\s*(pt|em|ex|mm|cm|in)\s*\]")
 _MARKS = {
     **dict.fromkeys("+-*/=<>,.'", "mark"),
@@ -81,7 +84,10 @@ class Argument:
 @cache
 def _known_to_the_walker() -> LatexContextDb:
     known = LatexContextDb()
-    macros = [MacroSpec(name, spec) for name, spec in ARGUMENTS.items()] + [MacroSpec("\\", "[")]
+    macros = [MacroSpec(name, spec) for name, spec in ARGUMENTS.items()] + [
+        MacroSpec("\\", "["),
+        MacroSpec("rule", "[{{"),
+    ]
     known.add_context_category("mathematics", macros=macros, environments=[EnvironmentSpec("array", "{")])
     known.set_unknown_macro_spec(MacroSpec(""))
     known.set_unknown_environment_spec(EnvironmentSpec(""))
@@ -177,6 +183,8 @@ class _Tokens:
         name, start, end = node.macroname, node.pos, node.pos + node.len
         end = start + len(self.reader.text[start:end].rstrip())
         if name in SPACES or name in SIZES:
+            return
+        if name == "rule" and _STRUT.match(self.reader.text, start):
             return
         if name in ("\\", "cr"):
             self.space_below(node)

@@ -178,7 +178,9 @@ def _equals(left: Expr, right: Expr) -> Relation:
 def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
     """What is left of an equation, as it was found, for this function of the time."""
     state = (q.symbol, q.rate, q.acceleration)
-    return expand(explicit(equation.value).residual.xreplace({s: diff(motion, TIME, n) for n, s in enumerate(state)}))
+    value = explicit(equation.value)
+    left = value.residual if isinstance(value, Relation) else equation.symbol - value
+    return expand(left.xreplace({s: diff(motion, TIME, n) for n, s in enumerate(state)}))
 
 
 def linear_equation(equation: Quantity, q: Coordinate) -> Linear:

@@ -107,7 +107,10 @@ def _taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    return isinstance(facts.inputs["equation"], Relation) and isinstance(facts.inputs["q"], Symbol)
+    """What moves is a letter, and what it obeys an equation, or what its rate or acceleration was found to be."""
+    q, found = facts.inputs["q"], facts.quantities.get("equation")
+    solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
+    return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
 
 
 def _swings_of_its_equation(facts: Judged, outcome: str) -> bool:

@@ -52,6 +52,10 @@ def test_the_largest_matrix_is_read_and_no_larger_one() -> None:
 
 
 def test_a_row_may_end_with_the_space_below_it() -> None:
+    strut = r"\rule[-.95em]{0pt}{2.45em}"  # as our own pages have it
+    assert value(rf"\begin{{pmatrix}} {strut}\displaystyle a \\ b \end{{pmatrix}}") == value(
+        r"\begin{pmatrix} a \\ b \end{pmatrix}"
+    )
     assert value(r"\begin{pmatrix} a \\[3pt] b \\[ 0.5 em ] 0 \end{pmatrix}") == value(
         r"\begin{pmatrix} a \\ b \\ 0 \end{pmatrix}"
     )
