@@ -8,7 +8,7 @@ import pytest
 from sympy import Integer, Matrix, Rational, cos, diag, exp, pi, sin, sqrt, symbols, zeros
 
 import derive.mechanics.bodies.general as general
-from derive.algebra.equality import Grade
+from derive.algebra.equality import Grade, equal
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Ball,
@@ -118,6 +118,16 @@ def test_a_wrong_cell_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(general, "cell", lambda *_: R)
     with pytest.raises(Unverified, match="sentence"):
         general.cell_of(other)
+
+
+def test_a_volume_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its square alone does not tell. In another order of the variables the product is negative, rightly."""
+    backwards = Solid((r * cos(phi), r * sin(phi), z), {z: (0, h), phi: (0, 2 * pi), r: (0, R)}, mass=M)
+    assert equal(general.cell_of(backwards).value, -r)
+    wrong = general.Dot
+    monkeypatch.setattr(general, "Dot", lambda one, other: -wrong(one, other))
+    with pytest.raises(Unverified, match="edges"):
+        general.cell_of(Solid(SPHERE, ROUND, mass=M))
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ from derive.mechanics.bodies.body import Body, density
 from derive.mechanics.bodies.equimomental import Particles, counted_from, from_moments
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import cell, checked_limits, from_point, inside, tangents_of
-from derive.mechanics.bodies.quadrature import agrees
+from derive.mechanics.bodies.quadrature import agrees, spanned
 from derive.mechanics.bodies.regions import Bounds, Point, Region
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Form, Quantity, Route
@@ -232,7 +232,8 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
     """What a cell of the variables is in size: |r_u|^2 of a curve, |r_u x r_v|^2 of a surface, r_u . (r_v x r_w).
 
     body   a body told by its position map
-    Second route: the squared distances of neighbouring points, of which the determinant is the square of the cell.
+    Second route: the squared distances of neighbouring points, of which the determinant is the square of the cell; of a
+    solid also the signed volume that small edges span, in numbers.
     Outcomes: curve, surface, solid.
     Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
     """
@@ -254,7 +255,10 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
         lambda: size(*tangents),
         {},
         key=key,
-        routes={"chords": lambda found: (found**2 if n == 3 else found, _determinant_of_chords(position, names))},
+        routes={
+            "chords": lambda found: (found**2 if n == 3 else found, _determinant_of_chords(position, names)),
+            **({"edges": lambda found: spanned(found, position, limits)} if n == 3 else {}),
+        },
         outcome={1: "curve", 2: "surface", 3: "solid"}[n],
         lines=Lines(put_in=None, means=dict(zip(letters, tangents, strict=True))),
         telling=Telling(

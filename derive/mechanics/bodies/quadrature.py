@@ -13,17 +13,19 @@ from math import cos, isfinite, pi, sin, sqrt
 from random import Random
 from typing import Any
 
+from mpmath import mp
 from sympy import Expr, ImmutableDenseMatrix, Symbol, diff, lambdify
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import explicit
-from derive.mechanics.bodies.mapping import letters_in_order
+from derive.mechanics.bodies.mapping import inside, letters_in_order
 from derive.mechanics.bodies.regions import Bounds
 
 LETTERS = 2  # values of the letters that are tried
 NODES = {1: 60, 2: 28, 3: 20}  # of each variable, by how many there are
 FIGURES = 7
+DIGITS = 36  # of small differences
 
 
 @lru_cache(maxsize=8)
@@ -102,3 +104,31 @@ def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bound
                 where = tuple((str(name), str(number)) for name, number in at.items())
                 return Verdict(Grade.REFUTED, f"{found.real:.6g} against {total:.6g}", where)
     return Verdict(Grade.SAMPLED, f"{LETTERS if letters else 1} points to {FIGURES} figures")
+
+
+def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
+    """Whether a signed volume is that which the edges of small cells span, as right- or left-handed as they are.
+
+    Nothing is differentiated: the edges lead from a point to its neighbours somewhere between the limits.
+    """
+    names = [x for x, _, _ in limits]
+    value = explicit(found)
+    letters = sorted((value.free_symbols | position.free_symbols) - set(names), key=str)
+    place = lambdify([*names, *letters], list(position), "mpmath")
+    size = lambdify([*names, *letters], value, "mpmath")
+    with mp.workdps(DIGITS):
+        for at in inside(limits, letters):
+            here, known = ([mp.mpf(str(at[s].evalf(DIGITS))) for s in those] for those in (names, letters))
+            edges = [_edge(lambda *u, known=known: place(*u, *known), here, k) for k in range(len(names))]
+            volume, told = mp.det(mp.matrix(edges)), size(*here, *known)
+            if not abs(told - volume) <= mp.mpf(10) ** -FIGURES * (abs(told) + abs(volume)):
+                where = tuple((str(name), str(number)) for name, number in at.items())
+                return Verdict(Grade.REFUTED, f"{mp.nstr(told, 6)} against {mp.nstr(volume, 6)}", where)
+    return Verdict(Grade.SAMPLED, f"edges to {FIGURES} figures")
+
+
+def _edge(place: Callable[..., Any], here: Sequence[Any], k: int) -> list[Any]:
+    """From a point to its neighbour, per unit of the variable."""
+    step = mp.mpf(10) ** -(DIGITS // 3)
+    ends = ([x + turn * step * (i == k) for i, x in enumerate(here)] for turn in (1, -1))
+    return [(one - other) / (2 * step) for one, other in zip(*(place(*end) for end in ends), strict=True)]
