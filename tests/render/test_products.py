@@ -16,6 +16,7 @@ from derive.render.notation.products import (
     higher_roots_together,
     number_and_letters,
     positive_first,
+    powers_together,
     present,
     rank_of_dimension,
     root_cancelled,
@@ -168,3 +169,10 @@ def test_cube_roots_of_letters_are_one_root_and_keep_their_value() -> None:
     assert plain(Notation().layout(value)) == "(J²/(M g))^(1/3)"
     assert explicit(found).equals(value)
     assert higher_roots_together(sqrt(M) * sqrt(g)) == sqrt(M) * sqrt(g)
+
+
+def test_powers_of_a_letter_with_a_letter_stand_together() -> None:
+    n = symbols("n", real=True)
+    assert powers_together(Mul(a**n, 1 / a, b, evaluate=False)) == a ** (n - 1) * b
+    assert powers_together(a**2 * b**n / g) == a**2 * b**n / g
+    assert roots_together(1 / sqrt(a) / sqrt(g)) == 1 / Root(Mul(a, g, evaluate=False))

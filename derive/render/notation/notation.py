@@ -75,11 +75,10 @@ from derive.render.notation.order import holds_rates, ordered_terms, rank_of_fac
 from derive.render.notation.products import (
     between_factors,
     decimal,
-    higher_roots_together,
+    gathered,
     number_and_letters,
     present,
     root_cancelled,
-    roots_together,
     side_by_side,
     sign_and_size,
     times_ten_to,
@@ -152,7 +151,7 @@ class Notation:
         return row(*items)
 
     def _product(self, expr: Expr) -> Layout:
-        above, below = fraction(roots_together(higher_roots_together(expr)), exact=expr.has(exp))  # e^(-t) stays above
+        above, below = fraction(gathered(expr), exact=expr.has(exp))  # e^(-t) stays above
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)

@@ -144,6 +144,11 @@ def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
     return (content, rest) if content.is_Integer else (factor,)
 
 
+def gathered(expr: Expr) -> Expr:
+    """Powers of one letter together, then roots under one sign."""
+    return roots_together(higher_roots_together(powers_together(expr)))
+
+
 def roots_together(expr: Expr) -> Expr:
     """sqrt(M) sqrt(g)/sqrt(I + M a^2) as one root of a fraction, 1/(sqrt(L) sqrt(C)) as one over a root, fourth roots
     of numbers and of sums within it as square roots.
@@ -186,6 +191,16 @@ def higher_roots_together(expr: Expr) -> Expr:
     inside = [Pow(root.base, index * (root.exp - n)) for root, n in zip(roots, wholes, strict=True)]
     outside = [Pow(root.base, n) for root, n in zip(roots, wholes, strict=True)]
     return Mul(*(f for f in factors if f not in roots), *outside, ex.Root(Mul(*inside), Integer(index)))
+
+
+def powers_together(expr: Expr) -> Expr:
+    """r^(n - 1), not r^n/r: powers of one letter, where one of the exponents is a letter."""
+    factors = Mul.make_args(expr)
+    open_bases = {f.base for f in factors if isinstance(f, Pow) and f.exp.free_symbols}
+    shared = {b for b in open_bases if sum(f.as_base_exp()[0] == b for f in factors) > 1}
+    others = [f for f in factors if f.as_base_exp()[0] not in shared]
+    exponents = {b: Add(*(p for base, p in (f.as_base_exp() for f in factors) if base == b)) for b in shared}
+    return Mul(*others, *(Pow(b, n) for b, n in exponents.items())) if shared else expr
 
 
 def _is_fourth_root(factor: Pow) -> bool:
