@@ -35,6 +35,7 @@ from derive.figures.recognition import (
     same,
     through_hole,
 )
+from derive.figures.rollers import carrying_marks, roller_with
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
@@ -42,7 +43,7 @@ from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, leaning_to_the_right, turning_marks
 from derive.figures.wholeness import is_whole
 from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import Central, System
+from derive.mechanics.systems.system import Central, Particle, System
 
 __all__ = ["sketch"]
 
@@ -155,6 +156,7 @@ class _Scene:
         yield from contact_marks(self.system)
         for placed in getattr(self.system, "bodies", ()):
             yield from placed_marks(self.system, placed)
+            yield from self._centre(placed.centre)
         yield from self.touching.marks
         for i, j in self.rods:
             yield from self._rod(i, j)
@@ -172,7 +174,7 @@ class _Scene:
             if i in self.strings or i in self.tied or any(i in pair for pair in self.rods):
                 yield ParticleMark(column_of(self.system.particles[i].at), label=self.system.particles[i].mass)
                 continue
-            yield from self._free(self.system.particles[i].at, self.system.particles[i].mass)
+            yield from self._free(self.system.particles[i])
         if self.weights and self.system.weights:
             yield from self._weights()
         elif self.system.weights:
@@ -274,13 +276,26 @@ class _Scene:
 
     # --- what is free ---
 
-    def _free(self, at: Location, mass: Any) -> Iterable[Mark]:
-        yield ParticleMark(column_of(at), label=mass)
+    def _free(self, particle: Particle) -> Iterable[Mark]:
+        at = particle.at
+        carried = roller_with(self.system, particle)
+        if carried is not None:
+            yield from carrying_marks(self.system, particle, *carried)
+            return
+        yield ParticleMark(column_of(at), label=particle.mass)
         plain = [c for c in at.components if c in self.system.coordinates]
         if len(plain) == self.rows:
             yield from self._cartesian(at)
         else:
             yield from self._ways(at)
+
+    def _centre(self, at: Location) -> Iterable[Mark]:
+        """Of a body that leans on something, how far its centre is from there, where its coordinates say so."""
+        if self.rows != 2 or not self.touching.shown or not all(c in self.system.coordinates for c in at.components):
+            return
+        x, y = at.components
+        yield ConnectionMark(ImmutableDenseMatrix([ZERO, y]), column_of(at), label=x)
+        yield ConnectionMark(column_of(at), ImmutableDenseMatrix([x, ZERO]), label=y)
 
     def _cartesian(self, at: Location) -> Iterable[Mark]:
         for k, q in enumerate(at.components):
