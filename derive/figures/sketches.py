@@ -41,6 +41,7 @@ from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
 from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, leaning_to_the_right, turning_marks
+from derive.figures.velocities import Moment, blow_marks, is_of_the_moment, launch_marks, moment_drawn
 from derive.figures.wholeness import is_whole
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import Central, Particle, System
@@ -61,6 +62,8 @@ def sketch(
     values: Mapping[Any, Any] | None = None,
     named: Sequence[Location] = (),
     weights: bool = False,
+    start: Moment | None = None,
+    blow: Moment | None = None,
 ) -> Drawing | None:
     """A drawing of a system, made of its places and forces, and put on the record of the problem; none where it would
     leave out something that the system has.
@@ -71,8 +74,10 @@ def sketch(
     values   numbers or proportions with which letters are drawn
     named    further places at which there is something, such as a pivot
     weights  whether the weight of each particle and body is drawn where it acts, and not the gravity beside them
+    start    the state in which a motion begins
+    blow     the moment of a blow, which is then what is drawn
     """
-    scene = _Scene(system, named, weights)
+    scene = _Scene(system, named, weights, start, blow)
     if not more and not scene.is_whole:
         return None
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
@@ -81,8 +86,16 @@ def sketch(
 class _Scene:
     """What is recognised of a system, and the marks for it."""
 
-    def __init__(self, system: System, named: Sequence[Location] = (), weights: bool = False):
+    def __init__(
+        self,
+        system: System,
+        named: Sequence[Location] = (),
+        weights: bool = False,
+        start: Moment | None = None,
+        blow: Moment | None = None,
+    ):
         self.system, self.named, self.weights = system, tuple(named), weights
+        self.start, self.blow = start, blow
         self.rows = len(system.places[0].components)
         indices = range(len(system.particles))
         self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
@@ -112,6 +125,8 @@ class _Scene:
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
         found.update(self.touching.values)
+        if self.blow is not None:
+            found.update(moment_drawn(self.system, self.blow))
         hanging = {string: HANGING * link.length for link, _, string in self.strings.values()}
         return {**found, **self._carried_round(), **hanging}
 
@@ -148,7 +163,11 @@ class _Scene:
 
     @cached_property
     def marks(self) -> list[Mark]:
-        return list(dict.fromkeys(self._all()))
+        found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
+        if self.blow is not None:  # nothing moves on in it, and no way is told
+            found = [mark for mark in found if not is_of_the_moment(mark, self.blow)]
+            found += blow_marks(self.system, self.blow)
+        return list(dict.fromkeys(found))
 
     def _all(self) -> Iterable[Mark]:
         for each in self.system.between:
