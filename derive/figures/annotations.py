@@ -144,13 +144,14 @@ class LengthMark(_Between):
 @dataclass(frozen=True)
 class Arrow(Mark):
     """A vector in its true direction. Vectors of different kinds have no common scale: `size` is for the eye only, the
-    length in terms of the size of the body. A vector that is zero is not drawn.
+    length in terms of the size of the body. A vector that is zero is not drawn; one that `pushes` ends at its place.
     """
 
     start: Position
     value: Position
     size: Any
     asked: bool = True
+    pushes: bool = False
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -160,8 +161,11 @@ class Arrow(Mark):
         start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))
         if not size_of(along):
             return []
-        spots = paper.spots(start, plus(start, along, paper.numbers.of(self.size) * paper.reach))
+        far = paper.numbers.of(self.size) * paper.reach
+        spots = paper.spots(start, plus(start, along, -far if self.pushes else far))
         pen = "asked" if self.asked else "given"
+        if self.pushes:
+            return [Stroke(spots[::-1], pen, head=True), Tag(self.label, spots[1], direction(*spots))]
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
 
     def in_words(self) -> InWords:

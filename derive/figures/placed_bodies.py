@@ -18,6 +18,7 @@ from derive.figures.parts import BarMark, ConnectionMark, WheelMark, beside
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, track_of
+from derive.figures.rollers import roller_of, rolling_marks, way_marks
 from derive.figures.space import Spot, Vector, hull
 from derive.figures.surfaces import Circle, Polyhedron, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
@@ -65,6 +66,9 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     """The outline of a body of a system, what it is held by or rolls on, the angle by which it is turned."""
     placed = with_its_shape(placed)
     outline = placed_outline(placed)
+    roller = None if outline else roller_of(system, placed)
+    if roller is not None:
+        outline = list(rolling_marks(system, placed, roller))
     yield from outline
     centre: Location = placed.centre
     in_space = len(centre.components) == 3
@@ -82,10 +86,10 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
             yield from turns_about_axes(system, placed.turned, placed.at, _far_end(placed))
     elif pivoted is not None:
         yield from _pivoted(system, pivoted, outline)
-    elif not in_space and getattr(placed.turned, "is_Symbol", False):
+    elif not in_space and roller is None and any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):
         yield from _own_angle(system, outline)
     for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
-        yield from _ground_of(system, centre, wheel.radius)
+        yield from _ground_of(system, Location(tuple(wheel.centre)), wheel.radius)
 
 
 def pivot_of(system: System, placed: Any) -> Link | None:
@@ -242,6 +246,7 @@ def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]
     near: Location = -radius * track.way
     ends = foot + near, foot + far
     yield GroundMark(column_of(ends[0]), column_of(ends[1]), column_of(below))
+    yield from way_marks(foot, foot + track.by * track.way, below, track.by)
     slope = [f.args[0] for f in y.atoms(sin)]
     if slope and slope[0].is_Symbol:
         low, high = ends if _in_units(y) > 0 else ends[::-1]

@@ -35,14 +35,16 @@ from derive.figures.recognition import (
     same,
     through_hole,
 )
+from derive.figures.rollers import carrying_marks, roller_with
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
 from derive.figures.touching import Touching
 from derive.figures.turning import angle_marks, downwards, leaning_to_the_right, turning_marks
+from derive.figures.velocities import Moment, blow_marks, is_of_the_moment, launch_marks, moment_drawn
 from derive.figures.wholeness import is_whole
 from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import Central, System
+from derive.mechanics.systems.system import Central, Particle, System
 
 __all__ = ["sketch"]
 
@@ -60,6 +62,8 @@ def sketch(
     values: Mapping[Any, Any] | None = None,
     named: Sequence[Location] = (),
     weights: bool = False,
+    start: Moment | None = None,
+    blow: Moment | None = None,
 ) -> Drawing | None:
     """A drawing of a system, made of its places and forces, and put on the record of the problem; none where it would
     leave out something that the system has.
@@ -70,8 +74,10 @@ def sketch(
     values   numbers or proportions with which letters are drawn
     named    further places at which there is something, such as a pivot
     weights  whether the weight of each particle and body is drawn where it acts, and not the gravity beside them
+    start    the state in which a motion begins
+    blow     the moment of a blow, which is then what is drawn
     """
-    scene = _Scene(system, named, weights)
+    scene = _Scene(system, named, weights, start, blow)
     if not more and not scene.is_whole:
         return None
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
@@ -80,8 +86,16 @@ def sketch(
 class _Scene:
     """What is recognised of a system, and the marks for it."""
 
-    def __init__(self, system: System, named: Sequence[Location] = (), weights: bool = False):
+    def __init__(
+        self,
+        system: System,
+        named: Sequence[Location] = (),
+        weights: bool = False,
+        start: Moment | None = None,
+        blow: Moment | None = None,
+    ):
         self.system, self.named, self.weights = system, tuple(named), weights
+        self.start, self.blow = start, blow
         self.rows = len(system.places[0].components)
         indices = range(len(system.particles))
         self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
@@ -111,6 +125,8 @@ class _Scene:
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
         found.update(self.touching.values)
+        if self.blow is not None:
+            found.update(moment_drawn(self.system, self.blow))
         hanging = {string: HANGING * link.length for link, _, string in self.strings.values()}
         return {**found, **self._carried_round(), **hanging}
 
@@ -147,7 +163,11 @@ class _Scene:
 
     @cached_property
     def marks(self) -> list[Mark]:
-        return list(dict.fromkeys(self._all()))
+        found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
+        if self.blow is not None:  # nothing moves on in it, and no way is told
+            found = [mark for mark in found if not is_of_the_moment(mark, self.blow)]
+            found += blow_marks(self.system, self.blow)
+        return list(dict.fromkeys(found))
 
     def _all(self) -> Iterable[Mark]:
         for each in self.system.between:
@@ -155,6 +175,7 @@ class _Scene:
         yield from contact_marks(self.system)
         for placed in getattr(self.system, "bodies", ()):
             yield from placed_marks(self.system, placed)
+            yield from self._centre(placed.centre)
         yield from self.touching.marks
         for i, j in self.rods:
             yield from self._rod(i, j)
@@ -172,7 +193,7 @@ class _Scene:
             if i in self.strings or i in self.tied or any(i in pair for pair in self.rods):
                 yield ParticleMark(column_of(self.system.particles[i].at), label=self.system.particles[i].mass)
                 continue
-            yield from self._free(self.system.particles[i].at, self.system.particles[i].mass)
+            yield from self._free(self.system.particles[i])
         if self.weights and self.system.weights:
             yield from self._weights()
         elif self.system.weights:
@@ -274,13 +295,26 @@ class _Scene:
 
     # --- what is free ---
 
-    def _free(self, at: Location, mass: Any) -> Iterable[Mark]:
-        yield ParticleMark(column_of(at), label=mass)
+    def _free(self, particle: Particle) -> Iterable[Mark]:
+        at = particle.at
+        carried = roller_with(self.system, particle)
+        if carried is not None:
+            yield from carrying_marks(self.system, particle, *carried)
+            return
+        yield ParticleMark(column_of(at), label=particle.mass)
         plain = [c for c in at.components if c in self.system.coordinates]
         if len(plain) == self.rows:
             yield from self._cartesian(at)
         else:
             yield from self._ways(at)
+
+    def _centre(self, at: Location) -> Iterable[Mark]:
+        """Of a body that leans on something, how far its centre is from there, where its coordinates say so."""
+        if self.rows != 2 or not self.touching.shown or not all(c in self.system.coordinates for c in at.components):
+            return
+        x, y = at.components
+        yield ConnectionMark(ImmutableDenseMatrix([ZERO, y]), column_of(at), label=x)
+        yield ConnectionMark(column_of(at), ImmutableDenseMatrix([x, ZERO]), label=y)
 
     def _cartesian(self, at: Location) -> Iterable[Mark]:
         for k, q in enumerate(at.components):

@@ -29,6 +29,7 @@ from derive.figures.recognition import (
     same,
     track_of,
 )
+from derive.figures.rollers import FAR, arm_of, roller_of, way_marks
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import FixedEnd, FloorMark, GroundMark
 from derive.figures.turning import angle_marks, bound_place, downwards
@@ -113,6 +114,11 @@ class Touching:
     def _wheels(self) -> Iterator[tuple[Any, Expr, Location]]:
         """The bodies with a round edge in the plane, its radius and the middle of its circle."""
         for placed in map(with_its_shape, self.system.bodies):
+            roller = roller_of(self.system, placed) if not placed_outline(placed) else None
+            if roller is not None:
+                if (arm := arm_of(placed, roller)).is_Symbol and not moving_in(self.system, arm):
+                    self.values[arm] = Rational(3, 5) * roller.radius
+                yield placed, roller.radius, roller.hub
             radius, own_points = getattr(placed.body, "radius", None), _points_of(placed.body)
             for mark in placed_outline(placed):
                 if isinstance(mark, WheelMark):
@@ -155,6 +161,13 @@ class Touching:
                 top = column_of(track.start + beside)
                 yield RopeMark((column_of(placed.centre + beside), top), (ZERO, ZERO))
                 yield FixedEnd(top, downwards(2))
+                self._has_come(track.by, FAR * radius)
+                yield from way_marks(track.start, placed.centre, Location((-side, ZERO)), track.by, radius)
+
+    def _has_come(self, q: Symbol, far: Expr) -> None:
+        """How far along its line a wheel is drawn, so that its way is seen beside it."""
+        if self.system.coordinates.get(q) == "length":
+            self.values[q] = far
 
     # --- circles at rest ---
 
@@ -169,6 +182,8 @@ class Touching:
                 if (kept := self.at_rest(placed, foot)) is not None:
                     self.shown |= kept
                     self.rolls_at_rest.append(placed)
+                    for q in self._moving(hub):
+                        self._has_come(q, FAR * radius)
                     if not same(placed.centre, hub):
                         yield FloorMark((column_of(foot),), 0.0, (ROLLING, ROLLING))
 

@@ -14,6 +14,7 @@ from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark, ParticleMark
 from derive.figures.placed_bodies import ThickBar, placed_outline, with_its_shape
 from derive.figures.recognition import Link, carrier_of, is_fixed, is_rod, kept_length, moving_in, same, track_of
+from derive.figures.rollers import roller_of
 from derive.figures.surroundings import AngleBetween, FieldMark, GravityMark
 from derive.figures.touching import Touching
 from derive.mechanics.systems.places import Location
@@ -53,10 +54,11 @@ def _is_loose(system: System, link: Link) -> bool:
 
 
 def _bodies_are_seen(system: System) -> bool:
-    """Each has an outline, or in space an axis from the point at which it is held."""
+    """Each has an outline, or in space an axis from the point at which it is held, or rolls as a wheel."""
     return all(
         placed_outline(with_its_shape(placed))
         or (len(placed.at.components) == 3 and not same(placed.at, placed.centre))
+        or roller_of(system, placed) is not None
         for placed in system.bodies
     )
 

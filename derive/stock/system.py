@@ -21,6 +21,7 @@ from derive.figures import sketch
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
+from derive.stock.answering.moments import started, struck
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
 from derive.stock.keys.formulas import FoundLetter
@@ -331,7 +332,8 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
     answers: dict[str, object] = {}
     if described.given is None:
         with told_at(described.place):
-            sketch(SYSTEM, of.system, named=described.named)
+            start, blow = started(described.results, of.system), struck(described.blow, of.system)
+            sketch(SYSTEM, of.system, named=described.named, start=start, blow=blow)
     for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
         answers[str(name)] = of.named(name)
     of.check_letters()

@@ -47,9 +47,9 @@ def kinds(found: Drawing | None) -> set[str]:
 
 
 def of_letters() -> Any:
-    """A body of which only a moment is known."""
-    phi = coordinate("phi")
-    return (RigidBody(M, I).placed(-phi, point(R * phi, R)),)
+    """A body of which only a moment is known, and which does not roll."""
+    phi, x = coordinate("phi"), coordinate("x", "length")
+    return (RigidBody(M, I).placed(-phi, point(x, R)),)
 
 
 def springs_by_their_energy() -> Any:

@@ -15,6 +15,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import range_of, rational_in_range
+from derive.mechanics.outcomes.growth import grows_always, is_turned_aside, matter_of
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -142,6 +143,27 @@ def _always(sign: int) -> Predicate:
     return lambda facts: _signs(facts) == {sign}
 
 
+def _runs_away(facts: Judged) -> bool:
+    """Where the energy falls to some side the motion grows; what turns the motion aside would hold it all the same."""
+    matter = matter_of(facts.quantities["potential"])
+    falling = [numbers for numbers, sign in _signs_by_numbers(facts) if sign == -1]
+    return matter is None or grows_always(matter, _at_rest(facts), falling)
+
+
+def _nothing_turns_it(facts: Judged) -> bool:
+    matter = matter_of(facts.quantities["potential"])
+    there = [numbers for numbers, _ in _signs_by_numbers(facts)]
+    return matter is None or not is_turned_aside(matter, _at_rest(facts), there)
+
+
+def _at_rest(facts: Judged) -> dict[Any, Expr]:
+    return dict(zip(_moving(facts), facts.inputs["place"], strict=True))
+
+
+def _both(*predicates: Predicate) -> Predicate:
+    return lambda facts: all(predicate(facts) for predicate in predicates)
+
+
 def _higher(kind: str) -> Predicate:
     """To second order it is level; the first derivative that is not zero tells what it is."""
 
@@ -216,13 +238,13 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "minima.stability": {
         "stable": _always(1),
-        "unstable": _always(-1),
+        "unstable": _both(_always(-1), _runs_away),
         "stable_by_higher_order": _higher("stable"),
-        "unstable_by_higher_order": _higher("unstable"),
-        "flat": _higher("flat"),
-        "depends": _depends(None),
-        "depends_stable_on_border": _depends("stable"),
-        "depends_unstable_on_border": _depends("unstable"),
+        "unstable_by_higher_order": _both(_higher("unstable"), _nothing_turns_it),
+        "flat": _both(_higher("flat"), _nothing_turns_it),
+        "depends": _both(_depends(None), _runs_away),
+        "depends_stable_on_border": _both(_depends("stable"), _runs_away),
+        "depends_unstable_on_border": _both(_depends("unstable"), _runs_away),
     },
     "minima.stable_where": {
         "with_border": _bordered("stable"),
@@ -231,9 +253,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     },
     "minima.stability_of_several": {
         "stable": _always(1),
-        "unstable": _always(-1),
-        "level": _always(0),
-        "depends": lambda facts: len(_signs(facts)) > 1,
+        "unstable": _both(_always(-1), _runs_away),
+        "level": _both(_always(0), _nothing_turns_it),
+        "depends": _both(lambda facts: len(_signs(facts)) > 1, _runs_away),
     },
 }
 

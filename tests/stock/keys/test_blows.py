@@ -16,7 +16,7 @@ given:
   coordinates: {x: length, theta: angle}
   places: {B: [x, -b], A: [b*sin(theta), -b*cos(theta)]}
   particles: {bullet: {mass: m, at: B}}
-  bodies: {rod: {shape: rod, length: l, mass: M, held: end, on: [0, 0], turned: theta - pi/2}}
+  bodies: {rod: {shape: rod, length: l, mass: M, held: end, on: [0, 0], turned: theta + pi}}
   blow:
     at: {x: 0, theta: 0}
     before: {x_dot: v}

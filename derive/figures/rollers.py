@@ -1,0 +1,161 @@
+"""What rolls on a straight line, as its formulas say: a circle whose middle moves along the line as it turns.
+
+The circle is that of all places of a thing that turns which are at rest one after the other. Its radius is how far the
+middle goes, in terms of the angle, and it touches the line on the side on which the turning takes the motion away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Add, Expr, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
+
+from derive.algebra.expressions import TIME
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import LengthMark, Line, PointMark
+from derive.figures.marks import Mark
+from derive.figures.parts import ConnectionMark, ParticleMark, WheelMark
+from derive.figures.positions import column_of
+from derive.figures.recognition import Link, angle_of_link, is_fixed, moving_in, numeric
+from derive.figures.surroundings import WayMark
+from derive.figures.turning import angle_marks
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import Particle, System
+from derive.steps.step import is_zero
+
+ZERO = Integer(0)
+FAR = Rational(5, 2)  # how far a roller has come, in terms of its radius
+ROUND = "a round body"
+
+
+@dataclass(frozen=True)
+class Roller:
+    """A circle that rolls on a straight line at rest.
+
+    hub    the middle of the circle
+    foot   where it touches the line
+    by     the coordinate by which the middle moves
+    """
+
+    hub: Location
+    radius: Expr
+    foot: Location
+    by: Symbol
+
+
+def roller_of(system: System, placed: Any) -> Roller | None:
+    """The circle on which a body rolls that moves in a plane and whose outline is not known."""
+    if not placed.is_plane:
+        return None
+    hub = _steady_part(system, placed.centre)
+    c, s = cos(placed.turned), sin(placed.turned)
+    x, y = (placed.centre - hub).components
+    own = tidied(x * c + y * s), tidied(y * c - x * s)
+    return None if moving_in(system, *own) else _roller(system, hub, placed.turned)
+
+
+def roller_with(system: System, particle: Particle) -> tuple[Roller, Link] | None:
+    """The circle that carries a particle with a single coordinate as it rolls, and the way to it from the middle."""
+    hub = _steady_part(system, particle.at)
+    moving = moving_in(system, *particle.at.components)
+    if len(hub.components) != 2 or len(moving) != 1 or not moving_in(system, *hub.components):
+        return None
+    size = sqrt(tidied(Add(*(c**2 for c in (particle.at - hub).components))))
+    if size == 0 or moving_in(system, size):
+        return None
+    x, y = (particle.at - hub).components
+    (q,) = moving
+    rate = tidied((x * diff(y, q) - y * diff(x, q)) / size**2)
+    roller = _roller(system, hub, rate * q) if rate.is_number else None
+    return (roller, Link(hub, particle.at, size, True)) if roller is not None else None
+
+
+def _steady_part(system: System, place: Location) -> Location:
+    """A place without the terms that go round with an angle."""
+    components = []
+    for each in place.components:
+        terms = Add.make_args(each.expand())
+        components.append(Add(*(t for t in terms if not any(moving_in(system, f.args[0]) for f in t.atoms(sin, cos)))))
+    return Location(tuple(components))
+
+
+def _roller(system: System, hub: Location, turned: Expr) -> Roller | None:
+    moving, turning = moving_in(system, *hub.components), moving_in(system, turned)
+    if len(moving) != 1 or len(turning) != 1 or TIME in moving | turning:
+        return None
+    (q,), (angle,) = moving, turning
+    way = Location(tuple(diff(c, q) for c in hub.components))
+    share = _rates_of(system, angle, q)
+    turn = diff(turned, angle)
+    if share is None or not is_fixed(system, way) or moving_in(system, turn) or is_zero(turn * share):
+        return None
+    speed = sqrt(tidied(Add(*(c**2 for c in way.components))))
+    radius = tidied(speed / (turn * share))
+    x, y = (tidied(c / speed) for c in way.components)
+    foot = hub + radius * Location((-y, x))
+    size = radius if numeric(radius) > 0 else -radius
+    return Roller(hub, tidied(size), foot, q) if not moving_in(system, radius) else None
+
+
+def _rates_of(system: System, angle: Symbol, q: Symbol) -> Expr | None:
+    """How fast an angle changes in terms of a coordinate, as a condition has it."""
+    if angle == q:
+        return Integer(1)
+    for each in system.constraints:
+        if set(each.coordinates) == {angle, q} and not is_zero(each.along(angle)):
+            return tidied(-each.along(q) / each.along(angle))
+    return None
+
+
+def arm_of(placed: Any, roller: Roller) -> Expr:
+    """How far the centre of mass of a body is from the middle of the circle on which it rolls."""
+    return sqrt(tidied(Add(*(c**2 for c in (placed.centre - roller.hub).components))))
+
+
+# --- marks -----------------------------------------------------------------------------------------------------------
+
+
+def rolling_marks(system: System, placed: Any, roller: Roller) -> Iterable[Mark]:
+    """A wheel in the place of a body of which only the moments are known, and where in it the centre of mass is."""
+    size = arm_of(placed, roller)
+    ahead = Location((cos(placed.turned), sin(placed.turned)))
+    pointer = column_of(ahead) if size == 0 else None
+    measures = (("radius", roller.radius),)
+    yield WheelMark(column_of(roller.hub), roller.radius, pointer, label=roller.radius, name=ROUND, measures=measures)
+    if size == 0:
+        yield from angle_marks(system, Link(roller.hub, roller.hub + ahead, Integer(1), True))
+    else:
+        yield from arm_marks(system, Link(roller.hub, placed.centre, size, True))
+
+
+def arm_marks(system: System, link: Link) -> Iterable[Mark]:
+    """A dashed way from the middle of what rolls to a place in it, and its angle."""
+    yield Line(column_of(link.start), column_of(link.end), "construction", label=link.length)
+    yield PointMark(column_of(link.end))
+    yield from angle_marks(system, link)
+
+
+def carrying_marks(system: System, particle: Particle, roller: Roller, link: Link) -> Iterable[Mark]:
+    """The curve of a particle that a rolling circle carries, the circle, and the line on which that rolls."""
+    q = roller.by
+    yield ParticleMark(column_of(particle.at), label=particle.mass)
+    yield WayMark(column_of(particle.at), q, -pi, pi, "wire")
+    yield WayMark(column_of(roller.foot), q, -pi, pi)
+    turned = angle_of_link(system, link)
+    if turned is None:
+        return
+    angle, _ = turned
+    u = Symbol("u", real=True)
+    way = Location(tuple(c.xreplace({sin(angle): sin(u), cos(angle): cos(u)}) for c in link.way.components))
+    around = column_of(roller.hub) + (roller.radius / link.length) * column_of(way)
+    yield WayMark(around, u, -pi, pi)
+    yield ConnectionMark(column_of(link.start), column_of(link.end), label=link.length)
+    yield PointMark(column_of(link.start))
+    yield from angle_marks(system, link)
+
+
+def way_marks(start: Location, end: Location, aside: Location, by: Symbol, clear: Any = ZERO) -> Sequence[Mark]:
+    """How far something has come, in the letter of the coordinate that says so."""
+    return [LengthMark(column_of(start), column_of(end), column_of(aside), clear, label=by)]

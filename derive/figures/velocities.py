@@ -1,0 +1,145 @@
+"""Velocities that are given, and what acts in a blow: arrows, with the angle at which something is thrown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, sqrt
+
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import Arrow, LengthMark, PointMark
+from derive.figures.marks import Mark
+from derive.figures.positions import column_of
+from derive.figures.recognition import is_fixed, moving_in, numeric, same
+from derive.figures.surroundings import AngleBetween, DistanceMark
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+from derive.steps.step import is_zero
+
+ZERO, ONE = Integer(0), Integer(1)
+LONG, THROWN = Rational(2, 5), Rational(4, 5)  # arrows, in terms of what is drawn
+ON_IT = Rational(3, 4)  # where a body is met, in terms of its length
+
+Values = Mapping[Symbol, Expr]
+
+
+@dataclass(frozen=True)
+class Moment:
+    """What is known of one moment.
+
+    at       values of coordinates
+    rates    of those that change
+    pushes   the components of given impulses, and where they act
+    meeting  places of bodies that something meets
+    """
+
+    at: Values = field(default_factory=dict)
+    rates: Values = field(default_factory=dict)
+    pushes: Sequence[tuple[Location, Location]] = ()
+    meeting: Sequence[Location] = ()
+
+
+def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
+    """The velocity with which a free particle begins where it begins, and its angle with the level."""
+    for particle in system.particles:
+        components = particle.at.components
+        if len(components) != 2 or not all(c in moment.at and c in moment.rates for c in components):
+            continue
+        start = Location(tuple(moment.at[c] for c in components))
+        velocity = Location(tuple(moment.rates[c] for c in components))
+        if not any(velocity.components) or not is_fixed(system, start):
+            continue
+        yield _arrow(start, velocity, THROWN)
+        along, size = velocity.components[0], _size(velocity)
+        angle = next((f.args[0] for f in along.atoms(cos) if is_zero(along - size * f)), None)
+        if angle is not None and angle.is_Symbol:
+            way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
+            yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
+
+
+def blow_marks(system: System, moment: Moment) -> Iterable[Mark]:
+    """The velocities just before a blow, given impulses, and how far from where it is held a body is met."""
+    places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
+    for place in places:
+        velocity = Location(tuple(tidied(Add(*_shares(c, moment))) for c in place.components))
+        if any(velocity.components) and is_fixed(system, velocity):
+            yield _arrow(place, velocity, LONG)
+    for push, at in moment.pushes:
+        if any(push.components) and is_fixed(system, push):
+            yield Arrow(column_of(at), column_of(push), 2 * LONG, False, True, label=_size(push))
+            yield from _height(system, moment, at)
+    for at in moment.meeting:
+        yield from _from_the_joint(system, places, at)
+
+
+def _shares(component: Expr, moment: Moment) -> list[Expr]:
+    return [diff(component, q) * rate for q, rate in moment.rates.items()]
+
+
+def _arrow(at: Location, velocity: Location, long: Expr) -> Mark:
+    return Arrow(column_of(at), column_of(velocity), long, False, label=_size(velocity))
+
+
+def _size(vector: Location) -> Expr:
+    """Of a vector along one axis its component there, without a sign."""
+    components = [c for c in vector.components if c != 0]
+    if len(components) == 1:
+        (only,) = components
+        return -only if only.could_extract_minus_sign() else only
+    return sqrt(tidied(Add(*(c**2 for c in components))))
+
+
+def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
+    """How high above the level of zero something is struck, where that is a letter."""
+    if len(at.components) != 2 or len(system.bodies) != 1:
+        return
+    there = Location(tuple(tidied(c.xreplace(dict(moment.at))) for c in at.components))
+    x, y = there.components
+    if y.is_Symbol and not moving_in(system, y):
+        low = Location((x, ZERO))
+        clear = getattr(system.bodies[0].body, "radius", ZERO)
+        yield LengthMark(column_of(low), column_of(there), ImmutableDenseMatrix([ONE, ZERO]), clear, label=y)
+
+
+def _from_the_joint(system: System, places: Sequence[Location], at: Location) -> Iterable[Mark]:
+    """How far from the place at which a body is held it is met."""
+    if any(same(at, place) for place in places):
+        return
+    for placed, far in _met(system, at):
+        way = at - placed.at
+        yield PointMark(column_of(at))
+        if len(way.components) == 2:
+            aside = ImmutableDenseMatrix([-way.components[1], way.components[0]])
+            yield LengthMark(column_of(placed.at), column_of(at), aside, label=far)
+
+
+def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
+    """The bodies that are met there, and the letter of how far from where they are held."""
+    for placed in system.bodies:
+        far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
+        if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
+            yield placed, far
+
+
+def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
+    """Whether it tells of a coordinate that a blow leaves no room to vary: a way of what comes in, an angle of zero."""
+    if isinstance(mark, DistanceMark):
+        return mark.label in moment.rates or moment.at.get(mark.label) == 0
+    return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
+
+
+def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
+    """The state in which a blow is drawn: at its moment, and what comes in a little before that."""
+    found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
+    for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
+        length = getattr(placed.body, "length", None)
+        if length is not None and length != letter:
+            found[letter] = ON_IT * length
+    fixed = [s for place in system.places for c in place.components for s in c.free_symbols - {*system.coordinates}]
+    far = min(fixed, key=str, default=ONE)
+    for q, rate in moment.rates.items():
+        if system.coordinates.get(q) == "length" and rate != 0:
+            found[q] = moment.at.get(q, ZERO) - (far if numeric(rate) > 0 else -far)
+    return found

@@ -1,0 +1,129 @@
+"""Whether a motion grows about a state of rest: the characteristic exponents of the linearised motion, in numbers.
+
+What mass points do along each coordinate, m a - F by virtual work, is linear in small displacements, rates and
+accelerations; M, C and K are its differences, and exp(s t) moves by det(M s^2 + C s + K) = 0.
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (with what forces do that depend on the rates).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from mpmath import mp
+from sympy import Expr, Integer, Rational, Symbol, lambdify
+
+from derive.algebra.expressions import explicit, rate
+from derive.algebra.ranges import rational_in_range
+from derive.mechanics.equations.equilibria import matter_behind
+from derive.mechanics.systems.dalembert import Matter, Reaction
+from derive.mechanics.systems.effective import SeenWith
+from derive.mechanics.systems.system import System
+from derive.steps.step import Quantity
+
+DIGITS = 75
+SMALL = 10  # digits by which a growth, or what turns a motion aside, is above rounding
+FEW = 3  # sets of letters, where nothing turns the motion aside
+ELSEWHERE = Rational(3, 8)  # a coordinate that the energy does not have
+SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # of letters that the energy does not have
+
+Numbers = Mapping[Symbol, Expr]
+Leftover = Callable[..., Sequence[Any]]
+
+
+def matter_of(potential: Quantity) -> Matter | None:
+    """What moves in a potential energy; also what a magnetic field does to it."""
+    if potential.fact(SeenWith) is None and isinstance(potential.subject.body, System):
+        return potential.subject.body.matter
+    return matter_behind(potential)
+
+
+def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
+    """Whether some small displacement grows, whatever the letters are.
+
+    place    the coordinates at rest
+    points   numbers for the letters of the energy, where it falls
+    """
+    for n, point in enumerate(points):
+        for size in SIZES:
+            motion = _motion(matter, place, point, size)
+            if not _grows(*motion):
+                return False
+            if not _is_turned(*motion):
+                break  # what falls then runs away, however large the others are
+        if n + 1 >= FEW and not _is_turned(*motion):
+            break
+    return True
+
+
+def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
+    """Whether forces that are linear in the rates do no work, as in a frame that turns or in a magnetic field."""
+    return any(_is_turned(*_motion(matter, place, point, SIZES[0])) for point in points[:FEW])
+
+
+@lru_cache(maxsize=16)  # each state of rest of a system asks for the same
+def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
+    """m a - F along each coordinate, as a function of coordinates, rates, accelerations and letters."""
+    moving = matter.coordinates
+    idle = {other.force: Integer(0) for other in matter.others if isinstance(other, Reaction)}
+    left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]
+    varied = [each for order in (0, 1, 2) for each in ([rate(q, order) for q in moving] if order else moving)]
+    letters = tuple(sorted(set().union(*(each.free_symbols for each in left)) - set(varied), key=str))
+    return letters, lambdify([*varied, *letters], left, "mpmath", cse=True)
+
+
+def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple[Any, Any, Any]:
+    """M, C and K: how m a - F changes with accelerations, rates and coordinates, at rest."""
+    letters, left = _left_over(matter)
+    count = len(matter.coordinates)
+    with mp.workdps(DIGITS):
+        others = {s: rational_in_range(s, size + Rational(i, 9)) for i, s in enumerate(letters) if s not in point}
+        known = [_number({**point, **others}[s]) for s in letters]
+        there = [_number(place.get(q, ELSEWHERE).xreplace(dict(point))) for q in matter.coordinates]
+        still = [*there, *[mp.mpf(0)] * (2 * count)]
+        k, c, m = (_slopes(lambda *at: left(*at, *known), still, order * count, count) for order in (0, 1, 2))
+    return m, c, k
+
+
+def _slopes(left: Leftover, still: Sequence[Any], first: int, count: int) -> Any:
+    """By differences, of those that begin with one of them."""
+    step = mp.mpf(10) ** -(DIGITS // 3)
+    found = mp.matrix(count, count)
+    for k in range(count):
+        ahead, behind = (left(*(x + turn * step * (i == first + k) for i, x in enumerate(still))) for turn in (1, -1))
+        for i in range(count):
+            found[i, k] = mp.re(ahead[i] - behind[i]) / (2 * step)
+    return found
+
+
+def _number(value: Expr) -> Any:
+    return mp.mpf(str(value.evalf(DIGITS)))
+
+
+def _grows(inertia: Any, damping: Any, stiffness: Any) -> bool:
+    """Whether an exponent has a positive real part: an eigenvalue of the motion of first order."""
+    count = inertia.rows
+    with mp.workdps(DIGITS):
+        try:
+            inverse = inertia**-1
+        except ZeroDivisionError:  # what has no inertia, as an angle about a place at r = 0, has no motion to be told
+            return True
+        motion = mp.zeros(2 * count)
+        of_place, of_rate = inverse * stiffness, inverse * damping
+        for i in range(count):
+            motion[i, count + i] = 1
+            for k in range(count):
+                motion[count + i, k], motion[count + i, count + k] = -of_place[i, k], -of_rate[i, k]
+        exponents = mp.eig(motion, left=False, right=False)
+        fastest = max(abs(s) for s in exponents)
+        return bool(max(mp.re(s) for s in exponents) > fastest * mp.mpf(10) ** -SMALL)
+
+
+def _is_turned(inertia: Any, damping: Any, stiffness: Any) -> bool:
+    """Whether C is not symmetric."""
+    return bool(_largest(damping - damping.T) > mp.mpf(10) ** -SMALL * (_largest(damping) + mp.mpf(10) ** -SMALL))
+
+
+def _largest(matrix: Any) -> Any:
+    return max(abs(entry) for entry in matrix)

@@ -1,0 +1,101 @@
+"""Given velocities, given impulses and what a blow meets, as arrows and lengths."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Integer, Matrix, cos, pi, sin, symbols
+
+from derive.algebra.expressions import scalar
+from derive.figures import sketch
+from derive.figures.annotations import Arrow, LengthMark
+from derive.figures.marks import Drawing
+from derive.figures.parts import BlockMark, ParticleMark
+from derive.figures.pieces import Stroke
+from derive.figures.surroundings import AngleBetween, DistanceMark, FloorMark
+from derive.figures.velocities import Moment
+from derive.mechanics import Ball, Particle, Rod, System, coordinate, point, weight
+from derive.steps.record import recorded
+from tests.figures.machines import labels, of, seen
+
+M, m, R, l, b, v, g, h, J, alpha = symbols("M m R l b v g h J alpha", positive=True)
+ZERO = Integer(0)
+
+
+def thrown(x_rate: Any, y_rate: Any) -> Drawing | None:
+    with recorded():
+        x, y = coordinate("x", "length"), coordinate("y", "length")
+        system = System(Particle(m, point(x, y)), weight(g))
+        start = {x.symbol: ZERO, y.symbol: ZERO}
+        return sketch("system", system, start=Moment(start, {x.symbol: x_rate, y.symbol: y_rate}))
+
+
+def test_a_projectile_starts_with_its_speed_at_its_angle() -> None:
+    """Taylor, Classical Mechanics, section 2.3: v_0 cos(alpha) along, v_0 sin(alpha) up."""
+    found = thrown(v * cos(alpha), v * sin(alpha))
+    assert found is not None
+    (arrow,) = of(found, Arrow)
+    assert (arrow.label, list(arrow.start)) == (v, [0, 0])
+    assert labels(found, AngleBetween) == ["alpha"]
+
+
+def test_what_is_thrown_straight_up_has_no_angle() -> None:
+    found = thrown(ZERO, v)
+    assert found is not None
+    assert labels(found, Arrow) == ["v"] and not of(found, AngleBetween)
+
+
+def test_what_is_let_go_has_no_arrow() -> None:
+    found = thrown(ZERO, ZERO)
+    assert found is not None and not of(found, Arrow)
+
+
+def shot() -> Drawing | None:
+    with recorded():
+        x, theta = coordinate("x", "length"), coordinate("theta")
+        rod = Rod(l, M).held(theta + pi, "end", point(0, 0))
+        hole = point(b * sin(theta), -b * cos(theta))
+        system = System(Particle(m, point(x, -b)), rod)
+        at = {x.symbol: ZERO, theta.symbol: ZERO}
+        return sketch("system", system, blow=Moment(at, {x.symbol: v}, (), (system.particles[0].at, hole)))
+
+
+def test_a_bullet_comes_flying_from_before_the_rod_that_hangs() -> None:
+    """Kleppner and Kolenkow, An Introduction to Mechanics, section 6.8."""
+    found = shot()
+    assert found is not None
+    assert labels(found, Arrow) == ["v"] and labels(found, LengthMark) == ["b"] and labels(found, ParticleMark) == ["m"]
+    assert not of(found, FloorMark) and not of(found, BlockMark)
+    assert not of(found, DistanceMark) and not of(found, AngleBetween)
+    values = dict(found.values)
+    assert values[scalar("x")] == -b and values[scalar("theta")] == 0 and values[b] == 3 * l / 4
+
+
+def struck(components: tuple[Any, Any]) -> Drawing | None:
+    with recorded():
+        x, phi = coordinate("x", "length"), coordinate("phi")
+        system = System(Ball(R, M).placed(-phi, point(x, R)))
+        at = point(x + (h - R) * sin(phi), R + (h - R) * cos(phi))
+        blow = Moment({phi.symbol: ZERO}, {}, ((point(*components), at),))
+        return sketch("system", system, blow=blow)
+
+
+def test_a_given_impulse_ends_where_it_acts() -> None:
+    found = struck((J, ZERO))
+    assert found is not None
+    (arrow,) = of(found, Arrow)
+    assert arrow.pushes and arrow.label == J and Matrix(arrow.value) == Matrix([J, 0])
+    (line,) = [piece for piece in seen(found) if isinstance(piece, Stroke) and piece.pen == "given"]
+    assert line.spots[0][0] < line.spots[-1][0] and line.head
+    assert labels(found, LengthMark) == ["h"]
+
+
+def test_an_impulse_to_the_left_comes_from_the_right() -> None:
+    found = struck((-J, ZERO))
+    assert found is not None
+    (line,) = [piece for piece in seen(found) if isinstance(piece, Stroke) and piece.pen == "given"]
+    assert line.spots[0][0] > line.spots[-1][0]
+
+
+def test_no_blow_is_drawn_without_what_acts() -> None:
+    assert struck((ZERO, ZERO)) is None
