@@ -394,7 +394,16 @@ def _rest(
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"no_force": no_force, **({"counted": counted} if is_countable(sought) else {})},
         outcome=outcome,
-        telling=Telling(formulas=told, judged_by={"count": Integer(len(states)), "distances": distances}),
+        telling=Telling(
+            formulas=told,
+            judged_by={
+                "count": Integer(len(states)),
+                "distances": distances,
+                "sought": tuple(sought),
+                "angles": tuple(q for q in sought if potential.coordinates.get(q) == "angle"),
+                "states": tuple(tuple(each.values.items()) for each in states),
+            },
+        ),
         key=f"rest_{n + 1}" if len(states) > 1 else "rest",
         kind=dict(potential.coordinates)[held[0]] if single else None,
         facts=[Rest(dict(state.values), state.exists), RestOf(potential, tuple(sought))],

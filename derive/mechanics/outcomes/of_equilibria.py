@@ -15,7 +15,9 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import range_of, rational_in_range
+from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, is_turned_aside, matter_of
+from derive.mechanics.outcomes.searched import none_is_missing
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -82,6 +84,15 @@ def _under_its_condition(facts: Judged) -> bool:
         return False
     tried = [(_holds(facts.inputs["exists"], n), _is_there(facts, n)) for n in _numbers(_letters(facts))]
     return all(holds == real for holds, real in tried) and {holds for holds, _ in tried} == {True, False}
+
+
+def _all_are_told(facts: Judged) -> bool:
+    """Of several coordinates no place without a force is left out; of one all are counted by a route."""
+    sought = facts.inputs["sought"]
+    if is_countable(sought):
+        return True
+    forces = tuple(explicit(facts.inputs[f"condition_{i}"].residual) for i in range(len(sought)))
+    return none_is_missing(forces, sought, facts.inputs["angles"], facts.inputs["states"])
 
 
 # --- stability ---
@@ -232,9 +243,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "zero": lambda f: vanishes(_residual(f)),
     },
     "equilibria.rest": {
-        "only": lambda facts: _anywhere(facts) and not _several(facts),
-        "always": lambda facts: _anywhere(facts) and _several(facts),
-        "where": _under_its_condition,
+        "only": lambda facts: _anywhere(facts) and not _several(facts) and _all_are_told(facts),
+        "always": lambda facts: _anywhere(facts) and _several(facts) and _all_are_told(facts),
+        "where": lambda facts: _under_its_condition(facts) and _all_are_told(facts),
     },
     "minima.stability": {
         "stable": _always(1),
