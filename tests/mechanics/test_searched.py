@@ -58,7 +58,8 @@ def test_all_four_states_are_let_in() -> None:
 
 
 def test_both_arc_sines_are_let_in() -> None:
-    assert [list(rest.value) for rest in equilibria(pushed_round())] == [[pi / 6, 0], [5 * pi / 6, 0]]
+    found = [list(rest.value) for rest in equilibria(pushed_round())]
+    assert sorted(found, key=str) == [[5 * pi / 6, 0], [pi / 6, 0]]
 
 
 def test_a_state_that_is_lost_with_a_zero_of_a_factor_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
