@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 from sympy import Expr, Integer
@@ -81,11 +82,16 @@ class CollisionKeys(Record):
         if self.along and self.restitution is None:
             help_line = "write `restitution: 1` where it is elastic, 0 where the two do not part"
             rejected("missing-key", "a collision along a normal needs its `restitution`", self.places[""], help_line)
-        start = places.at(self.start, "from") if self.start else None
-        end = places.at(self.end or self.at, "to" if self.end else "at")  # type: ignore[arg-type]
-        along = tuple(each([partial(letters.of_kind, node, "a component", "number") for node in self.along]))
-        part = letters.of_kind(self.restitution, "restitution", "number") if self.restitution else Integer(0)
-        return Act("collision", (start, end, along, part, self.name), self.places[""])
+        ends = [(self.start, "from"), (self.end, "to"), (self.at, "at")]
+        read: list[Callable[[], Any]] = [partial(places.at, place, name) for place, name in ends if place]
+        read += [partial(letters.of_kind, node, "a component", "number") for node in self.along]
+        if self.restitution:
+            read.append(partial(letters.of_kind, self.restitution, "restitution", "number"))
+        found = each(read)
+        part = found.pop() if self.restitution else Integer(0)
+        start = found.pop(0) if self.start else None
+        end, *along = found
+        return Act("collision", (start, end, tuple(along), part, self.name), self.places[""])
 
     @property
     def name(self) -> str:
@@ -115,21 +121,25 @@ class BlowKeys(Record):
     ) -> DescribedBlow:
         """In letters; `forces` are those that keep constraints."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
-        acts = each([partial(one.act, places, letters) for one in both])
-        if not acts:
+        if not both:
             rejected("missing-key", "`blow` needs `impulses` or `collisions`", self.places[""])
+        values = [(q, node, ending) for ending, of in (("", self.at), (RATE, self.before)) for q, node in of.items()]
+        found: list[Any] = each(
+            [
+                *(partial(one.act, places, letters) for one in both),
+                *(partial(_value, q, node, ending, coordinates, letters) for q, node, ending in values),
+            ]
+        )
+        acts, at, before = (
+            tuple(found[slice(*ends)]) for ends in pairwise((0, len(both), len(both) + len(self.at), len(found)))
+        )
         sizes = [len(act.of[1].components) for act in acts if act.maker == "collision"]
         brought: list[str] = []
         for one, size in zip(self.collisions, sizes, strict=True):
             brought += one.brings(letters, size)
         brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another letter") for force in forces]
-        values = [("", self.at), (RATE, self.before)]
-        at, before = (
-            tuple(each([partial(_value, q, node, ending, coordinates, letters) for q, node in written.items()]))
-            for ending, written in values
-        )
         return DescribedBlow(
-            acts=tuple(acts),
+            acts=acts,
             at=at,
             before=before,
             letters={name: Declared(name, scalar(name), "momentum") for name in brought},

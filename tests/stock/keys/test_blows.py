@@ -55,3 +55,15 @@ def test_what_is_wrong_with_a_blow(edit: tuple[str, str], message: str, tmp_path
 def test_what_a_verb_refuses_is_told_where_it_is_described(tmp_path: Path) -> None:
     text = edited(BULLET, ("{x: 0, theta: 0}", "{theta: 0}"))
     assert messages(tmp_path, text) == ["10: the two places of this collision do not meet"]
+
+
+def test_all_faults_of_a_blow_are_told_at_once(tmp_path: Path) -> None:
+    collision = "collisions: {from: C, to: [b*sin(thta), 0], along: [1, 0], restitution: l}"
+    text = edited(BULLET, ("{x: 0, theta: 0}", "{x: 0, phi: 0}"), ("{x_dot: v}", "{x_dot: b}"), (HIT, collision))
+    assert messages(tmp_path, text) == [
+        "10: there is no coordinate `phi`",
+        "11: `x_dot` must be a speed, but `b` is a length",
+        "12: there is no place `C`",
+        "12: `thta` is not declared",
+        "12: `restitution` must be a number, but `l` is a length",
+    ]
