@@ -201,11 +201,11 @@ def test_what_a_particle_is_called_tells_how_it_is_drawn(tmp_path: Path) -> None
 
 
 def test_nothing_is_drawn_of_a_body_that_has_no_shape(tmp_path: Path) -> None:
-    """Landau, Lifshitz, Mechanics, section 32, problem 5: a cylinder of which only the moment is known; a page that
-    hides its drawing need not know that there is none."""
+    """A body of which only the moment is known and which rolls on nothing, since it does not go on as fast as it turns;
+    a page that hides its drawing need not know that there is none."""
     text = edited(PENDULUM, ("  places: {A: [l*sin(theta), -l*cos(theta)]}\n", ""), (
         "particles: {bob: {mass: m, at: A}}",
-        "bodies: {cylinder: {moments: m*l**2, mass: m, turned: -theta, centre: [l*theta, l]}}",
+        "bodies: {cylinder: {moments: m*l**2, mass: m, turned: -theta, centre: [l*theta**2, l]}}",
     )) + "drawings: {system: {at: hidden}}\n"  # fmt: skip
     run = Run()
     run_solve(loaded(tmp_path, text), run)
