@@ -16,7 +16,7 @@ from sympy import Add, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, dif
 
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, Axis
+from derive.figures.annotations import Arrow, Axis, AxisOfRotation, PointMark
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -53,6 +53,7 @@ HANGING = Rational(5, 2)  # a string through a hole, in terms of what of it is o
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
 HALF = ECCENTRICITY = Rational(1, 2)
 BROADSIDE = 23 * pi / 36  # across the way in which one usually looks
+ON_A_TABLE = 17 * pi / 36  # so that two level axes and the vertical are seen apart
 
 
 def sketch(
@@ -134,10 +135,44 @@ class _Scene:
         """What turns about the vertical at a given rate is drawn when its plane is that of the paper."""
         if self.rows != 3:
             return {}
-        turned = [c for place in self.system.places for c in place.components]
-        angles = {f.args[0] for c in turned for f in c.atoms(sin, cos)}
+        components = [c for place in self.system.places for c in place.components]
+        angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
-        return {TIME: BROADSIDE / rates[0]} if len(rates) == 1 and not rates[0].has(TIME) else {}
+        level = len(self.system.coordinates) > 1 and not moving_in(
+            self.system, *(p.components[-1] for p in self.system.places)
+        )
+        angle = ON_A_TABLE if level else BROADSIDE
+        return {TIME: angle / rates[0]} if len(rates) == 1 and not rates[0].has(TIME) else {}
+
+    def _axis_of_table(self) -> list[Mark]:
+        """The vertical about which something is carried round at a given rate, where nothing else shows it."""
+        if not self._carried_round():
+            return []
+        (rate,) = {diff(f.args[0], TIME) for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
+        return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
+
+    def _two_bodies(self) -> Iterable[Mark]:
+        """Of two particles the components of the way from one to the other, and the axes on which their centre of
+        mass is, where these are coordinates."""
+        if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
+            return
+        one, other = self.system.particles
+        coordinates = set(self.system.coordinates)
+        middle = Location(
+            tuple(
+                tidied((one.mass * a + other.mass * b) / (one.mass + other.mass))
+                for a, b in zip(one.at.components, other.at.components, strict=True)
+            )
+        )
+        way = Location(tuple(tidied(c) for c in (one.at - other.at).components))
+        if not {*middle.components, *way.components} <= coordinates or len({*middle.components}) < 2:
+            return
+        x, y = way.components
+        corner = other.at + Location((x, ZERO))
+        yield ConnectionMark(column_of(other.at), column_of(corner), label=x)
+        yield ConnectionMark(column_of(one.at), column_of(corner), label=y)
+        yield PointMark(column_of(middle))
+        yield from self._cartesian(middle)
 
     @cached_property
     def strings(self) -> Mapping[int, tuple[Link, Location, Symbol]]:
@@ -164,6 +199,8 @@ class _Scene:
     @cached_property
     def marks(self) -> list[Mark]:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
+        if not any(isinstance(mark, AxisOfRotation) for mark in found):
+            found += self._axis_of_table()
         if self.blow is not None:  # nothing moves on in it, and no way is told
             found = [mark for mark in found if not is_of_the_moment(mark, self.blow)]
             found += blow_marks(self.system, self.blow)
@@ -184,6 +221,7 @@ class _Scene:
             if self.rows == 3:
                 yield from self._round(link)
         yield from self._rods()
+        yield from self._two_bodies()
         if self.sliding:
             yield from self.sliding.marks()
         for link, below, _ in self.strings.values():

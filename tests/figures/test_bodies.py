@@ -30,6 +30,7 @@ from derive.mechanics import (
     Plate,
     Rod,
     System,
+    Triangle,
     X,
     Z,
     coordinate,
@@ -250,3 +251,10 @@ def test_a_cone_is_seen_from_its_points(about: str, tip: object, base: object) -
 def test_every_body_has_an_outline(body: object, kind: type) -> None:
     assert sum(isinstance(mark, kind) for mark in outline(body)) == 1
     assert len(outline(body, named=False)) == 1
+
+
+def test_a_triangle_tells_each_length_of_its_sides_once() -> None:
+    isosceles = Triangle(((0, 0), (a, 0), (0, a)), M)
+    assert [mark.label for mark in outline(isosceles) if isinstance(mark, LengthMark)] == [a]
+    other = Triangle(((0, 0), (3 * a, 0), (0, 4 * R)), M)
+    assert [mark.label for mark in outline(other) if isinstance(mark, LengthMark)] == [3 * a, 4 * R]

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import json
 from math import hypot
+from typing import Any
 
 import pytest
-from sympy import cos, sin, symbols
+from sympy import cos, pi, sin, symbols
 
 from derive.algebra.expressions import TIME, scalar
 from derive.figures import particle, sketch
-from derive.figures.annotations import Axis
+from derive.figures.annotations import Axis, AxisOfRotation, PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import PLANE, SPACE
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
 from derive.figures.pieces import Stroke
 from derive.figures.surroundings import FieldMark, GravityMark, WayMark
-from derive.mechanics import Particle, System, Z, charge, coordinate, point, space, weight
+from derive.mechanics import Particle, System, Z, central, charge, coordinate, point, space, spring, weight
 from derive.page.depiction import alternative
 from derive.page.wording import phrases
 from derive.render.drawing.canvas import sheet_of
@@ -24,7 +25,7 @@ from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from derive.steps.record import recorded
 from tests.courses import ROOT
-from tests.figures.machines import SKETCHES, SYSTEMS, a, at, labels, of, seen
+from tests.figures.machines import SKETCHES, SYSTEMS, G, a, at, k, labels, m, m1, m2, of, omega, seen
 from tests.figures.scenery import strokes
 
 
@@ -119,3 +120,42 @@ def test_uniform_fields_are_drawn_beside_a_charge() -> None:
         at = point(coordinate("x", "length"), coordinate("y", "length"), coordinate("z", "length"))
         found = sketch("ion", System(Particle(m, at), charge(q, at, (0, E, 0), (0, 0, B))))
     assert labels(found, FieldMark) == ["E", "B"]
+
+
+def on_a_turning_table() -> Any:
+    x, y = coordinate("x", "length"), coordinate("y", "length")
+    table = space.turned(Z, omega * TIME)
+    at = table.place(x, y, 0)
+    return System(Particle(m, at), spring(k, point(0, 0, 0), at))
+
+
+def test_a_table_turns_about_the_vertical_at_its_rate() -> None:
+    with recorded():
+        found = sketch("system", on_a_turning_table())
+        assert found is not None
+        assert [mark.rate for mark in of(found, AxisOfRotation)] == [omega]
+        assert dict(found.values)[TIME] == 17 * pi / (36 * omega)
+
+
+def two_stars(*, centre: bool = True) -> Any:
+    X, Y, x, y = (coordinate(name, "length") for name in ("X", "Y", "x", "y"))
+    one, other = (m2 / (m1 + m2), -m1 / (m1 + m2)) if centre else (1, 0)
+    stars = [Particle(mass, point(X + c * x, Y + c * y)) for mass, c in ((m1, one), (m2, other))]
+    d = scalar("d", positive=True)
+    return System(*stars, central(-G * m1 * m2 / d, d, stars[0].at, stars[1].at))
+
+
+def test_two_bodies_have_their_centre_of_mass_and_the_way_from_one_to_the_other() -> None:
+    """Taylor, Classical Mechanics, section 8.2."""
+    with recorded():
+        found = sketch("system", two_stars())
+        assert found is not None
+        assert labels(found, Axis) == ["X", "Y"]
+        assert {"x", "y"} <= set(labels(found, ConnectionMark))
+
+
+def test_coordinates_of_one_body_are_not_those_of_the_centre_of_mass() -> None:
+    with recorded():
+        found = sketch("system", two_stars(centre=False))
+        assert found is not None
+        assert not of(found, PointMark) and "x" not in labels(found, ConnectionMark)

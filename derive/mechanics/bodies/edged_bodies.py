@@ -199,6 +199,17 @@ class Triangle(Cornered):
         return tuple(column(x, y, 0) for x, y in self.corners_at)
 
     @property
+    def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
+        """The sides that are letters, or multiples of one: each length once, beside the first that has it."""
+        found: dict[Expr, tuple[int, int]] = {}
+        for i, k in ((0, 1), (0, 2), (1, 2)):
+            x, y, _ = self.corners[k] - self.corners[i]
+            length = sqrt(tidied(x**2 + y**2))
+            if length.as_coeff_Mul()[1].is_Symbol and length.free_symbols.isdisjoint(found):
+                found[length] = i, k
+        return tuple((length, (edge,)) for length, edge in found.items())
+
+    @property
     def _signed_area(self) -> Expr:
         """Half the products of neighbouring places, round the edge."""
         (x1, y1), (x2, y2), (x3, y3) = self.corners_at

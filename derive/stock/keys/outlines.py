@@ -4,15 +4,35 @@ from __future__ import annotations
 
 from typing import Any
 
-from derive.figures import axis_of_rotation, drawing, outline, vectors_in
+from sympy import cos
+
+from derive.algebra.expressions import column
+from derive.figures import arc, axis_of_rotation, drawing, outline, vectors_in
+from derive.figures.marks import Mark
 from derive.mechanics.bodies.body import Body, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
+from derive.mechanics.bodies.regions import Point
+from derive.steps.step import is_zero
+from derive.stock.keys.directions import Axis
 
 
 def drawn(body: Body) -> None:
     """Its outline, under its name."""
     if isinstance(body, RoundBody | EdgedBody):
         drawing(body.called.replace(" ", "_") or "body", outline(body))
+
+
+def _inclination(along: Axis, at: Point) -> list[Mark]:
+    """The arc from one of the body's axes to that of the rotation, where the angle between them is a letter."""
+    if along.is_name:
+        return []
+    components = along.components
+    for k in (2, 0, 1):
+        angle = next((f.args[0] for f in components[k].atoms(cos) if f.args[0].is_Symbol), None)
+        if angle is not None and is_zero(components[k] - cos(angle)) and is_zero(1 - sum(c**2 for c in components)):
+            own = column(*(int(i == k) for i in range(3)))
+            return [arc(own, column(*components), label=angle, at=at)]
+    return []
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
@@ -25,7 +45,7 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
         return
     at = body.point(answers.about)
     turning = axis_of_rotation(body.direction(described.along.named), at, rate=described.rate)
-    drawing("body", outline(body), turning)
+    drawing("body", outline(body), turning, *_inclination(described.along, at))
     if has_angle:
         answer = answers.asks()["angle_between"]
         drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=answer(), at=at))
