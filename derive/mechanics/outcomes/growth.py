@@ -48,6 +48,8 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
     for n, point in enumerate(points):
         for size in SIZES:
             motion = _motion(matter, place, point, size)
+            if motion is None:
+                return True
             if not _grows(*motion):
                 return False
             if not _is_turned(*motion):
@@ -59,7 +61,8 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
     """Whether forces that are linear in the rates do no work, as in a frame that turns or in a magnetic field."""
-    return any(_is_turned(*_motion(matter, place, point, SIZES[0])) for point in points[:FEW])
+    motions = (_motion(matter, place, point, SIZES[0]) for point in points[:FEW])
+    return any(motion is not None and _is_turned(*motion) for motion in motions)
 
 
 @lru_cache(maxsize=16)  # each state of rest of a system asks for the same
@@ -73,8 +76,11 @@ def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
     return letters, lambdify([*varied, *letters], left, "mpmath", cse=True)
 
 
-def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple[Any, Any, Any]:
-    """M, C and K: how m a - F changes with accelerations, rates and coordinates, at rest."""
+def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple[Any, Any, Any] | None:
+    """M, C and K: how m a - F changes with accelerations, rates and coordinates, at rest.
+
+    Nothing where the coordinates do not tell the places, as the angles of a top that stands upright: that is not judged.
+    """
     letters, left = _left_over(matter)
     count = len(matter.coordinates)
     with mp.workdps(DIGITS):
@@ -82,7 +88,10 @@ def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple
         known = [_number({**point, **others}[s]) for s in letters]
         there = [_number(place.get(q, ELSEWHERE).xreplace(dict(point))) for q in matter.coordinates]
         still = [*there, *[mp.mpf(0)] * (2 * count)]
-        k, c, m = (_slopes(lambda *at: left(*at, *known), still, order * count, count) for order in (0, 1, 2))
+        try:
+            k, c, m = (_slopes(lambda *at: left(*at, *known), still, order * count, count) for order in (0, 1, 2))
+        except ZeroDivisionError:
+            return None
     return m, c, k
 
 
