@@ -79,7 +79,7 @@ def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
 def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple[Any, Any, Any] | None:
     """M, C and K: how m a - F changes with accelerations, rates and coordinates, at rest.
 
-    Nothing where the coordinates do not tell the places, as the angles of a top that stands upright: that is not judged.
+    Nothing where the coordinates do not tell the places, as the angles of a top upright: that is not judged.
     """
     letters, left = _left_over(matter)
     count = len(matter.coordinates)
