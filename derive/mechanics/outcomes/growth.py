@@ -45,16 +45,18 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
     place    the coordinates at rest
     points   numbers for the letters of the energy, where it falls
     """
-    for n, point in enumerate(points):
+    tried = 0
+    for point in points:
         for size in SIZES:
             motion = _motion(matter, place, point, size)
             if motion is None:
                 return True
             if not _grows(*motion):
                 return False
-            if not _is_turned(*motion):
-                break  # what falls then runs away, however large the others are
-        if n + 1 >= FEW and not _is_turned(*motion):
+            if not _is_turned(*motion):  # what falls then runs away, however large the others are
+                tried += 1
+                break
+        if tried >= FEW:
             break
     return True
 
