@@ -3,35 +3,79 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
-from sympy import Add, Expr, Float, Integer, sqrt
+from sympy import Add, Expr, Float, Integer, Rational, cos, pi, sqrt
 
 from derive.algebra.expressions import column
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Line, PointMark
-from derive.figures.marks import Mark
+from derive.figures.annotations import Line, PointMark, Turn
+from derive.figures.marks import Mark, Position
 from derive.figures.parts import ConnectionMark
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, link_from_fixed, moving_in
 from derive.figures.surfaces import Circle
+from derive.figures.surroundings import AngleBetween, WayMark
 from derive.figures.turning import angle_marks
 from derive.mechanics.systems.no_slip import Rolling
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import System
+from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
+# Where a turn about an axis is drawn, and how long the axis is, in terms of the way to the centre of mass.
+ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
+
+
+@dataclass(frozen=True)
+class UprightAngle(AngleBetween):
+    """An angle in an upright plane that is drawn from its front: nothing needs to be turned for it to be seen."""
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
 
 
 def contact_marks(system: System) -> Iterable[Mark]:
     """Of each body that rolls in a plane on what is at rest: the cylinder that it touches, and the point of contact."""
     for condition in system.conditions:
         rolling = condition.fact(Rolling)
-        if rolling is None or rolling.ground is not None or len(rolling.at.components) != 2:
+        if rolling is None or rolling.ground is not None:
             continue
         contact = Location(tuple(c.subs(system.known) for c in rolling.at.components))
+        if len(contact.components) == 3:
+            yield from _on_a_plane(system, rolling, contact)
+            continue
         link = link_from_fixed(system, contact)
         if link is not None:
             yield from _cylinder(system, link, rolling)
+
+
+def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable[Mark]:
+    """In space, of a body that is held at a point of a level plane: the circle on which it touches that plane, the
+    line that it touches, and how it turns about itself."""
+    body = rolling.body
+    way = contact - body.at
+    moving = moving_in(system, *way.components)
+    length = sqrt(tidied(Add(*(c**2 for c in way.components))))
+    if not is_fixed(system, body.at) or way.components[2] != 0 or len(moving) != 1 or moving_in(system, length):
+        return
+    (q,) = moving
+    start, end = column_of(body.at), column_of(contact)
+    yield WayMark(end, q, -pi, pi)
+    yield Line(start, end, "construction")
+    yield PointMark(end)
+    _, own = body.turned.turns[-1]
+    along = column_of(body.centre.with_values(system.known) - body.at)
+    axis = tidied(Add(*(c**2 for c in along)))
+    cosine = Add(*(a * b for a, b in zip(along, end - start, strict=True))) / (length * sqrt(axis))
+    letters = {letter for _, angle in body.turned.turns for letter in angle.free_symbols}
+    leaning = next((a for a in sorted(letters, key=str) if is_zero(tidied(cosine) - cos(a))), None)
+    if leaning is not None and leaning not in moving:
+        yield UprightAngle(start, end - start, along, label=leaning)
+    if own.is_Symbol:
+        yield Line(start, start + LONG * along, "construction")
+        yield Turn(start + ROUND_AT * along, along, Rational(1, 5), label=own)
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:

@@ -26,6 +26,7 @@ from derive.figures.turning import angle_marks, downwards, turns_about_axes
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.systems.no_slip import Rolling
 from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
 from derive.steps.step import is_zero
@@ -78,11 +79,11 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     else:
         yield from _axis_to(centre, placed)
     if square != 0 and is_fixed(system, placed.at):
-        yield _holder(system, placed)
+        yield PointMark(column_of(placed.at)) if in_space and _rolls(system, placed) else _holder(system, placed)
     pivoted = pivot_of(system, placed) if square == 0 and not in_space else None
     if square != 0 and not moving_in(system, square):
         yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
-        if in_space:
+        if in_space and not _rolls(system, placed):
             yield from turns_about_axes(system, placed.turned, placed.at, _far_end(placed))
     elif pivoted is not None:
         yield from _pivoted(system, pivoted, outline)
@@ -90,6 +91,11 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield from _own_angle(system, outline)
     for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
         yield from _ground_of(system, Location(tuple(wheel.centre)), wheel.radius)
+
+
+def _rolls(system: System, placed: Any) -> bool:
+    """Whether a condition says so of it: then it lies on something."""
+    return any((r := each.fact(Rolling)) is not None and r.body.body is placed.body for each in system.conditions)
 
 
 def pivot_of(system: System, placed: Any) -> Link | None:

@@ -75,7 +75,8 @@ def _conditions_are_seen(
         if each not in touching.shown and not (moving <= lengths or len(moving) > 1 and moving <= tracks):
             return False
     in_space = any(len(placed.at.components) == 3 for placed in system.bodies)
-    return not system.conditions or not in_space and (touching.told or bool(touching.rolls_at_rest))
+    told = touching.told and (not in_space or len(system.conditions) == 1)
+    return not system.conditions or told or not in_space and bool(touching.rolls_at_rest)
 
 
 def _energies_are_seen(system: System) -> bool:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from sympy import Matrix, cos, sin, symbols
+from typing import Any
 
+from sympy import Matrix, cos, pi, sin, symbols, tan
+
+from derive.algebra.expressions import scalar
 from derive.figures import sketch
-from derive.figures.annotations import Line, PointMark
+from derive.figures.annotations import Line, PointMark, Support, Turn
+from derive.figures.contacts import UprightAngle
 from derive.figures.parts import ConnectionMark
 from derive.figures.pieces import Bullet
 from derive.figures.placed_bodies import SilhouetteMark
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import AngleBetween, DistanceMark
-from derive.mechanics import Disc, System, coordinate, no_slip, point, weight
+from derive.mechanics import Cone, Disc, System, Y, Z, coordinate, no_slip, point, space, weight
 from derive.steps.record import recorded
 from tests.figures.scenery import SLAB, M, R, a, pieces_of, slab, theta
 
@@ -68,3 +72,22 @@ def test_a_slab_that_turned_the_other_way_lies_on_the_other_side() -> None:
     spots = {sign: [p.spot for p in pieces_of(SLAB, theta=sign * 0.5) if isinstance(p, Bullet)] for sign in (1, -1)}
     assert spots[1][1][0] > spots[1][0][0] + 5
     assert spots[-1][1][0] < spots[-1][0][0] - 5
+
+
+def rolling_cone(*more: Any) -> Any:
+    """Landau and Lifshitz, Mechanics, section 32, problem 7."""
+    phi, psi = coordinate("phi"), coordinate("psi")
+    alpha = scalar("alpha", positive=True)
+    line = space.turned(Z, phi)
+    cone = Cone(a * tan(alpha), a, M).held(line.turned(Y, pi / 2 - alpha).turned(Z, psi), "apex")
+    return sketch("cone", System(cone, no_slip(cone, at=line.place(a, 0, 0)), *more))
+
+
+def test_a_cone_that_rolls_on_a_plane_lies_there_and_turns_about_its_axis() -> None:
+    with recorded():
+        found = rolling_cone()
+    assert found is not None
+    assert [str(mark.label) for mark in found.marks if isinstance(mark, Turn)] == ["psi"]
+    assert [str(mark.label) for mark in found.marks if type(mark) is AngleBetween] == ["phi"]
+    assert [str(mark.label) for mark in found.marks if isinstance(mark, UprightAngle)] == ["alpha"]
+    assert not any(isinstance(mark, Support) for mark in found.marks)
