@@ -9,18 +9,18 @@ from sympy import Expr, Integer, Rational, Symbol, prime
 
 from derive.algebra.expressions import explicit
 from derive.algebra.ranges import rational_in_range
-from derive.mechanics.outcomes.signs import always_sign, sign_is
+from derive.mechanics.outcomes.signs import always_sign, sign_is, turned
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
 
 def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
-    """Positive numbers for the letters, from one scale to another; in the range of one that has some."""
+    """Numbers for the letters, from one scale to another and of both signs; in the range of one that has some."""
     ordered = sorted(letters, key=str)
     for shift in range(12):
         drawn = (Rational(prime(5 + (7 * i + 3 * shift) % 23), 2 + (i + shift) % 5) for i in range(len(ordered)))
-        yield {s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}
+        yield turned({s: rational_in_range(s, number) for s, number in zip(ordered, drawn, strict=True)}, shift)
 
 
 def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:

@@ -14,11 +14,11 @@ from sympy import Expr, Rational, diff, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import range_of, rational_in_range
+from derive.algebra.ranges import rational_in_range
 from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, is_turned_aside, matter_of
 from derive.mechanics.outcomes.searched import none_is_missing
-from derive.mechanics.outcomes.signs import lasts, vanishes
+from derive.mechanics.outcomes.signs import lasts, may_be_negative, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -34,12 +34,8 @@ def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
     ordered = sorted(letters, key=str)
     for shift in range(SHIFTS):
         drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
-        turned = [-1 if _may_be_negative(s) and shift >> i % 4 & 1 else 1 for i, s in enumerate(ordered)]
+        turned = [-1 if may_be_negative(s) and shift >> i % 4 & 1 else 1 for i, s in enumerate(ordered)]
         yield {s: turn * rational_in_range(s, number) for s, number, turn in zip(ordered, drawn, turned, strict=True)}
-
-
-def _may_be_negative(letter: Any) -> bool:
-    return not letter.is_nonnegative and range_of(letter) is None
 
 
 def _entries(value: Any) -> list[Expr]:

@@ -14,7 +14,7 @@ from sympy import Abs, Dummy, Expr, I, ImmutableDenseMatrix, Integer, Poly, Rati
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.ranges import rational_in_range
-from derive.mechanics.outcomes.signs import always_sign, lasts, vanishes
+from derive.mechanics.outcomes.signs import always_sign, lasts, turned, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -22,13 +22,16 @@ LITTLE = Rational(1, 10**15)
 
 
 def _numbers(facts: Judged) -> Iterator[dict[Expr, Expr]]:
-    """Positive numbers for the letters, from one scale to another; those of the range of a letter that lies in one."""
+    """Numbers for the letters, from one scale to another and of both signs; of a letter with a range those of it."""
     letters = sorted(facts.inputs["stiffness"].free_symbols | facts.inputs["mass"].free_symbols, key=str)
     drawn = (
-        {
-            s: rational_in_range(s, Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4))
-            for i, s in enumerate(letters)
-        }
+        turned(
+            {
+                s: rational_in_range(s, Rational(prime(4 + (5 * i + 3 * shift + i * shift) % 17), 3 + (i + shift) % 4))
+                for i, s in enumerate(letters)
+            },
+            shift,
+        )
         for shift in range(40)
     )
     yield from islice((numbers for numbers in drawn if _exists(facts, numbers)), 5)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import islice
 from typing import Any
 
@@ -33,6 +33,17 @@ def vanishes(facts: Judged) -> bool:
 
 def lasts(facts: Judged) -> bool:
     return not is_zero(facts.result)
+
+
+def may_be_negative(letter: Any) -> bool:
+    """Whether nothing is said against it: neither what the letter is nor a range."""
+    return not letter.is_nonnegative and range_of(letter) is None
+
+
+def turned(numbers: Mapping[Any, Expr], shift: int) -> dict[Any, Expr]:
+    """The same numbers, some of the letters that may be negative being so: in turn all four ways of two neighbours."""
+    signs = (-1 if may_be_negative(s) and shift >> i % 2 & 1 else 1 for i, s in enumerate(numbers))
+    return {s: sign * number for (s, number), sign in zip(numbers.items(), signs, strict=True)}
 
 
 def never_vanishes(v: Any) -> bool:

@@ -1,0 +1,58 @@
+"""A letter of either sign is tried with both: what is true of positive numbers alone is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sympy import Expr, ImmutableDenseMatrix, sqrt, symbols
+
+import derive.mechanics.outcomes  # noqa: F401  which says what must hold
+from derive.algebra.ranges import POSITIVE, Range, within
+from derive.mechanics.equations.quadratics import Quadratic
+from derive.mechanics.outcomes.signs import turned
+from derive.steps.outcomes import Judged, holds
+
+m, k = symbols("m k", positive=True)
+alpha, beta = symbols("alpha beta", real=True)
+
+
+def frequency(word: str, stiffness: Expr, found: Expr) -> bool:
+    one: dict[str, Any] = {"stiffness": ImmutableDenseMatrix([[stiffness]]), "mass": ImmutableDenseMatrix([[m]])}
+    return holds("modes.frequency", word, Judged(found, one))
+
+
+def root(word: str, b: Expr, c: Expr, turn: int) -> bool:
+    """(-b +- sqrt(b^2 - 4 c))/2"""
+    return holds(
+        "roots.one_of_two", word, Judged((-b + turn * sqrt(b**2 - 4 * c)) / 2, {"quadratic": Quadratic(m / m, b, c)})
+    )
+
+
+@pytest.mark.parametrize(("word", "either"), [("oscillating", False), ("growing", False), ("conditional", True)])
+def test_a_stiffness_of_either_sign_neither_swings_nor_grows(word: str, either: bool) -> None:
+    assert frequency(word, alpha, sqrt(alpha / m)) is either
+    assert frequency("oscillating", k, sqrt(k / m))
+
+
+def test_a_frequency_is_not_negative_for_any_sign_of_a_letter() -> None:
+    assert frequency("oscillating", m * k**2, k)
+    assert not frequency("conditional", m * alpha**2, alpha)
+    with within({alpha: POSITIVE}):
+        assert frequency("oscillating", m * alpha**2, alpha)
+
+
+def test_which_root_is_smaller_depends_on_the_sign_of_a_letter() -> None:
+    assert root("smaller_where_real", -2 * m, k, -1)
+    assert not root("smaller_where_real", -2 * alpha, k, -1)
+    assert not root("larger_where_real", -2 * alpha, k, -1)
+
+
+def test_all_ways_of_two_letters_are_tried() -> None:
+    one = 0 * m + 1
+    ways = [tuple(turned({alpha: one, m: one, beta: one}, shift).values()) for shift in range(4)]
+    assert {way[1] for way in ways} == {1} and {way[0] for way in ways} == {1, -1}
+    both = [tuple(turned({alpha: one, beta: one}, shift).values()) for shift in range(4)]
+    assert set(both) == {(1, 1), (1, -1), (-1, 1), (-1, -1)}
+    with within({alpha: Range(one, 3 * one)}):
+        assert {turned({alpha: one}, shift)[alpha] for shift in range(4)} == {1}
