@@ -114,8 +114,8 @@ def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
     names = [x for x, _, _ in limits]
     value = explicit(found)
     letters = sorted((value.free_symbols | position.free_symbols) - set(names), key=str)
-    place = lambdify([*names, *letters], list(position), "mpmath")
-    size = lambdify([*names, *letters], value, "mpmath")
+    place = lambdify([*names, *letters], list(position), "mpmath", dummify=True)
+    size = lambdify([*names, *letters], value, "mpmath", dummify=True)
     with mp.workdps(DIGITS):
         for at in inside(limits, letters):
             here, known = ([mp.mpf(str(at[s].evalf(DIGITS))) for s in those] for those in (names, letters))

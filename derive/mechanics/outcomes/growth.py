@@ -75,7 +75,7 @@ def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]
     varied = [each for order in (0, 1, 2) for each in ([rate(q, order) for q in moving] if order else moving)]
     letters = tuple(sorted(set().union(*(each.free_symbols for each in left)) - set(varied), key=str))
-    return letters, lambdify([*varied, *letters], left, "mpmath", cse=True)
+    return letters, lambdify([*varied, *letters], left, "mpmath", cse=True, dummify=True)
 
 
 def _motion(matter: Matter, place: Numbers, point: Numbers, size: Expr) -> tuple[Any, Any, Any] | None:

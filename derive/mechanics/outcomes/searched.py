@@ -50,8 +50,8 @@ def _searched(
 ) -> bool:
     letters = [s for s, _ in ranges if s not in sought]
     both = [*forces, *(diff(force, q) for force in forces for q in sought)]
-    rough = lambdify([*sought, *letters], both, "math", cse=True)
-    exact = lambdify([*sought, *letters], both, "mpmath", cse=True)
+    rough = lambdify([*sought, *letters], both, "math", cse=True, dummify=True)
+    exact = lambdify([*sought, *letters], both, "mpmath", cse=True, dummify=True)
     turning = [q in angles for q in sought]
     turned = [q in angles and range_of(q) is None for q in sought]
     for point in islice(points(set(letters), 4099), TRIALS):
