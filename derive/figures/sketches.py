@@ -22,6 +22,7 @@ from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
 from derive.figures.placed_bodies import placed_marks, with_its_shape
 from derive.figures.positions import column_of
+from derive.figures.pulleys import HangingPulley
 from derive.figures.recognition import (
     Link,
     angle_of_link,
@@ -101,7 +102,10 @@ class _Scene:
         indices = range(len(system.particles))
         self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
         self.sliding = Sliding(system, self.links) if self.rows == 2 else None
-        held = {*self.links, *(self.sliding.tracks if self.sliding else ())}
+        self.pulley = HangingPulley(system)
+        if self.pulley.hung:
+            self.links, self.sliding = {}, None
+        held = {*self.links, *self.pulley.hung, *(self.sliding.tracks if self.sliding else ())}
         self.free = [i for i in indices if i not in held]
         self.touching = Touching(system)
         self.touching.told |= any(True for _ in contact_marks(system))
@@ -115,6 +119,7 @@ class _Scene:
     @property
     def is_whole(self) -> bool:
         joined = [*self.rods, *((*self.sliding.ropes, *self.sliding.strings) if self.sliding else ())]
+        joined += [(self.pulley.hung[0], i) for i in self.pulley.hung[1:]]
         joined += [(i, k) for i, (link, _, _) in self.strings.items() for k, one in self.links.items() if one == link]
         joined += [(i, k) for i, links in self.tied.items() for k, one in self.links.items() if one in links]
         return is_whole(self.system, self.marks, self.links.values(), joined, self.touching)
@@ -122,6 +127,7 @@ class _Scene:
     @property
     def values(self) -> Mapping[Symbol, Any]:
         found = dict(self.sliding.values) if self.sliding else leaning_to_the_right(self.system)
+        found.update(self.pulley.values)
         for link in self.links.values():
             if (radius := kept_length(self.system, link.length)) is not None:
                 found[link.length] = radius
@@ -214,6 +220,8 @@ class _Scene:
             yield from placed_marks(self.system, placed)
             yield from self._centre(placed.centre)
         yield from self.touching.marks
+        if self.pulley.hung:
+            yield from self.pulley.marks()
         for i, j in self.rods:
             yield from self._rod(i, j)
         for i, link in self.links.items():
