@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-PENDULA, SPRINGS = range(2, 9), range(2, 11)
+PENDULA, SPRINGS = range(2, 11), range(2, 11)
 ROUNDS = 3
 
 
