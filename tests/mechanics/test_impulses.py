@@ -174,6 +174,8 @@ def test_questions_about_blows_that_do_not_fit() -> None:
         (lambda: Blow(system, collision(bullet, hit), before={x: v}), "do not meet"),
         (lambda: Blow(system, collision(bullet, bullet), at={x: 0}), "one velocity already"),
         (lambda: Blow(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}), "do not approach"),
+        (lambda: Blow(system, collision(bullet, hit, (-1, 0), 1), at={x: 0, theta: 0}, before={x: v}), "move apart"),
+        (lambda: Blow(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: -v}), "move apart"),
         (lambda: Blow(system, collision(bullet, hit, (0, 1), 1), at={x: 0, theta: 0}, before={x: v}), "nothing moves"),
         (lambda: Blow(system, impulse((J, 0), hit), at={coordinate("z"): 0}), "nothing in this `Blow` moves"),
         (lambda: collision(bullet, hit, (), 1), "needs its normal"),

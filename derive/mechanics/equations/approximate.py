@@ -9,11 +9,11 @@ from typing import Any
 
 from sympy import Function, Integer, Rational, oo
 
-from derive.algebra.expansion import NoExpansion, expanded, small_of, tidied_terms
+from derive.algebra.expansion import small_of, tidied_terms
 from derive.algebra.expressions import TIME, Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.limits import rest_vanishes
+from derive.mechanics.equations.limits import expansion_of, rest_vanishes
 from derive.mechanics.equations.substitution import arranged
 from derive.mechanics.equations.unknowns import coordinates_of, letter_of, residual_of, unknown_of
 from derive.mechanics.systems.coordinates import OfCoordinate
@@ -49,12 +49,7 @@ def equation_in_limit(
         message = f"`equation_in_limit`: {x.name} changes in the motion, so that it is not small all the time"
         raise Rejected(Complaint("changes", message, help="small motions about rest are those of `linearised`"))
     place = explicit(to.value if isinstance(to, Quantity) else to)
-    try:
-        series = expanded(left, x, place, None if order is None else Rational(order))
-    except NoExpansion:
-        message = f"`{equation.key}` has no expansion in powers at {x.name} = {place}"
-        help_line = None if order is None else "leave `order` out for the leading terms alone"
-        raise Rejected(Complaint("no-expansion", message, help=help_line)) from None
+    series = expansion_of(equation, left, x, place, order)
     kept = tidied_terms(series, x, place)
     found = arranged(Relation(kept, "=", Integer(0)), list(coordinates_of(equation)))
     power = Rational(order) if order is not None else max(series, default=Rational(0))

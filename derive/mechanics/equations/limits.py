@@ -8,7 +8,15 @@ from typing import Any
 from sympy import Abs, Expr, Mul, Pow, Rational, Symbol, factor_list, oo, sqrt
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expansion import Expansion, NoExpansion, expanded, in_ascending_powers, small_of, tidied_terms
+from derive.algebra.expansion import (
+    Expansion,
+    NoExpansion,
+    Series,
+    expanded,
+    in_ascending_powers,
+    small_of,
+    tidied_terms,
+)
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.errors import Complaint, Rejected
@@ -43,12 +51,7 @@ def limiting_case(
         message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
     place = explicit(to.value if isinstance(to, Quantity) else to)
-    try:
-        series = expanded(value, x, place, None if order is None else Rational(order))
-    except NoExpansion:
-        message = f"`{of.key}` has no expansion in powers at {x.name} = {place}"
-        help_line = None if order is None else "leave `order` out for the leading term alone"
-        raise Rejected(Complaint("no-expansion", message, help=help_line)) from None
+    series = expansion_of(of, value, x, place, order)
     series = {n: _of_squares_drawn(c) for n, c in series.items()}
     power = Rational(order) if order is not None else max(series, default=Rational(0))
     found = tidied_terms(series, x, place)
@@ -77,6 +80,16 @@ def limiting_case(
         ),
         scope=Scope(case_of=of),
     )
+
+
+def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None) -> Series:
+    """Its terms to that order, the leading one alone without; refused where there are none in powers."""
+    try:
+        return expanded(value, x, place, None if order is None else Rational(order))
+    except NoExpansion:
+        message = f"`{of.key}` has no expansion in powers at {x.name} = {place}"
+        help_line = None if order is None else "leave `order` out for the leading term alone"
+        raise Rejected(Complaint("no-expansion", message, help=help_line)) from None
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:

@@ -8,14 +8,16 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
-from derive.algebra.expressions import At, Factors, Partial, TimeRate, explicit, rate
+from derive.algebra.expressions import At, Factors, Partial, Relation, TimeRate, explicit, rate
+from derive.algebra.ranges import strict_sign_within
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import unknown
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import System
-from derive.steps.record import coordinates_in, require_constant
+from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import is_zero
 
 __all__ = ["Blow", "angular_impulse", "collision", "impulse"]
@@ -225,10 +227,22 @@ class Blow:
         one = self._meeting(gap, act.restitution, act.letter, what, (start, end, along))
         if one is None:
             raise Rejected(Complaint("nothing-happens", "along the normal of this collision nothing moves"))
-        if not self.impulses and is_zero(self.earlier(TimeRate(gap, *self.moving))):
+        if not self.impulses:
+            self._check_approach(-self.earlier(TimeRate(gap, *self.moving)))
+        return [one]
+
+    def _check_approach(self, speed: Expr) -> None:
+        """Along the normal the two come together: what they touch with can push and not pull."""
+        sign = 0 if is_zero(speed) else strict_sign_within(speed)
+        if sign == 0:
             message = "the two do not approach each other before this collision"
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
-        return [one]
+        if sign == -1:
+            message = "the two move apart before this collision, along its normal"
+            help_line = "turn the normal, which points from the first place to the second, or the rates `before` it"
+            raise Rejected(Complaint("nothing-happens", message, help=help_line))
+        if sign is None:
+            assume(Relation(tidied(speed), ">", Integer(0)))
 
     def _meeting(
         self, gap: Expr, restitution: Expr, letter: str, what: str, ends: tuple[Vector, Vector, Vector]

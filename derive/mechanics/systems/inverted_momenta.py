@@ -61,7 +61,7 @@ def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
         return None
     try:
         found = [root for root in solve(equation, u) if not root.has(u)]
-    except NotImplementedError:
+    except NotImplementedError:  # SymPy solves no such equation: the momenta are then refused as not to be inverted
         return None
     return next((root for root in found if root.xreplace({size: 0 * size}) == 1), None)
 
