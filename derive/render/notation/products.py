@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from decimal import Decimal
 from enum import IntEnum, auto
-from functools import lru_cache
 from typing import Any
 
 from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, factorint, fraction, gcd, ilcm
@@ -69,7 +68,6 @@ def times_ten_to(power: int) -> Layout:
     return Raised(Digits("10"), row(MINUS, Digits(str(-power))) if power < 0 else Digits(str(power)))
 
 
-@lru_cache(maxsize=1024)
 def present(value: Any) -> Any:
     """A vector or tensor with its common factor in front; anything else as it is. The value is the same."""
     if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
