@@ -5,13 +5,13 @@ Reading back builds objects of the listed classes only; nothing is evaluated fro
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from enum import Enum
 from typing import Any
 
 import sympy
-from sympy import Basic, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Rational, Symbol
+from sympy import Basic, Dummy, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Rational, Symbol
 from sympy.core.symbol import Str
 
 from derive.algebra.node import NODES
@@ -29,10 +29,12 @@ MAX_NODES, MAX_DEPTH, MAX_BITS, MAX_SIZE = 200_000, 300, 20_000, 100
 _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": sympy.I, "Infinity": sympy.oo}
 
 
-def encoded(expr: Any) -> list[Any]:
-    """A tree of lists, strings and integers."""
+def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
+    """A tree of lists, strings and integers; letters that equal no other letter go by a name, where there is one."""
     if expr is None:
         return ["None"]
+    if name and isinstance(expr, Dummy):
+        return ["Dummy", name(expr)]
     if isinstance(expr, Symbol):
         return ["Symbol", expr.name, _assumptions(expr)]
     if isinstance(expr, Integer):
@@ -44,13 +46,13 @@ def encoded(expr: Any) -> list[Any]:
     if isinstance(expr, MatrixSymbol):
         return ["MatrixSymbol", expr.name, *(int(n) for n in expr.shape)]
     if isinstance(expr, MatrixBase):
-        return ["Matrix", *expr.shape, [encoded(entry) for entry in expr]]
-    name = type(expr).__name__
-    if name in _CONSTANTS:
-        return [name]
-    if _CLASSES.get(name, NODES.get(name)) is not type(expr):
-        raise TypeError(f"{name} has no encoding")
-    return [name, *(encoded(arg) for arg in expr.args)]
+        return ["Matrix", *expr.shape, [encoded(entry, name) for entry in expr]]
+    kind = type(expr).__name__
+    if kind in _CONSTANTS:
+        return [kind]
+    if _CLASSES.get(kind, NODES.get(kind)) is not type(expr):
+        raise TypeError(f"{kind} has no encoding")
+    return [kind, *(encoded(arg, name) for arg in expr.args)]
 
 
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
@@ -62,7 +64,7 @@ def _assumptions(symbol: Symbol) -> dict[str, bool]:
     return dict(sorted(symbol.assumptions0.items()))
 
 
-def decoded(data: Any) -> Any:
+def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
     """The expression that `encoded` wrote; ValueError for anything else, whatever it is."""
     left = [MAX_NODES]
 
@@ -80,6 +82,8 @@ def decoded(data: Any) -> Any:
             return ImmutableDenseMatrix(rows, columns, [made(entry, depth + 1) for entry in entries])
         if name in _CONSTANTS:
             return _CONSTANTS[name]
+        if name == "Dummy" and named:
+            return named(*args)
         kind = _CLASSES.get(name) or NODES.get(name)
         if kind is None:
             raise ValueError(f"{name} has no encoding")

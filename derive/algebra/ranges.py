@@ -70,6 +70,16 @@ def take_as_positive(expr: Expr) -> None:
         _POSITIVE.set((*_POSITIVE.get(), expr))
 
 
+def taken_as_positive() -> tuple[Expr, ...]:
+    """What has been taken to be positive so far."""
+    return _POSITIVE.get()
+
+
+def known_ranges() -> Mapping[Symbol, Range]:
+    """The letters that are known to lie in a range."""
+    return _KNOWN.get()
+
+
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
     """Whether nothing that is taken to be positive is otherwise there, as far as the point tells."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())

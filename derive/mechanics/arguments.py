@@ -16,6 +16,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 from sympy import Basic, Expr, Integer
 
 from derive.errors import Complaint, Rejected
+from derive.steps.record import current_run
 from derive.steps.step import Quantity
 
 _CALLED = {
@@ -45,7 +46,10 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
                 continue
             for each in values:
                 _check(verb.__name__, name, each, wanted.get(name, Any))
-        return verb(*given, **named)
+        run = current_run.get()
+        if run is None or run.memory is None:
+            return verb(*given, **named)
+        return run.memory.result(verb, arguments, run, lambda: verb(*given, **named))
 
     return looked_at
 

@@ -15,11 +15,12 @@ from derive.algebra.expressions import bound, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
-from derive.steps.record import current_run
+from derive.steps.record import current_run, question
 
 DIGITS = 30
 
 
+@question
 def with_numbers(expr: Expr) -> Expr:
     """The expression with the numbers behind its letters, as far as there are any."""
     run = current_run.get()

@@ -5,11 +5,12 @@ One letter is one quantity in a run, and what contains a coordinate, a rate or t
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
-from typing import Any
+from functools import wraps
+from typing import Any, Protocol, TypeVar
 
 from sympy import Expr, MatrixSymbol, Symbol
 
@@ -19,20 +20,40 @@ from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Quantity, same_value, value_behind
 
 
+class Recalling(Protocol):
+    """What knows the calls of verbs that were made before."""
+
+    def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any: ...
+
+
+@dataclass
+class Call:
+    """A call of a verb while it is made.
+
+    before   how many quantities were established before it
+    asked    what it has asked of the record, about what, and the answer
+    """
+
+    before: int
+    asked: list[tuple[str, tuple[Any, ...], Any]] = field(default_factory=list)
+
+
 @dataclass
 class Run:
     """What is known while a script runs, and what it leaves.
 
-    established   every quantity, in order
+    established   every quantity, in order; cases, for each of them that which it is a particular case of
     coordinates   those that it has named, with their kinds
     assumed       conditions that its letters leave open; in_words, those of them that a step tells
     drawings      what is to be seen
     numbers       behind the letters of its problem, as given
     places        where each given was written
     letters       that the problem has for what is given, for coordinates and for forces: no result takes them
+    memory        of calls of verbs that were made before; call, the one that is being made
     """
 
     established: list[Quantity] = field(default_factory=list)
+    cases: list[Quantity | None] = field(default_factory=list)
     coordinates: dict[Symbol, str] = field(default_factory=dict)
     assumed: list[Relation] = field(default_factory=list)
     in_words: list[Relation] = field(default_factory=list)
@@ -40,6 +61,8 @@ class Run:
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
     places: Mapping[str, Place] = field(default_factory=dict)
     letters: Collection[str] = ()
+    memory: Recalling | None = None
+    call: Call | None = None
 
 
 # what textbooks call a result too, where a problem has the usual letter for something else
@@ -74,6 +97,27 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
         current_run.reset(token)
 
 
+QUESTIONS: dict[str, Callable[..., Any]] = {}  # what a verb asks of the record, besides what every call is told by
+A = TypeVar("A")
+
+
+def question(answered: Callable[..., A]) -> Callable[..., A]:
+    """What a verb asks of the record is noted: where the answer is another, the verb is called again."""
+    QUESTIONS[answered.__name__] = answered
+
+    @wraps(answered)
+    def noted(*about: Any) -> A:
+        answer = answered(*about)
+        run = current_run.get()
+        if run is not None and run.call is not None:
+            each = (answered.__name__, about, answer)
+            if each not in run.call.asked:
+                run.call.asked.append(each)
+        return answer
+
+    return noted
+
+
 def coordinate_named(symbol: Symbol, kind: str) -> None:
     """A script has named a coordinate: from now on whatever contains it is known to move."""
     run = current_run.get()
@@ -81,6 +125,7 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
         run.coordinates[symbol] = kind
 
 
+@question
 def free_letter(name: str, *indices: str) -> str:
     """The letter of a result, with its index; another one where the problem has it, with any of the indices."""
     run = current_run.get()
@@ -94,6 +139,7 @@ def free_letter(name: str, *indices: str) -> str:
     return name
 
 
+@question
 def given_letters() -> set[str]:
     """The letters that the problem has for what is given, for coordinates and for forces."""
     run = current_run.get()
@@ -117,7 +163,15 @@ def assumed() -> list[Relation]:
 def established() -> list[Quantity]:
     """What this run has established so far."""
     run = current_run.get()
-    return list(run.established) if run is not None else []
+    own = run.established[run.call.before :] if run is not None and run.call is not None else []
+    return [*_established_before(), *own]
+
+
+@question
+def _established_before() -> tuple[Quantity, ...]:
+    """What it had established before the verb that asks was called."""
+    run = current_run.get()
+    return tuple(run.established[: run.call.before if run.call else None]) if run is not None else ()
 
 
 def named_coordinates() -> tuple[Symbol, ...]:
@@ -142,6 +196,7 @@ def add(quantity: Quantity, case_of: Quantity | None) -> None:
     _check_one_meaning(quantity, case_of, known, run.established if run else quantity.parents)
     if run is not None:
         run.established.append(quantity)
+        run.cases.append(case_of)
 
 
 def _check_one_meaning(

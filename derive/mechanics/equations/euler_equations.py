@@ -164,8 +164,12 @@ class RateOfMomentum(Fact):
     """The rate of an angular momentum: by the particles of the body, and the components of omega that change."""
 
     missing = "is not the rate of an angular momentum"
-    by_particles: Callable[[], Any]
+    of: RateByParticles
     moving: tuple[Symbol, ...]
+
+    def by_particles(self) -> Any:
+        """The sum of m r x a."""
+        return self.of.rate()
 
 
 @dataclass(frozen=True)
@@ -245,7 +249,7 @@ def rate_in_space(
     moving = list(omega.coordinates)
     motion = in_body.needed(MotionOfBody).motion if in_body else {}
     L, w = momentum, omega
-    turned, matter = CarriedRate(L.value, w.value, *moving), L.needed(RateByParticles).rate
+    turned, matter = CarriedRate(L.value, w.value, *moving), L.needed(RateByParticles)
 
     def law(momentum: Any, omega: Any, seen: Any = None) -> Any:
         return MatAdd(BodyRate(momentum, *moving) if seen is None else seen, Cross(omega, momentum))
@@ -271,7 +275,7 @@ def rate_in_space(
         ),
         routes={
             "carried_round": compared_with(lambda: bound(explicit(turned), motion)),
-            "matter": compared_with(lambda: bound(explicit(matter()), motion)),
+            "matter": compared_with(lambda: bound(explicit(matter.rate()), motion)),
             "fixed_direction": lambda value: (
                 explicit(Dot(value, column(*component_names("n")))),
                 along_fixed_direction(),

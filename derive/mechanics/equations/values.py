@@ -26,7 +26,7 @@ from derive.algebra.expressions import (
 from derive.algebra.kinds import KINDS
 from derive.algebra.tidy import size_and_rest, tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.rotation.vectors import RateByParticles, Through, length_by_turning
+from derive.mechanics.rotation.vectors import RateByParticles, RateOfSquare, Through, length_by_turning
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import coordinates_in
@@ -188,13 +188,10 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     )
 
 
-def _rate_of_square(of: Quantity) -> list[RateByParticles]:
+def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
     """d(v.v)/dt = 2 v.dv/dt, where the rate of the vector is known by particles."""
     known = of.fact(RateByParticles)
-    if known is None:
-        return []
-    v, in_any_axes = of.value, known.in_any_axes
-    return [RateByParticles(lambda: 2 * explicit(Dot(v, known.rate())), lambda N: 2 * in_any_axes(N))]
+    return [] if known is None else [RateOfSquare(of.value, known)]
 
 
 def let(

@@ -30,17 +30,24 @@ ZERO = Integer(0)
 class Disturbed(Fact):
     """A steady rotation about a principal axis that is disturbed.
 
-    axis          "x", "y" or "z"
-    speed         its rate
-    by_particles  sum of m r x a, of which each component vanishes
-    moving        components of the angular velocity
+    axis    "x", "y" or "z"
+    speed   its rate
+    of      the rate of its angular momentum, of which each component vanishes
     """
 
     missing = "is not an equation of a disturbed rotation"
     axis: int
     speed: Expr
-    by_particles: Callable[[], Any]
-    moving: tuple[Symbol, ...]
+    of: RateOfMomentum
+
+    @property
+    def moving(self) -> tuple[Symbol, ...]:
+        """The components of the angular velocity."""
+        return self.of.moving
+
+    def by_particles(self) -> Any:
+        """The sum of m r x a."""
+        return self.of.by_particles()
 
     @property
     def across(self) -> tuple[int, int]:
@@ -75,7 +82,7 @@ def linearised_rotation(
         raise Rejected(Complaint("no-such-axis", f'a body turns about "x", "y" or "z", not about "{axis}"'))
     require_constant("linearised_rotation", "rate", speed)
     of = _rate_of(equations)
-    disturbed = Disturbed(AXES.index(axis), speed, of.by_particles, of.moving)
+    disturbed = Disturbed(AXES.index(axis), speed, of)
     steady = {**disturbed.steadily, **{rate(w): ZERO for w in of.moving}}
     for equation in equations:
         if not is_zero(_left(equation).xreplace(steady)):

@@ -62,17 +62,64 @@ class Momentary(Fact):
     point: str
 
 
-@dataclass(frozen=True)
 class RateByParticles(Fact):
-    """The rate of change of a quantity of a body, without its equations of motion.
-
-    rate          what the particles contribute, by their accelerations
-    in_any_axes   the same for a torque N, of a body whose tensor is not diagonal
-    """
+    """The rate of change of a quantity of a body, without its equations of motion."""
 
     missing = "is not made of particles"
-    rate: Callable[[], Any]
-    in_any_axes: Callable[[Any], Any]
+
+    def rate(self) -> Any:
+        """What the particles contribute, by their accelerations."""
+        raise NotImplementedError
+
+    def in_any_axes(self, torque: Any) -> Any:
+        """The same for a torque, of a body whose tensor is not diagonal."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class RateOfEnergy(RateByParticles):
+    """d(1/2 w . I w)/dt is the sum of m v . a, and w . N."""
+
+    inertia: Quantity
+    omega: Quantity
+
+    def rate(self) -> Any:
+        acceleration = _acceleration(self.omega)
+        return _over_the_body(self.inertia, lambda r: Dot(Cross(self.omega.value, r), acceleration(r)))
+
+    def in_any_axes(self, torque: Any) -> Any:
+        w = self.omega.value
+        return explicit(Dot(w, torque)) + explicit(Dot(w, _left_by_turning(self.omega)[1]))
+
+
+@dataclass(frozen=True)
+class RateOfTurning(RateByParticles):
+    """d(I w)/dt is the sum of m r x a; along L it is L . N."""
+
+    inertia: Quantity
+    omega: Quantity
+
+    def rate(self) -> Any:
+        acceleration = _acceleration(self.omega)
+        return _over_the_body(self.inertia, lambda r: Cross(r, acceleration(r)))
+
+    def in_any_axes(self, torque: Any) -> Any:
+        momentum = applied(self.inertia.value, self.omega.value)
+        return explicit(Dot(momentum, torque)) + explicit(Dot(*_left_by_turning(self.omega)))
+
+
+@dataclass(frozen=True)
+class RateOfSquare(RateByParticles):
+    """d(v.v)/dt = 2 v.dv/dt."""
+
+    vector: Any
+    of: RateByParticles
+
+    def rate(self) -> Any:
+        return 2 * explicit(Dot(self.vector, self.of.rate()))
+
+    def in_any_axes(self, torque: Any) -> Any:
+        return 2 * self.of.in_any_axes(torque)
 
 
 def any_angular_velocity(through: str = "centre", symbol: str = "omega", key: str = "angular_velocity") -> Quantity:
@@ -200,7 +247,6 @@ def kinetic_energy(
     def by_speeds() -> Expr:
         return _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), Cross(omega.value, r))) / 2
 
-    acceleration = _acceleration(omega)
     product = scaled(*factored_matrix(tidied(applied(inertia.value, omega.value))))
     return establish(
         "rotation.kinetic_energy",
@@ -215,12 +261,7 @@ def kinetic_energy(
         key=key,
         kind="energy",
         telling=Telling(words=words),
-        facts=[
-            RateByParticles(
-                lambda: _over_the_body(inertia, lambda r: Dot(Cross(omega.value, r), acceleration(r))),
-                lambda N: explicit(Dot(omega.value, N)) + explicit(Dot(omega.value, _left_by_turning(omega)[1])),
-            )
-        ],
+        facts=[RateOfEnergy(inertia, omega)],
     )
 
 
@@ -235,7 +276,6 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
     words = _check_point("angular_momentum", inertia, omega)
-    acceleration = _acceleration(omega)
     by_moments = compared_with(lambda: _over_the_body(inertia, lambda r: Cross(r, Cross(omega.value, r))))
     return establish(
         "rotation.angular_momentum",
@@ -247,15 +287,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         key=key,
         kind="angular momentum",
         telling=Telling(words=words),
-        facts=[
-            inertia.needed(AboutPoint),
-            RateByParticles(
-                lambda: _over_the_body(inertia, lambda r: Cross(r, acceleration(r))),
-                lambda N: (
-                    explicit(Dot(applied(inertia.value, omega.value), N)) + explicit(Dot(*_left_by_turning(omega)))
-                ),
-            ),
-        ],
+        facts=[inertia.needed(AboutPoint), RateOfTurning(inertia, omega)],
     )
 
 

@@ -1,0 +1,148 @@
+"""Calls of verbs that were made before: what they gave is taken from there, with all that they left on the record.
+
+A verb gives the same again where it is given the same, where as much is known of the letters, and where all that it
+asks of the record has the same answer. What it is given is told by digests of the content, so a call is recalled
+although its arguments were derived anew. What has no description, such as a function of a script, is derived.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from hashlib import sha256
+from typing import Any, Protocol
+
+from derive.algebra.ranges import known_ranges, take_as_positive, taken_as_positive
+from derive.steps.objects import NoDescription, Objects
+from derive.steps.record import QUESTIONS, Call, Run, add, assume
+
+
+class Store(Protocol):
+    """Where the texts of calls are kept."""
+
+    def recalled(self, key: str) -> str | None: ...
+
+    def keep(self, key: str, text: str) -> None: ...
+
+
+@dataclass(frozen=True)
+class _State:
+    """What a call may change: how much there was of it, and which steps the arguments had found for themselves."""
+
+    assumed: int
+    in_words: int
+    positive: int
+    found: list[tuple[str, str, Any]]
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A call by the digest of all that decides it, the objects in that, and the steps that these had found."""
+
+    key: str
+    objects: list[str]
+    found: list[tuple[str, str, Any]]
+
+
+@dataclass(frozen=True)
+class _State:
+    """How much stood on the record before a call."""
+
+    established: int
+    assumed: int
+    in_words: int
+    positive: int
+
+    @classmethod
+    def of(cls, run: Run) -> _State:
+        return cls(len(run.established), len(run.assumed), len(run.in_words), len(taken_as_positive()))
+
+
+@dataclass
+class Memory:
+    """The calls of one run: the store in which they are kept, and the objects by which they are told."""
+
+    store: Store
+    objects: Objects = field(default_factory=Objects)
+    made: set[str] = field(default_factory=set)
+
+    def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
+        """What a call gives, recalled or made now; a call within another is a part of that one."""
+        if run.call is not None:
+            return make()
+        run.call = Call(len(run.established))
+        try:
+            return self._result(verb, given, run, make)
+        finally:
+            run.call = None
+
+    def _result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
+        asked = self._asked(verb, given, run)
+        if asked is None or asked.key in self.made:  # what is made twice is two things
+            return make()
+        self.made.add(asked.key)
+        left = self._recalled(asked.key)
+        if left is not None:
+            return self._put_on_record(left, run)
+        before = _State.of(run)
+        result = make()
+        if len(run.established) > before.established:  # a noun is made faster than it is read
+            with suppress(NoDescription, RecursionError):
+                self.store.keep(asked.key, self._left(result, asked, before, run))
+        return result
+
+    def _asked(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run) -> _Asked | None:
+        known = (run.coordinates, run.assumed, run.in_words, tuple(known_ranges().items()), taken_as_positive())
+        try:
+            told, objects = self.objects.described((verb, dict(given), *known))
+            found = self.objects.found_once(self.objects.below(objects))
+            text = json.dumps([told, self.objects.described(tuple(found))[0]])
+        except (NoDescription, RecursionError):
+            return None
+        return _Asked(sha256(text.encode()).hexdigest(), objects, found)
+
+    def _left(self, result: Any, asked: _Asked, before: _State, run: Run) -> str:
+        """All that a call left, as text, with the objects that it made."""
+        assert run.call is not None
+        steps = tuple(zip(run.established, run.cases, strict=True))[before.established :]
+        conditions = tuple((each, each in run.in_words[before.in_words :]) for each in run.assumed[before.assumed :])
+        left = (tuple(run.call.asked), steps, conditions, taken_as_positive()[before.positive :], result)
+        data, objects = self.objects.described(left)
+        known = self.objects.below(asked.objects)
+        everything = {**known, **self.objects.below(objects)}
+        found = [each for each in self.objects.found_once(everything) if each not in asked.found]
+        data_found, objects_found = self.objects.described(tuple(found))
+        made = [each for each in self.objects.below([*objects, *objects_found]) if each not in known]
+        return json.dumps([self.objects.texts(made), data, data_found])
+
+    def _recalled(self, key: str) -> tuple[Any, ...] | None:
+        """What a call left, read; nothing if it was not made, or if the record now says otherwise what it asked."""
+        kept = self.store.recalled(key)
+        if kept is None:
+            return None
+        try:
+            texts, *data = json.loads(kept)
+            for name, text in texts:
+                self.objects.enter(name, text)
+            (questions, *left), found = map(self.objects.read, data)
+            same = all(self._data(QUESTIONS[name](*about)) == self._data(answer) for name, about, answer in questions)
+        except (NoDescription, ValueError, RecursionError):
+            return None
+        return (*left, found) if same else None
+
+    def _data(self, value: Any) -> Any:
+        return self.objects.described(value)[0]
+
+    def _put_on_record(self, left: tuple[Any, ...], run: Run) -> Any:
+        steps, conditions, positive, result, found = left
+        for quantity, case_of in steps:
+            add(quantity, case_of)
+        for condition, in_words in conditions:
+            assume(condition, in_words)
+        for each in positive:
+            take_as_positive(each)
+        for name, key, value in found:
+            self.objects.has_found(name, key, value)
+        return result

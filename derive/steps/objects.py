@@ -1,0 +1,233 @@
+"""Objects of derive as data, there and back: quantities, bodies, systems, and all that they hold.
+
+An object goes by a name, the digest of its class and of its content, in which other objects stand by their names. So
+what two objects share is one object again when they are read back, and two quantities that are alike stay two. What
+an object computes when it is asked for it first is no part of it.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Mapping
+from enum import Enum
+from functools import cache, cached_property
+from hashlib import sha256
+from importlib import import_module
+from types import FunctionType
+from typing import Any
+
+from sympy import Basic, Dummy, MatrixBase
+
+from derive.algebra.encoding import decoded, encoded
+from derive.steps.step import Evidence, Form, Quantity
+
+PLAIN = (str, bool, int, float, type(None))
+GATHERED: Mapping[str, Any] = {"list": list, "set": set, "frozenset": frozenset}
+VALUES = (Form, Evidence)  # so many and so small that a name for each would not pay
+
+
+class NoDescription(Exception):
+    """There is no description of this, or not of all that it is made of; or nothing here is described so."""
+
+
+class Objects:
+    """The objects that a run has met, and the letters that equal no other letter, by their names."""
+
+    def __init__(self) -> None:
+        self._objects: dict[str, Any] = {}
+        self._names: dict[int, str] = {}
+        self._texts: dict[str, str] = {}
+        self._parts: dict[str, list[str]] = {}  # of what an object is made
+        self._told: list[str] = []  # what stands in the description that is being made
+        self._expressions: dict[Any, tuple[Any, list[str]]] = {}
+        self._letters: dict[Dummy, str] = {}
+        self._met: list[Any] = []  # so that none of them leaves its identity to another
+
+    def described(self, value: Any) -> tuple[Any, list[str]]:
+        """Data of JSON in which objects stand by their names, and these names; raises `NoDescription`."""
+        before, self._told = self._told, []
+        try:
+            return self._data(value), self._told
+        finally:
+            self._told = before
+
+    def _data(self, value: Any) -> Any:
+        kind = type(value)
+        if kind in PLAIN:
+            return value
+        if isinstance(value, Basic | MatrixBase):
+            return {"expr": self._expression(value)}
+        if kind is tuple:
+            return [self._data(each) for each in value]
+        if GATHERED.get(kind.__name__) is kind:
+            found = [self._data(each) for each in value]
+            return {"all": kind.__name__, "of": found if kind is list else sorted(found, key=json.dumps)}
+        if kind is dict:
+            return {"map": [[self._data(key), self._data(each)] for key, each in value.items()]}
+        if isinstance(value, Enum):
+            return {"one": _place(kind), "value": value.value}
+        if isinstance(value, type | FunctionType):
+            return {"code": _place(value)}
+        if isinstance(value, VALUES):
+            return {"is": _place(kind), "with": self._content(value)}
+        name = self._name(value)
+        self._told.append(name)
+        return {"#": name}
+
+    def _content(self, value: Any) -> dict[str, Any]:
+        if not hasattr(value, "__dict__") or isinstance(value, str | tuple | list | dict):
+            raise NoDescription(f"of {type(value).__name__}")
+        lazy = _lazy(type(value))
+        return {key: self._data(each) for key, each in sorted(vars(value).items()) if key not in lazy}
+
+    def _expression(self, value: Any) -> Any:
+        if value not in self._expressions:
+            letters: list[str] = []
+            try:
+                data = encoded(value, lambda letter: self._letter(letter, letters))
+            except TypeError as error:
+                raise NoDescription(str(error)) from None
+            self._expressions[value] = data, letters
+        data, letters = self._expressions[value]
+        self._told += letters
+        return data
+
+    def _letter(self, letter: Dummy, told: list[str]) -> str:
+        """The name of a letter that equals no other, although that be called the same."""
+        known = self._letters.get(letter)
+        if known is None:
+            alike = sum(each.name == letter.name for each in self._letters)
+            known = f"{json.dumps([letter.name, letter.assumptions0], sort_keys=True)} {alike}"
+            self._letters[letter] = known
+            self._objects[known], self._parts[known] = letter, []
+        told.append(known)
+        return known
+
+    def _name(self, value: Any) -> str:
+        known = self._names.get(id(value))
+        if known is not None:
+            return known
+        content, parts = self._apart(value)
+        text = json.dumps([_place(type(value)), content])
+        name = plain = sha256(text.encode()).hexdigest()[:32]
+        count = 0
+        while name in self._objects and type(value).__eq__ is object.__eq__:
+            count += 1
+            name = f"{plain}.{count}"
+        self._enter(name, value, text, parts)
+        return name
+
+    def _apart(self, value: Any) -> tuple[Any, list[str]]:
+        before, self._told = self._told, []
+        try:
+            return self._content(value), self._told
+        finally:
+            self._told = before
+
+    def _enter(self, name: str, value: Any, text: str, parts: list[str]) -> None:
+        self._met.append(value)
+        self._names[id(value)] = name
+        self._objects.setdefault(name, value)
+        self._texts[name] = text
+        self._parts[name] = parts
+
+    def below(self, names: Iterable[str]) -> dict[str, None]:
+        """These objects and letters, and all that they are made of, parts first."""
+        found: dict[str, None] = {}
+        waiting = [(name, False) for name in reversed(list(names))]
+        while waiting:
+            name, is_done = waiting.pop()
+            if is_done:
+                found[name] = None
+            elif name not in found:
+                waiting.append((name, True))
+                waiting += [(part, False) for part in self._parts[name] if part not in found]
+        return found
+
+    def texts(self, names: Iterable[str]) -> list[tuple[str, str]]:
+        """What `enter` makes these objects from; a letter is not made again, for it would be another."""
+        for name in names:
+            if name not in self._texts:
+                raise NoDescription(f"of {name}, which nobody else has")
+        return [(name, self._texts[name]) for name in names]
+
+    def enter(self, name: str, text: str) -> None:
+        """The object of that name and text is among them, made now if it was not."""
+        if name in self._objects:
+            return
+        place, content = json.loads(text)
+        value = object.__new__(_at(place))
+        parts: list[str] = []
+        vars(value).update({key: self.read(each, parts) for key, each in content.items()})
+        self._enter(name, value, text, parts)
+
+    def read(self, data: Any, told: list[str] | None = None) -> Any:
+        """What was described, with the names of objects and letters in it; raises `NoDescription`."""
+        told = [] if told is None else told
+        if isinstance(data, list):
+            return tuple(self.read(each, told) for each in data)
+        if not isinstance(data, dict):
+            return data
+        if "expr" in data:
+            return decoded(data["expr"], lambda name: self._known(name, told))
+        if "#" in data:
+            return self._known(data["#"], told)
+        if "is" in data:
+            return _at(data["is"])(**{key: self.read(each, told) for key, each in data["with"].items()})
+        if "all" in data:
+            return GATHERED[data["all"]](self.read(each, told) for each in data["of"])
+        if "map" in data:
+            return {self.read(key, told): self.read(each, told) for key, each in data["map"]}
+        return _at(data["one"])(data["value"]) if "one" in data else _at(data["code"])
+
+    def _known(self, name: str, told: list[str]) -> Any:
+        if name not in self._objects:
+            raise NoDescription(f"nothing is called {name}")
+        told.append(name)
+        return self._objects[name]
+
+    def found_once(self, names: Iterable[str]) -> list[tuple[str, str, Any]]:
+        """The steps that these objects have found when they were asked first: of which object, as what, and which."""
+        objects = ((name, self._objects[name]) for name in names if name in self._texts)
+        return [
+            (name, key, vars(each)[key])
+            for name, each in objects
+            for key in sorted(_lazy(type(each)) & vars(each).keys())
+            if _holds_steps(vars(each)[key])
+        ]
+
+    def has_found(self, name: str, key: str, value: Any) -> None:
+        """The object need not find this again."""
+        vars(self._objects[name]).setdefault(key, value)
+
+
+def _holds_steps(value: Any) -> bool:
+    return any(isinstance(each, Quantity) for each in (value.values() if isinstance(value, dict) else [value]))
+
+
+@cache
+def _lazy(kind: type) -> frozenset[str]:
+    """What an object of the class computes when it is asked for it first."""
+    return frozenset(n for each in kind.__mro__ for n, v in vars(each).items() if isinstance(v, cached_property))
+
+
+@cache
+def _place(code: Any) -> str:
+    """Where a class or a function of derive stands."""
+    place = f"{code.__module__}:{code.__qualname__}"
+    if _at(place) is not code:
+        raise NoDescription(f"of {place}")
+    return place
+
+
+@cache
+def _at(place: str) -> Any:
+    """The class or function of derive that stands there."""
+    module, _, name = place.partition(":")
+    if module.partition(".")[0] != "derive":
+        raise NoDescription(f"of {place}")
+    found: Any = sys.modules.get(module) or import_module(module)
+    for part in name.split("."):
+        found = getattr(found, part, None)
+    return found
