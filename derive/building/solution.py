@@ -16,6 +16,7 @@ from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import IN_DEGREES, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
+from derive.building.calls import calls_of
 from derive.building.drawn import drawing_files
 from derive.building.solved import Solved, steps_key
 from derive.course.parts import Question, points_text
@@ -47,6 +48,7 @@ from derive.steps.derivation import (
     with_ancestors,
 )
 from derive.steps.homogeneity import dimension_table
+from derive.steps.memory import Memory
 from derive.steps.numeric import coefficient_of, comparison_of, is_plain, value_of
 from derive.steps.step import Level, Quantity, Step
 
@@ -99,7 +101,8 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
     kept = Solved.from_data(cache.recalled_data(key))
     if kept is not None:
         return kept, ()
-    derivation, values, known, run = derived(problem)
+    with calls_of(problem.id, cache) as memory:
+        derivation, values, known, run = derived(problem, memory)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.remark() for c in compared), tuple(run.drawings))
@@ -126,9 +129,11 @@ def _refers_to_problems(problem: Problem) -> bool:
     return any(mention.of == PROBLEM for prose in problem.texts for mention in prose.mentions)
 
 
-def derived(problem: Problem) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
+def derived(
+    problem: Problem, memory: Memory | None = None
+) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """The steps behind every answer, the step that gives each answer its number, all steps by key, and the record."""
-    run = record.Run()
+    run = record.Run(memory=memory)
     returned = run_solve(problem, run)
     known = with_ancestors(returned_quantities(returned, problem.script.returns), problem.script.returns)
     groups = returned_groups(returned, problem.script.returns)

@@ -1,0 +1,66 @@
+"""The calls of verbs that builds keep of a problem: many small texts, in one value that each build replaces.
+
+Only what a build derives opens it. What the last build used is kept, and of earlier ones as much as there is room for:
+an edit that is taken back finds what it had.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from derive.building.cache import Cache, digest, engine_digest
+from derive.steps.memory import Memory
+
+ROOM = 2 * 1024 * 1024  # characters of what was not used last
+
+
+@dataclass
+class Calls:
+    """The texts of calls by their keys, as kept before, and those that are used now."""
+
+    cache: Cache
+    key: str
+    used: dict[str, str] = field(default_factory=dict)
+    has_more: bool = False
+
+    @cached_property
+    def earlier(self) -> dict[str, str]:
+        """What was used last comes first."""
+        return dict(self.cache.recalled_data(self.key) or {})
+
+    def recalled(self, key: str) -> str | None:
+        text = self.earlier.get(key)
+        if text is not None:
+            self.used[key] = text
+        return text
+
+    def keep(self, key: str, text: str) -> None:
+        self.used[key] = text
+        self.has_more = True
+
+    def save(self) -> None:
+        if not self.has_more:
+            return
+        kept, room = dict(self.used), ROOM
+        for key, text in self.earlier.items():
+            room -= 0 if key in kept else len(text)
+            if room < 0:
+                break
+            kept.setdefault(key, text)
+        self.cache.keep_data(self.key, kept)
+
+
+@contextmanager
+def calls_of(problem_id: str, cache: Cache) -> Iterator[Memory | None]:
+    """The memory of a problem's calls, kept again behind it, also where the script failed; none without a cache."""
+    if cache.folder is None:
+        yield None
+        return
+    calls = Calls(cache, digest("calls", problem_id, engine_digest("sympy", "mpmath")))
+    try:
+        yield Memory(calls)
+    finally:
+        calls.save()
