@@ -83,10 +83,13 @@ class Cache:
         return sealed.data_of(self.recalled(key))
 
     def keep(self, key: str, content: bytes) -> None:
-        """Keep it, and let go what was used longest ago if that is too much."""
-        if self.folder is None:
+        if self.folder is not None:
+            sealed.seal(self.folder / key, key, content)
+
+    def let_go(self) -> None:
+        """Let go what was used longest ago, if there is too much; once for a build, for it lists all that is there."""
+        if self.folder is None or not self.folder.is_dir():
             return
-        sealed.seal(self.folder / key, key, content)
         room = self.limit
         for _, size, file in sorted(map(_facts, self.folder.iterdir()), reverse=True):
             if size <= room:

@@ -34,6 +34,7 @@ from derive.render.rendered import Files, Rendered
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
+CACHE = ".derived"  # where a set keeps what its builds did
 # What the Makefile has other rules for, as targets or as folders.
 TARGETS = frozenset(
     [
@@ -124,12 +125,12 @@ def built_set(root: Path, set_id: str, options: Options, tell: Callable[[str], N
             raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
         problem_set(root, set_id)  # which says so, with the nearest name
     outputs = folder(set_folder(root, set_id))
-    with _alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+    with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
         return _Build(root, set_id, options, engine, outputs, tell).report()
 
 
 @contextmanager
-def _alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
+def alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
     """One build of a set at a time. A lock of this kind is not inherited by workers, and dies with its process."""
     path = outputs / ".lock"
     with writing(path):  # neither through a link, nor waiting for the other end of a pipe
@@ -157,7 +158,7 @@ class _Build:
         self.started = time.time_ns()
         templates = [folder_digest(each / "templates") for each in (root, FOLDER, FOLDER.parent)]
         self.recipe = digest(engine_digest(*PACKAGES), *templates, options.detail or "")
-        self.cache = Cache(outputs / ".derived", fresh=options.force)
+        self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
@@ -210,6 +211,7 @@ class _Build:
             finally:
                 # An interrupted build saves what it has finished, and is not complete.
                 self.manifest.save()
+                self.cache.let_go()
 
     def _tick(self, running: list[str]) -> None:
         done = f"{len(self.derived)} of {len(self.names)} derived"

@@ -57,7 +57,5 @@ def steps_key(problem: Problem) -> str:
     files = [problem.root / problem.script_path, problem.root / reference_path(problem)]
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     asked = [(part.answers, sorted((str(key), form) for key, form in part.forms.items())) for part in problem.parts]
-    facts = repr(
-        (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
-    )
-    return digest("steps", engine_digest("sympy", "mpmath"), *texts, facts)
+    facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
+    return digest("steps", engine_digest("sympy", "mpmath"), *texts, problem.reference, repr(facts))

@@ -374,6 +374,17 @@ def _listed(paths: Sequence[str], most: int = 12) -> str:
     return f"{', '.join(last)} and {len(paths) - len(last)} others beside {'them' if len(last) > 1 else 'it'}"
 
 
+def _clean(arguments: argparse.Namespace) -> int:
+    from derive.building.cleaning import cleaned
+    from derive.building.files import shown_path
+
+    sets = [name.removeprefix("build/").rstrip("/") for name in arguments.sets]
+    for folder, size in cleaned(_root(arguments), sets, arguments.cache, lambda name: tell(f"waiting for `{name}`")):
+        tell("")
+        print(f"removed {shown_path(folder)} ({size / 1e6:.1f} MB)")
+    return 0
+
+
 def _doctor(arguments: argparse.Namespace) -> int:
     from derive.building.doctor import findings
 
@@ -389,5 +400,6 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "explain": _explain,
     "check": _check,
     "build": _build,
+    "clean": _clean,
     "doctor": _doctor,
 }

@@ -65,6 +65,9 @@ def _parser() -> argparse.ArgumentParser:
     build = command("build", "typeset sets of problems; only what changed is done again")
     build.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
     build.add_argument("--force", action="store_true", help="do everything again")
+    clean = command("clean", "remove what builds made; what you wrote stays")
+    clean.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
+    clean.add_argument("--cache", action="store_true", help="only what is kept for the next build; documents stay")
     doctor = command("doctor", "show what a build needs and what is missing")
     for sub in (solve, build):
         sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")

@@ -28,22 +28,12 @@ class Store(Protocol):
 
 
 @dataclass(frozen=True)
-class _State:
-    """What a call may change: how much there was of it, and which steps the arguments had found for themselves."""
-
-    assumed: int
-    in_words: int
-    positive: int
-    found: list[tuple[str, str, Any]]
-
-
-@dataclass(frozen=True)
 class _Asked:
     """A call by the digest of all that decides it, the objects in that, and the steps that these had found."""
 
     key: str
     objects: list[str]
-    found: list[tuple[str, str, Any]]
+    found: list[Any]
 
 
 @dataclass(frozen=True)
@@ -97,8 +87,8 @@ class Memory:
         known = (run.coordinates, run.assumed, run.in_words, tuple(known_ranges().items()), taken_as_positive())
         try:
             told, objects = self.objects.described((verb, dict(given), *known))
-            found = self.objects.found_once(self.objects.below(objects))
-            text = json.dumps([told, self.objects.described(tuple(found))[0]])
+            found = [self._data(each) for each in self.objects.found_once(self.objects.below(objects))]
+            text = json.dumps([told, found])
         except (NoDescription, RecursionError):
             return None
         return _Asked(sha256(text.encode()).hexdigest(), objects, found)
@@ -111,9 +101,9 @@ class Memory:
         left = (tuple(run.call.asked), steps, conditions, taken_as_positive()[before.positive :], result)
         data, objects = self.objects.described(left)
         known = self.objects.below(asked.objects)
-        everything = {**known, **self.objects.below(objects)}
-        found = [each for each in self.objects.found_once(everything) if each not in asked.found]
-        data_found, objects_found = self.objects.described(tuple(found))
+        now = self.objects.found_once({**known, **self.objects.below(objects)})
+        found = tuple(each for each in now if self._data(each) not in asked.found)
+        data_found, objects_found = self.objects.described(found)
         made = [each for each in self.objects.below([*objects, *objects_found]) if each not in known]
         return json.dumps([self.objects.texts(made), data, data_found])
 

@@ -20,9 +20,10 @@ from typing import Any
 from sympy import Basic, Dummy, MatrixBase
 
 from derive.algebra.encoding import decoded, encoded
-from derive.steps.step import Evidence, Form, Quantity
+from derive.algebra.equality import Evidence
+from derive.steps.step import Form, Quantity
 
-PLAIN = (str, bool, int, float, type(None))
+PLAIN: tuple[Any, ...] = (str, bool, int, float, type(None))
 GATHERED: Mapping[str, Any] = {"list": list, "set": set, "frozenset": frozenset}
 VALUES = (Form, Evidence)  # so many and so small that a name for each would not pay
 
@@ -53,14 +54,14 @@ class Objects:
             self._told = before
 
     def _data(self, value: Any) -> Any:
-        kind = type(value)
+        kind = _class_of(value)
         if kind in PLAIN:
             return value
         if isinstance(value, Basic | MatrixBase):
             return {"expr": self._expression(value)}
         if kind is tuple:
             return [self._data(each) for each in value]
-        if GATHERED.get(kind.__name__) is kind:
+        if kind in GATHERED.values():
             found = [self._data(each) for each in value]
             return {"all": kind.__name__, "of": found if kind is list else sorted(found, key=json.dumps)}
         if kind is dict:
@@ -78,7 +79,7 @@ class Objects:
     def _content(self, value: Any) -> dict[str, Any]:
         if not hasattr(value, "__dict__") or isinstance(value, str | tuple | list | dict):
             raise NoDescription(f"of {type(value).__name__}")
-        lazy = _lazy(type(value))
+        lazy = _lazy(_class_of(value))
         return {key: self._data(each) for key, each in sorted(vars(value).items()) if key not in lazy}
 
     def _expression(self, value: Any) -> Any:
@@ -109,10 +110,11 @@ class Objects:
         if known is not None:
             return known
         content, parts = self._apart(value)
-        text = json.dumps([_place(type(value)), content])
+        kind = _class_of(value)
+        text = json.dumps([_place(kind), content])
         name = plain = sha256(text.encode()).hexdigest()[:32]
         count = 0
-        while name in self._objects and type(value).__eq__ is object.__eq__:
+        while name in self._objects and not _is_its_content(kind):
             count += 1
             name = f"{plain}.{count}"
         self._enter(name, value, text, parts)
@@ -193,7 +195,7 @@ class Objects:
         return [
             (name, key, vars(each)[key])
             for name, each in objects
-            for key in sorted(_lazy(type(each)) & vars(each).keys())
+            for key in sorted(_lazy(_class_of(each)) & vars(each).keys())
             if _holds_steps(vars(each)[key])
         ]
 
@@ -206,8 +208,17 @@ def _holds_steps(value: Any) -> bool:
     return any(isinstance(each, Quantity) for each in (value.values() if isinstance(value, dict) else [value]))
 
 
+def _class_of(value: Any) -> Any:
+    return type(value)
+
+
+def _is_its_content(kind: Any) -> bool:
+    """Whether objects of the class are equal where their content is."""
+    return kind.__eq__ is not object.__eq__
+
+
 @cache
-def _lazy(kind: type) -> frozenset[str]:
+def _lazy(kind: Any) -> frozenset[str]:
     """What an object of the class computes when it is asked for it first."""
     return frozenset(n for each in kind.__mro__ for n, v in vars(each).items() if isinstance(v, cached_property))
 
@@ -215,7 +226,7 @@ def _lazy(kind: type) -> frozenset[str]:
 @cache
 def _place(code: Any) -> str:
     """Where a class or a function of derive stands."""
-    place = f"{code.__module__}:{code.__qualname__}"
+    place = f"{code.__module__}:{getattr(code, '__qualname__', '')}"
     if _at(place) is not code:
         raise NoDescription(f"of {place}")
     return place

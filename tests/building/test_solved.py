@@ -10,7 +10,8 @@ import pytest
 from derive.building import solution
 from derive.building.cache import Cache
 from derive.building.solution import rendered
-from derive.building.solved import Solved
+from derive.building.solved import Solved, steps_key
+from derive.course.problem import load_problem
 from derive.render.rendered import Rendered
 from tests.courses import course_in
 
@@ -25,8 +26,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> tuple[Rendered, Path]:
     """The page of the course as it is, and the one file that is kept of it: derived once for all tests."""
     course = course_in(tmp_path_factory.mktemp("known"))
     page = rendered(course, "hw9/block", None, Cache(course / "kept"))
-    (file,) = (course / "kept").iterdir()
-    return page, file
+    return page, course / "kept" / steps_key(load_problem(course, "hw9/block"))
 
 
 @pytest.fixture
@@ -100,6 +100,16 @@ def test_a_changed_reference_is_compared_anew(course: Path, kept: Cache, monkeyp
         rendered(course, "hw9/block", None, kept)
 
 
+def test_a_changed_reference_of_its_own_is_compared_anew(course: Path) -> None:
+    own = "reference:\n  source: a book\n  entries: [{part: 2, answer: kinetic_energy, states: 1}]\n"
+    file = course / "problems" / "hw9" / "block.yaml"
+    keys = []
+    for text in (file.read_text(), file.read_text() + own, file.read_text() + own.replace("states: 1", "states: 2")):
+        file.write_text(text)
+        keys.append(steps_key(load_problem(course, "hw9/block")))
+    assert len(set(keys)) == 3
+
+
 def test_a_damaged_file_is_as_good_as_none(
     course: Path, kept: Cache, known: tuple[Rendered, Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -130,7 +140,7 @@ def test_what_differs_from_its_reference_is_not_kept_and_told_again(course: Path
     )
     page = rendered(course, "hw9/block", None, Cache(course / "kept"))
     assert (page.agreed, bool(page.warnings)) == (False, True)
-    assert not (course / "kept").exists()
+    assert not (course / "kept" / steps_key(load_problem(course, "hw9/block"))).exists()
 
 
 @pytest.mark.parametrize("data", [None, [], {}, {"derivation": 3}, {"values": {"steps": []}}])
@@ -146,4 +156,4 @@ def test_what_json_cannot_hold_is_derived_and_not_kept(
 
     monkeypatch.setattr(Solved, "to_data", refuse)
     assert rendered(course, "hw9/block", None, Cache(course / "kept")) == known[0]
-    assert not (course / "kept").exists()
+    assert not (course / "kept" / known[1].name).exists()

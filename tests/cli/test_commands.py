@@ -273,6 +273,29 @@ def test_the_root_is_found_above_and_by_name(
     assert main(["solve", "hw1/one"]) == 0
 
 
+def test_clean_takes_away_what_builds_made(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["build", "--engine", "pdflatex", "hw1"]) == 0
+    capfd.readouterr()
+    assert main(["clean", "--cache", "build/hw1/"]) == 0
+    out, err = capfd.readouterr()
+    assert re.fullmatch(r"removed .*build/hw1/\.derived \(\d+\.\d MB\)\n", out)
+    assert err == ""
+    assert (course.outputs / "one.pdf").exists()
+    assert not (course.outputs / ".derived").exists()
+    assert main(["build", "--engine", "pdflatex", "hw1"]) == 0, "which still knows that all is current"
+    assert main(["clean"]) == 0
+    assert not course.outputs.exists()
+    assert (course.root / "problems" / "hw1").exists()
+    capfd.readouterr()
+    assert main(["clean"]) == 0
+    assert capfd.readouterr() == ("", "")
+
+
+def test_clean_knows_no_set_of_another_name(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["clean", "hw"]) == 2
+    assert "error[no-such-set]: there is no set `hw`, and nothing built of one" in capfd.readouterr().err
+
+
 def test_doctor_names_the_engine_and_where_it_is(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor"]) == 0
     out = capfd.readouterr().out

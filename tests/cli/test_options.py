@@ -75,7 +75,7 @@ def test_each_command_has_help_of_its_own(capsys: pytest.CaptureFixture[str]) ->
         main(["--help"])
     assert ended.value.code == 0
     whole = capsys.readouterr().out
-    for command in ("list", "solve", "check", "build", "doctor"):
+    for command in ("list", "solve", "check", "build", "clean", "doctor"):
         assert f"\n    {command} " in whole
         with pytest.raises(SystemExit):
             main([command, "--help"])

@@ -1,0 +1,40 @@
+"""What builds made, taken away again: the folders of sets, or only what is kept there from one build to the next."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+from derive.building.files import writing
+from derive.building.sets import CACHE, alone, set_names
+from derive.errors import Complaint, Misused, did_you_mean
+
+
+def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
+    """The folders that were removed, each with its size in bytes; a set that is being built is waited for.
+
+    sets    those whose folders are meant; every folder below `build` if none is named
+    cache   that documents stay, and only what is kept for the next build goes
+    """
+    build = root / "build"
+    folders = [path for path in sorted(build.glob("*")) if path.is_dir() and not path.is_symlink()]
+    known = {*set_names(root), *(path.name for path in folders)}
+    for name in sets:
+        if name not in known:
+            help_line = did_you_mean(name, known)
+            raise Misused(
+                Complaint("no-such-set", f"there is no set `{name}`, and nothing built of one", help=help_line)
+            )
+    meant = [path for path in folders if not sets or path.name in sets]
+    found = []
+    for outputs in meant:
+        with alone(outputs, partial(waiting, outputs.name)):
+            folder = outputs / CACHE if cache else outputs
+            if folder.is_dir() and not folder.is_symlink():
+                size = sum(each.lstat().st_size for each in folder.rglob("*") if not each.is_dir())
+                with writing(folder):
+                    shutil.rmtree(folder)
+                found.append((folder, size))
+    return found
