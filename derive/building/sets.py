@@ -190,6 +190,10 @@ class _Build:
                     self.manifest.forget(name)
                 for name in self.names:
                     self._derive(name)
+                if len(self.then) > 1:  # what all of them draw with is loaded once
+                    from derive.render.drawing.lettering import letters_of
+
+                    letters_of(["$x$"])
                 self._whole()
                 for outcome in self.crew.outcomes():
                     self.then.pop(outcome.job)(outcome)
