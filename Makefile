@@ -5,6 +5,9 @@
 .SUFFIXES:
 MAKEFLAGS += --no-builtin-rules
 PYTHON := .venv/bin/python
+# What Python compiles is kept beside the sources, also where the environment says not to: it would compile a second long
+# at every start, and the tests start it a hundred times.
+export PYTHONDONTWRITEBYTECODE :=
 
 # Names are words of rules and of commands: of sets and files, those with other characters are not named here, and no
 # set may have the name of another target. What lies in build/ is read as words, never as rules.
@@ -61,7 +64,7 @@ test: .venv/.tests
 	@$(PYTHON) -m ruff check --quiet .
 	@$(PYTHON) -m ruff format --quiet --check .
 	@$(PYTHON) -m mypy --no-error-summary
-	@$(PYTHON) -m pytest -n 2
+	@$(PYTHON) -m pytest -n 2 --dist worksteal
 
 schemas: .venv/.runtime
 	@$(PYTHON) -m tools.schemas

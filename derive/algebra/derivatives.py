@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
+from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, sin
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Symbol, cos, diff, sin
 
 __all__ = ["derivative"]
 
 ZERO, ONE = Integer(0), Integer(1)
 
 
-def derivative(expr: Expr, s: Symbol) -> Expr:
-    """The partial derivative by a letter."""
-    if not isinstance(expr, Expr) or not isinstance(s, Symbol):
-        return diff(expr, s)
-    return _derivative(expr, s)
+def derivative(expr: Any, *by: Symbol | int) -> Any:
+    """The partial derivative by each letter in turn, as often as a number after it says; of a matrix entry by entry."""
+    if isinstance(expr, MatrixBase):
+        return expr.applyfunc(lambda entry: derivative(entry, *by))
+    for s in _in_turn(by):
+        expr = _derivative(expr, s) if isinstance(expr, Expr) and isinstance(s, Symbol) else diff(expr, s)
+    return expr
+
+
+def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
+    letters: list[Symbol] = []
+    for each in by:
+        letters += [each] if isinstance(each, Symbol) else [letters.pop()] * int(each)
+    return letters
 
 
 @lru_cache(maxsize=16384)  # a Lagrangian is differentiated by each of its letters, and most of its parts have few

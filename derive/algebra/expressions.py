@@ -361,7 +361,7 @@ class Slope(ScalarNode):
 
     def doit(self, **hints: Any) -> Expr:
         f, x, order = self.args
-        return diff(explicit(f), x, order)
+        return derivative(explicit(f), x, order)
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
         f, x, order = self.args

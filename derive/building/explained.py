@@ -8,11 +8,12 @@ from itertools import zip_longest
 from pathlib import Path
 from textwrap import wrap
 
-from derive.building.solution import derived, template_folder
+from derive.building.solution import derived
 from derive.course.problem import load_problem
 from derive.course.yaml_tree import abridged
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.explanation import Explanation, Section, explanation_of, told_of
+from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
 from derive.render.notation.layout import Operator, row
 from derive.render.notation.notation import Notation

@@ -26,8 +26,8 @@ def headline(root: Path, problem_id: str) -> tuple[str, str]:
 
 
 def _title_with_mathematics(root: Path, problem_id: str) -> str:
-    from derive.building.solution import template_folder
     from derive.course.problem import load_problem
+    from derive.page.template import template_folder
     from derive.page.wording import AXIS_NAMES, Text, given_words, phrases, told
     from derive.render.notation.notation import Notation
     from derive.render.printing.text_page import inline_text

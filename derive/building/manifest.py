@@ -29,6 +29,7 @@ class Manifest:
     problems: list[str] = field(default_factory=list)
     complete: bool = False  # whether the last build came to its end without a fault
     tex_engine: str = ""
+    engine: str = ""  # digest of the modules that derived its problems
     set_inputs: dict[str, str] = field(default_factory=dict)
     inputs: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files it was derived from
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from derive.building.cache import Cache, digest
 from derive.building.files import write
 
-__all__ = ["DIFFERS", "NAME", "Shared", "shared_by_all"]
+__all__ = ["DIFFERS", "NAME", "Shared", "beginning", "shared_by_all"]
 
 DIFFERS = "%% derive: from here on documents differ\n"
 NAME = "preamble"  # of the format in the folder where TeX runs
@@ -32,6 +33,16 @@ class Shared:
 
     format: bytes
     source: str
+
+
+def beginning(templates: Path) -> str:
+    """What all documents begin with, before there is any; nothing if the template must be filled first."""
+    with suppress(OSError, ValueError):
+        text = (templates / "latex" / "document.tex.j2").read_text(encoding="utf-8")
+        above, differs, _ = text.partition(DIFFERS)
+        if differs and not any(sign in above for sign in ("<<", "<%", "<#")):
+            return above + differs
+    return ""
 
 
 def shared_by_all(

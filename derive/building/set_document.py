@@ -8,9 +8,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from derive.building.solution import template_folder
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
+from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.rendered import Rendered, Tex

@@ -12,7 +12,7 @@ import stat
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,9 +20,11 @@ from typing import TYPE_CHECKING
 from derive import FOLDER
 from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, file_digest, folder_digest
 from derive.building.files import folder, shown_path, write, writing
+from derive.building.loaded import load
 from derive.building.manifest import Manifest, outputs_of
+from derive.building.preamble import beginning
 from derive.building.sealed import regular_content
-from derive.building.tex import Engine, chosen_engine, chosen_name, typeset
+from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
 from derive.course.names import DOCUMENTS, NAME, SHEET, SOLUTIONS
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
@@ -52,6 +54,8 @@ TARGETS = frozenset(
         "tools",
     ]
 )
+
+FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs, before and behind the derivations
 
 
 @dataclass(frozen=True)
@@ -188,12 +192,10 @@ class _Build:
             try:
                 for name in self.manifest.pages.keys() - set(self.names):
                     self.manifest.forget(name)
-                for name in self.names:
-                    self._derive(name)
-                if len(self.then) > 1:  # what all of them draw with is loaded once
-                    from derive.render.drawing.lettering import letters_of
-
-                    letters_of(["$x$"])
+                kept = {name: page for name in self.names if (page := self._kept(name))}
+                self._derive([name for name in self.names if name not in kept])
+                for name, page in kept.items():
+                    self._take(name, *page)
                 self._whole()
                 for outcome in self.crew.outcomes():
                     self.then.pop(outcome.job)(outcome)
@@ -203,6 +205,7 @@ class _Build:
                     self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
                     self.manifest.problems = self.names
                     self.manifest.tex_engine = self.engine.identity
+                    self.manifest.engine = engine_digest(*PACKAGES)
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
                 # An interrupted build saves what it has finished, and is not complete.
@@ -224,18 +227,34 @@ class _Build:
             self.result.bugs.append(outcome.error)
         return outcome.error is None
 
-    def _derive(self, name: str) -> None:
+    def _kept(self, name: str) -> tuple[str, Rendered, Sequence[Complaint]] | None:
+        """Its page as an earlier build left it, the key of that, and the warnings that nobody was told."""
         key = self.manifest.page_key(name, self.recipe, self._digest)
         kept = Rendered.from_data(self.cache.recalled_data(key))
-        if kept:
-            told_before = self.manifest.pages.get(name) == key
-            self._take(name, key, kept, () if told_before else kept.warnings)
+        told_before = self.manifest.pages.get(name) == key
+        return (key, kept, () if told_before else kept.warnings) if kept else None
+
+    def _derive(self, names: Sequence[str]) -> None:
+        if not names:
             return
+        anew = self.options.force or self.manifest.engine != engine_digest(*PACKAGES)
+        if anew:  # TeX takes in what documents begin with while this process loads what derives them
+            self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
+            self.crew.start()
+        if len(names) > 1:
+            load(draws=anew)
         from derive.building.solution import rendered
 
-        problem = f"{self.set_id}/{name}"
-        work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
-        self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
+        for name in names:
+            problem = f"{self.set_id}/{name}"
+            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
+            self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
+        self.crew.start()
+
+    def _prepared(self) -> None:
+        from derive.page.template import template_folder
+
+        prepare(beginning(template_folder(self.root)), self.engine, self.cache)
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:
         if not self._took(outcome):
@@ -283,7 +302,7 @@ class _Build:
         derived = self.derived[name]
         texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in formats().values()}
         if self._record(dict(derived.files)):
-            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files)
+            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, LAST)
 
     def _whole(self) -> None:
         """The documents of the set, as soon as its last problem is derived."""
@@ -294,11 +313,17 @@ class _Build:
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
         numbers = Kept(self.cache, digest("numbers", SOLUTIONS, self.engine.identity))  # one run is enough next time
-        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, numbers)
-        self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files)
+        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, FIRST, numbers)
+        self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files, LAST)
 
     def _typeset(
-        self, name: str, document: Callable[[], str], texts: dict[str, str], files: Files, numbers: Kept | None = None
+        self,
+        name: str,
+        document: Callable[[], str],
+        texts: dict[str, str],
+        files: Files,
+        rank: float,
+        numbers: Kept | None = None,
     ) -> None:
         pdf = f"{name}.pdf"
         try:
@@ -316,9 +341,9 @@ class _Build:
         beside = [file for file in files if file[0].endswith(".pdf")]
         work = partial(
             typeset, tex, self.outputs / pdf, self.engine,
-            timeout=limit, numbers=numbers, beside=beside, formats=self.cache,
+            timeout=limit, numbers=numbers, beside=beside, formats=replace(self.cache, fresh=False),
         )  # fmt: skip
-        job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10)
+        job = Job(f"the pages of `{self.set_id}/{name}`", work, limit + 10, rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:

@@ -12,7 +12,6 @@ from typing import Any
 
 from sympy import Expr, Integer, Symbol
 
-from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import IN_DEGREES, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
@@ -29,6 +28,7 @@ from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
+from derive.page.template import template_folder
 from derive.page.wording import phrases
 from derive.render.formats import Solution, formats
 from derive.render.notation.latex import unprintable
@@ -227,11 +227,3 @@ def _grades(derivation: Derivation, values: Mapping[str, Step]) -> dict[str, int
         for evidence in step.evidence:
             counts[evidence.grade.value] += 1
     return counts
-
-
-def template_folder(root: Path) -> Path:
-    """The course's own templates if it has them, else those of the installation."""
-    for folder in (root / "templates", FOLDER / "templates", FOLDER.parent / "templates"):
-        if (folder / "phrases" / "en").is_dir():
-            return folder
-    raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))

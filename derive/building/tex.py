@@ -136,7 +136,8 @@ def typeset(
         begun = numbers.recalled() if numbers else None
         if begun is not None:
             noted.write_bytes(begun)
-        output = _by_format(engine, source, tex, timeout, formats)
+        unnumbered = numbers is not None and begun is None
+        output = _by_format(engine, source, tex, timeout, formats, unnumbered)
         if output is not None:
             output = _passes(engine, source, timeout)
         if output is not None and begun is not None:  # perhaps they were those of another document
@@ -160,6 +161,14 @@ def typeset(
     return changed
 
 
+def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
+    """Have what documents begin with among the formats, before there is a document."""
+    if engine.dumps:
+        with tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True) as name:
+            place, environment = Path(name), _environment(engine)
+            shared_by_all(beginning, str(engine.path), engine.identity, _SAFE, formats, place, environment)
+
+
 def _is_whole(content: bytes, log: Path) -> bool:
     """Whether it begins and ends as a PDF does, and is as long as the engine's log says that it wrote."""
     report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
@@ -168,8 +177,11 @@ def _is_whole(content: bytes, log: Path) -> bool:
     return written and content.startswith(b"%PDF-") and b"startxref" in content[-1024:] and b"%%EOF" in content[-1024:]
 
 
-def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache) -> str | None:
-    """The same by a format of the preamble; if that fails in any way the source stands again as it is."""
+def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
+    """The same by a format of the preamble; if that fails in any way the source stands again as it is.
+
+    If page numbers are wanted and not known, there is a run for them alone.
+    """
     failed = "no format"
     if not engine.dumps:
         return failed
@@ -180,16 +192,19 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
     dumped = place / f"{preamble.NAME}.fmt"
     dumped.write_bytes(shared.format)
     write(source, shared.source)
-    output = _passes(engine, source, timeout, f"-fmt={preamble.NAME}")
+    by_format = f"-fmt={preamble.NAME}"
+    if unnumbered:
+        _passes(engine, source, timeout, by_format, "-draftmode", most=1)
+    output = _passes(engine, source, timeout, by_format)
     dumped.unlink(missing_ok=True)
     write(source, tex)
     return output if source.with_suffix(".pdf").is_file() else failed
 
 
-def _passes(engine: Engine, source: Path, timeout: float, *options: str) -> str | None:
+def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
     """Run as often as the log asks for; what the engine printed if it failed."""
     log = source.with_suffix(".log")
-    for _ in range(PASSES):
+    for _ in range(most):
         try:
             run = subprocess.run(
                 engine.command(source.name, *options), cwd=source.parent, env=_environment(engine), timeout=timeout,

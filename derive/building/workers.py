@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import faulthandler
 import gc
+import heapq
 import multiprocessing
 import os
 import re
@@ -16,10 +17,10 @@ import resource
 import select
 import signal
 import sys
+import tempfile
 import threading
 import time
 import traceback
-from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
@@ -27,7 +28,7 @@ from multiprocessing.context import ForkProcess
 from pathlib import Path
 from typing import Any
 
-from derive.building.files import of_system
+from derive.building.files import of_system, writing
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Place
 
 TIME_LIMIT = 120.0
@@ -35,7 +36,7 @@ GIB = 2**30
 MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
 ASK = signal.SIGUSR1  # asks a worker which lines it is in
 MEMORY, TOO_DEEP = "memory-limit", "too-deep"
-_TICK = 0.2
+_TICK = 0.1
 
 
 class Bug(Exception):
@@ -54,21 +55,27 @@ class Bug(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A piece of work, named as the user knows it; `file` is what it is about, `shown_as` its path in messages."""
+    """A piece of work, named as the user knows it; `file` is what it is about, `shown_as` its path in messages.
+
+    Of those that wait, one of the least `rank` begins first.
+    """
 
     name: str
     work: Callable[[], Any]
     limit: float = TIME_LIMIT
     file: Path | None = None
     shown_as: str = ""
+    rank: float = 0.0
 
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
-    """Work on a problem, whose file is named if it gives no answer."""
+    """Work on a problem, whose file is named if it gives no answer; that of which most is said begins first."""
     from derive.course.problem_set import problem_paths
 
     path = problem_paths(root).get(problem_id, f"problems/{problem_id}.yaml")
-    return Job(f"`{problem_id}`", work, limit, root / path, path)
+    file = root / path
+    length = sum(each.stat().st_size for each in (file, file.with_suffix(".py")) if each.is_file())
+    return Job(f"`{problem_id}`", work, limit, file, path, rank=-length)
 
 
 @dataclass(frozen=True)
@@ -95,17 +102,20 @@ class _Worker:
 
 
 class Crew:
-    """At most `size` workers at a time; leaving the `with` block kills whatever still runs."""
+    """At most `size` workers at a time; leaving the `with` block kills whatever still runs, and what it left behind."""
 
     def __init__(self, size: int, tick: Callable[[list[str]], None] | None = None):
         self._size = max(1, size)
         self._tick = tick or (lambda _: None)
-        self._waiting: deque[Job] = deque()
+        self._waiting: list[tuple[float, int, Job]] = []  # a heap
+        self._put = 0
         self._running: list[_Worker] = []
         self._fork = multiprocessing.get_context("fork")
-        self._lifeline = _pipe()
 
     def __enter__(self) -> Crew:
+        with writing(Path(tempfile.gettempdir())):
+            self._scratch = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
+        self._lifeline = _pipe()
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -113,15 +123,21 @@ class Crew:
             _kill(worker)
         for end in self._lifeline:
             os.close(end)
+        self._scratch.cleanup()
 
     def put(self, job: Job) -> None:
-        self._waiting.append(job)
+        self._put += 1
+        heapq.heappush(self._waiting, (job.rank, self._put, job))
+
+    def start(self) -> None:
+        """Have as many work as there may be, without waiting for any."""
+        while self._waiting and len(self._running) < self._size:
+            self._running.append(self._started(heapq.heappop(self._waiting)[2]))
 
     def outcomes(self) -> Iterator[Outcome]:
         """Each job's outcome as it ends; more jobs may be put meanwhile."""
         while self._waiting or self._running:
-            while self._waiting and len(self._running) < self._size:
-                self._running.append(self._started(self._waiting.popleft()))
+            self.start()
             self._tick([worker.job.name for worker in self._running])
             wait([worker.pipe for worker in self._running], timeout=_TICK)
             for worker in list(self._running):
@@ -136,7 +152,8 @@ class Crew:
             ours, theirs = self._fork.Pipe(duplex=False)
             trace, traced = os.pipe()
             os.set_blocking(trace, False)
-            child = self._fork.Process(target=_child, args=(job.work, theirs, self._lifeline, traced, limit))
+            told = (job.work, theirs, self._lifeline, traced, limit, self._scratch.name)
+            child = self._fork.Process(target=_child, args=told)
             with _undisturbed():
                 child.start()
         except OSError as error:
@@ -296,7 +313,9 @@ def _kill(worker: _Worker) -> None:
         os.close(worker.trace)
 
 
-def _child(work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int], trace: int, limit: int) -> None:
+def _child(
+    work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int], trace: int, limit: int, scratch: str
+) -> None:
     with contextlib.suppress(OSError):
         os.setpgid(0, 0)
     for signum in (signal.SIGINT, signal.SIGTERM):
@@ -307,6 +326,7 @@ def _child(work: Callable[[], Any], pipe: Connection, lifeline: tuple[int, int],
     faulthandler.enable(trace, all_threads=False)
     faulthandler.register(ASK, trace, all_threads=False)
     _limit_memory(limit)
+    tempfile.tempdir = scratch
     # A worker is short-lived: collecting garbage in it often costs more than the garbage.
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)

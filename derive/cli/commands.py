@@ -277,6 +277,7 @@ def _waiting(text: str) -> Iterator[None]:
 
 
 def _check(arguments: argparse.Namespace) -> int:
+    from derive.building.loaded import load
     from derive.building.sets import set_names
     from derive.building.solution import rendered
     from derive.building.workers import Crew, job_of
@@ -285,6 +286,8 @@ def _check(arguments: argparse.Namespace) -> int:
     root = _root(arguments)
     _warn_of_names(root)
     ids = _selected([_problem_id(name) for name in arguments.ids], problem_ids(root), set_names(root))
+    if len(ids) > 1:
+        load(draws=False)
     jobs = {
         job_of(root, problem, partial(rendered, root, problem, None), arguments.time_limit): problem for problem in ids
     }

@@ -1,14 +1,26 @@
-"""Where templates are filled, those of phrases and those of TeX: an unknown name is an error, and none reaches code.
+"""Where templates lie and are filled, those of phrases and of TeX: an unknown name is an error, and none reaches code.
 
 `<<name>>` is printed, `<% if ... %>` chooses, `<# ... #>` says nothing: no braces, which TeX has for itself.
 """
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from jinja2 import StrictUndefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from derive import FOLDER
+from derive.errors import Complaint, Rejected
+
+
+def template_folder(root: Path) -> Path:
+    """The course's own templates if it has them, else those of the installation."""
+    for folder in (root / "templates", FOLDER / "templates", FOLDER.parent / "templates"):
+        if (folder / "phrases" / "en").is_dir():
+            return folder
+    raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:

@@ -9,11 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import UndefinedError
+from jinja2 import Template, UndefinedError
 from jinja2.meta import find_undeclared_variables
 from sympy.core.symbol import Str
 
@@ -170,7 +170,7 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
     """A phrase of ours with its names filled in."""
     nodes = _Nodes()
     try:
-        text = _IN_PROSE.from_string(template).render({name: nodes.token(value) for name, value in names.items()})
+        text = _compiled(template).render({name: nodes.token(value) for name, value in names.items()})
     except UndefinedError as error:
         message = f"a phrase names what this step does not have: {error.message}"
         raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
@@ -182,9 +182,15 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
     return nodes.split(text.strip())
 
 
-def names_asked(template: str) -> set[str]:
+@lru_cache(maxsize=2048)
+def _compiled(template: str) -> Template:
+    return _IN_PROSE.from_string(template)
+
+
+@lru_cache(maxsize=2048)
+def names_asked(template: str) -> frozenset[str]:
     """The names that a phrase asks for, whichever of them it prints."""
-    return find_undeclared_variables(_IN_PROSE.parse(template))
+    return frozenset(find_undeclared_variables(_IN_PROSE.parse(template)))
 
 
 def _place_of(template: str) -> Place:

@@ -88,7 +88,9 @@ def test_a_kept_derivation_of_another_text_is_not_used(course: Course) -> None:
 
 def test_a_record_is_read_as_it_was_saved_and_only_in_its_own_folder(tmp_path: Path) -> None:
     (tmp_path / "hw1").mkdir()
-    record = Manifest(tmp_path / "hw1", ["one"], True, "tex", {"set.yaml": "1"}, {"one": ["one.yaml"]}, {"one": "2"})
+    record = Manifest(
+        tmp_path / "hw1", ["one"], True, "tex", "modules", {"set.yaml": "1"}, {"one": ["one.yaml"]}, {"one": "2"}
+    )
     record.save()
     assert Manifest.read(tmp_path / "hw1") == record
     (tmp_path / "hw1").rename(tmp_path / "hw2")

@@ -8,10 +8,13 @@ import pytest
 from pypdf import PdfReader
 
 from derive.building import preamble
-from derive.building.cache import Cache
-from derive.building.preamble import DIFFERS
-from derive.building.tex import chosen_engine, typeset
+from derive.building.cache import Cache, Kept, digest
+from derive.building.preamble import DIFFERS, beginning
+from derive.building.set_document import sheet_document
+from derive.building.tex import Engine, chosen_engine, prepare, typeset
+from derive.course.problem_set import ProblemSet
 from derive.errors import BuildFailed
+from tests.courses import ROOT
 
 ABOVE = r"""\documentclass{article}
 \usepackage[T1]{fontenc}\usepackage{lmodern,amsmath}
@@ -95,3 +98,38 @@ def test_the_documents_of_a_set_say_where_they_differ() -> None:
     assert differs
     assert "<<" not in above, "what differs stands below the line"
     assert "\\usepackage" not in below
+
+
+def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_one() -> None:
+    document = sheet_document(ROOT, ProblemSet("hw1", "Physics", "Homework", None, None, (), ()), [])
+    assert document.startswith(beginning(ROOT / "templates"))
+    assert beginning(ROOT / "templates").endswith(DIFFERS)
+
+
+@pytest.mark.parametrize("text", [None, "no such line", "<< labels.title >>" + DIFFERS])
+def test_what_a_template_must_be_filled_for_is_not_known_before(tmp_path: Path, text: str | None) -> None:
+    (tmp_path / "latex").mkdir()
+    if text:
+        (tmp_path / "latex" / "document.tex.j2").write_text(text)
+    assert beginning(tmp_path) == ""
+
+
+def test_a_format_that_is_made_before_is_that_of_the_documents(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = Cache(target.parent / "kept")
+    prepare(ABOVE + DIFFERS, chosen_engine(None), kept)
+    monkeypatch.setattr(preamble, "_dumped", lambda *_: pytest.fail("made again"))
+    typeset(document(), target, chosen_engine(None), formats=kept)
+    assert "of two" in text_of(target)
+
+
+def test_page_numbers_that_are_not_known_are_found_by_a_run_without_a_pdf(
+    target: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept, runs = Cache(target.parent / "kept"), []
+    command = Engine.command
+    monkeypatch.setattr(Engine, "command", lambda *given: runs.append("-draftmode" in given) or command(*given))
+    for more in ("", "again"):
+        tex = document(rf"on \pageref{{there}} {more}\newpage\label{{there}}there")
+        typeset(tex, target, chosen_engine(None), formats=kept, numbers=Kept(kept, digest("numbers")))
+        assert "on 2" in text_of(target)
+    assert runs == [True, False, False], "the second time they are known"

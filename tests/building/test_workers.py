@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from importlib.util import module_from_spec, spec_from_file_location
@@ -136,6 +137,35 @@ def test_a_worker_returns_its_value_and_raises_its_complaint() -> None:
         done(Job("refusal", refuse))
     with pytest.raises(Bug, match="KeyError"):
         done(Job("bug", lambda: {}["x"]))
+
+
+def test_what_waits_begins_by_its_rank_and_then_in_its_order() -> None:
+    with Crew(1) as crew:
+        for name, rank in (("b", 0.0), ("c", 0.0), ("d", 1.0), ("a", -1.0)):
+            crew.put(Job(name, lambda: None, rank=rank))
+        begun = []
+        for outcome in crew.outcomes():
+            begun.append(outcome.job.name)
+            if outcome.job.name == "b":
+                crew.put(Job("at once", lambda: None, rank=-2.0))
+    assert begun == ["a", "b", "at once", "c", "d"]
+
+
+def test_what_a_killed_worker_leaves_behind_goes_with_its_crew(tmp_path: Path) -> None:
+    note = tmp_path / "name"
+
+    def work() -> None:
+        note.write_text(tempfile.mkdtemp())
+        time.sleep(60)
+
+    with Crew(1) as crew:
+        crew.put(Job("sleeper", work))
+        crew.start()
+        while not (note.is_file() and note.read_text()):
+            time.sleep(0.02)
+        left = Path(note.read_text())
+        assert left.is_dir()
+    assert not left.exists()
 
 
 def test_a_large_value_comes_back_whole() -> None:

@@ -12,9 +12,10 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.building.solution import derived, template_folder
+from derive.building.solution import derived
 from derive.course.problem import load_problem
 from derive.page.document import document_of
+from derive.page.template import template_folder
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
 from derive.steps.step import Level, Step

@@ -10,9 +10,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import (
     Expr,
+    ImmutableDenseMatrix,
     Integer,
     Integral,
-    Matrix,
     Rational,
     Symbol,
     acos,
@@ -144,12 +144,12 @@ def test_a_formula_reads_as_in_a_textbook(expr: Any, as_tex: str, as_text: str) 
 
 
 def test_a_tensor_has_its_common_factor_in_front() -> None:
-    assert re.sub(r"[{}]", "", tex(M * a**2 / 12 * Matrix.diag(13, 10, 5))).startswith(r"\frac112\,Ma^2")
-    assert "13" in text(M * a**2 / 12 * Matrix.diag(13, 10, 5)).split("\n")[0]
+    assert re.sub(r"[{}]", "", tex(M * a**2 / 12 * ImmutableDenseMatrix.diag(13, 10, 5))).startswith(r"\frac112\,Ma^2")
+    assert "13" in text(M * a**2 / 12 * ImmutableDenseMatrix.diag(13, 10, 5)).split("\n")[0]
 
 
 def test_a_vector_along_the_diagonal_has_its_length_in_front() -> None:
-    assert text(omega / sqrt(14) * Matrix([1, 2, 3])) == "ω/√14 (1, 2, 3)"
+    assert text(omega / sqrt(14) * ImmutableDenseMatrix([1, 2, 3])) == "ω/√14 (1, 2, 3)"
 
 
 def test_a_vector_of_names_is_left_alone() -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, ClassVar
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, cos, diff, nan, oo, sin, zoo
+from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, cos, nan, oo, sin, zoo
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.equality import Verdict
@@ -25,6 +25,7 @@ from derive.algebra.expressions import (
     vector,
 )
 from derive.algebra.integrals import definite
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import ORIGIN as ZERO
@@ -279,7 +280,7 @@ def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -
     moved = position.xreplace({x: x + s for x, s in zip(names, steps, strict=True)}) - position
     chord = sum((x**2 for x in moved), Integer(0))
     here = dict.fromkeys(steps, Integer(0))
-    entries = [[diff(chord, s, u).subs(here) / 2 for u in steps] for s in steps]
+    entries = [[slope(slope(chord, s), u).xreplace(here) / 2 for u in steps] for s in steps]
     return ImmutableDenseMatrix(entries).det(method="berkowitz")
 
 

@@ -11,15 +11,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, factor, sin
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
 from derive.algebra.collect import by_terms
+from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import range_of
-from derive.algebra.taylor import coefficient_along
+from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.counting import is_countable, signs_counted
@@ -73,7 +74,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
     def work(found: Expr) -> tuple[Expr, Expr]:
         marks = [stand_in(f"delta_{q.name}") for q in moving]
-        lost = (-diff(found, q) * mark for q, mark in zip(moving, marks, strict=True))
+        lost = (-slope(found, q) * mark for q, mark in zip(moving, marks, strict=True))
         done = (_force_at_rest(matter, q, still) * mark for q, mark in zip(moving, marks, strict=True))
         return Add(*lost), Add(*done)
 
@@ -139,7 +140,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     if missing or not sought:
         message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: there is rest anywhere"
         raise Rejected(Complaint("wrong-argument", message))
-    forces = {q: _factored(tidied(diff(explicit(potential.value), q))) for q in sought}
+    forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}
     others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
     if others:
         message = f"`equilibria`: the forces also depend on {others[0].name}"
@@ -254,7 +255,7 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):
         return None
-    matrix = ImmutableDenseMatrix([[diff(force, q) for q in held] for force in forces])
+    matrix = ImmutableDenseMatrix([[derivative(force, q) for q in held] for force in forces])
     if matrix.has(*held) or sign_by_factors(tidied(matrix.det(method="berkowitz"))) in (None, 0):
         return None
     at_zero = ImmutableDenseMatrix([-force.xreplace(dict.fromkeys(held, ZERO)) for force in forces])
@@ -378,7 +379,7 @@ def _rest(
     def no_force(found: Any) -> tuple[Expr, Expr]:
         marks = [stand_in(f"u_{i}") for i in range(len(sought))]
         there = dict(zip(held, [found] if single else found, strict=True))
-        left = [slope_otherwise(potential, q).subs(there, simultaneous=True) for q in sought]
+        left = [slope_otherwise(potential, q).xreplace(there) for q in sought]
         return Add(*(tidied(force) * mark for force, mark in zip(left, marks, strict=True))), ZERO
 
     def counted(found: Any) -> Verdict:

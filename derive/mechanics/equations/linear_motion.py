@@ -34,7 +34,9 @@ from sympy import (
 from sympy.simplify.fu import TR8
 
 from derive.algebra.collect import by_terms
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, is_number, lecture_form, residual_of
@@ -180,13 +182,14 @@ def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
     state = (q.symbol, q.rate, q.acceleration)
     value = explicit(equation.value)
     left = value.residual if isinstance(value, Relation) else equation.symbol - value
-    return expand(left.xreplace({s: diff(motion, TIME, n) for n, s in enumerate(state)}))
+    first = slope(motion, TIME)
+    return expand(left.xreplace(dict(zip(state, (motion, first, slope(first, TIME)), strict=True))))
 
 
 def linear_equation(equation: Quantity, q: Coordinate) -> Linear:
     left = _left_of(equation, q).expand()
     state = (q.acceleration, q.rate, q.symbol)
-    a, b, c = (tidied(diff(left, s)) for s in state)
+    a, b, c = (tidied(derivative(left, s)) for s in state)
     rest = left.xreplace(dict.fromkeys(state, ZERO))
     _check_alone(equation, left, q)
     if a == 0 and c == 0 and b.has(TIME) and not rest.has(*state) and is_zero(left - b * state[1] - rest):

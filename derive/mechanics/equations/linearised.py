@@ -12,12 +12,14 @@ from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, diff, factor, lcm, together
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, factor, lcm, together
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import spread
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.squares import with_squares
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
@@ -235,7 +237,7 @@ def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: A
 
 def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> Expr:
     still = {letter: ZERO for q in moving for letter in (q.rate, q.acceleration)}
-    return tidied(value.xreplace(still).subs(place, simultaneous=True))
+    return tidied(value.xreplace({**still, **place}))
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
@@ -243,7 +245,8 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
-        slopes = [diff(value, s) for q in moving for s in (q.symbol, q.rate, q.acceleration)] if value.has(TIME) else []
+        letters = [s for q in moving for s in (q.symbol, q.rate, q.acceleration)] if value.has(TIME) else []
+        slopes = [derivative(value, s) for s in letters]
         if any(_at_rest(slope, moving, place).has(TIME) for slope in slopes):
             message = f"`{equation.key}` holds the time itself, so that it has no constant coefficients"
             raise Rejected(Complaint("changes", message))
@@ -266,7 +269,7 @@ def _coefficients(
     def entry(i: int, j: int) -> Expr:
         q = moving[int(j)].symbol
         left = explicit(equations[int(i)].value).residual
-        return _at_rest(diff(left, rate(q, order) if order else q), moving, place)
+        return _at_rest(derivative(left, rate(q, order) if order else q), moving, place)
 
     return ImmutableDenseMatrix(len(equations), len(moving), entry)
 
@@ -292,14 +295,14 @@ def _of_second_order(
     matter, q = equations[i].needed(Matter), moving[i]
     momentum = explicit(matter.momentum_along(q.symbol))
     pushed = explicit(matter.turning_along(q.symbol) + matter.force_along(q.symbol))
-    terms = []
+    in_time, terms = slope(momentum, TIME), []
     for other, s in zip(moving, eta, strict=True):
-        mass = diff(momentum, other.rate)
-        turning = diff(momentum, other.symbol) - diff(pushed, other.rate)
-        stiffness = diff(momentum, TIME, other.symbol) - diff(pushed, other.symbol)
+        mass = slope(momentum, other.rate)
+        turning = slope(momentum, other.symbol) - slope(pushed, other.rate)
+        stiffness = slope(in_time, other.symbol) - slope(pushed, other.symbol)
         for value, letter in ((mass, s.acceleration), (turning, s.rate), (stiffness, s.symbol)):
             terms.append(_at_rest(value, moving, place) * letter)
-    driving = pushed - diff(momentum, TIME)
+    driving = pushed - in_time
     return Relation(Add(*terms), "=", _at_rest(driving, moving, place))
 
 
@@ -307,7 +310,7 @@ def with_motion(equation: Quantity, together: Linear, motion: Sequence[Expr]) ->
     """The left side of a linear equation with a motion eta(t) put in."""
     put_in: dict[Any, Expr] = {}
     for s, eta in zip(together.displacements, motion, strict=True):
-        put_in.update({s.symbol: eta, s.rate: diff(eta, T), s.acceleration: diff(eta, T, 2)})
+        put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
     return explicit(equation.value).residual.xreplace(put_in)
 
 
@@ -315,4 +318,4 @@ def factors_of_amplitudes(linear: Sequence[Quantity], together: Linear, course: 
     """What stands with each amplitude in each equation, once eta = a course(t) is put in and the course divided out."""
     amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
     left = [with_motion(each, together, [a * course for a in amplitudes]) / course for each in linear]
-    return ImmutableDenseMatrix([[diff(value.expand(), a) for a in amplitudes] for value in left])
+    return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])

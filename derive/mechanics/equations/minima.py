@@ -10,11 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
@@ -60,7 +61,7 @@ class Place:
         return explicit(self.potential.value)
 
     def second(self, one: Symbol, other: Symbol) -> Expr:
-        return tidied(diff(self.energy, one, other).subs(dict(self.values), simultaneous=True))
+        return tidied(derivative(self.energy, one, other).xreplace(dict(self.values)))
 
 
 def stability(
@@ -109,7 +110,7 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     if rest is not None and not (of.step == potential.step or potential.rests_on(of)):
         raise Rejected(Complaint("different-subjects", f"`{rest.key}` is no state of rest of `{of.key}`"))
     held = tuple(q for q in potential.coordinates if explicit(potential.value).has(q))
-    slopes = {q: diff(explicit(potential.value), q).subs(known, simultaneous=True) for q in held}
+    slopes = {q: derivative(explicit(potential.value), q).xreplace(known) for q in held}
     missing = [q for q in held if q not in known and not all(is_zero(slope) for slope in slopes.values())]
     if missing:
         message = f"`stability`: nothing says what {missing[0].name} is at rest"
@@ -125,7 +126,7 @@ def _check_level(place: Place) -> None:
         raise Rejected(Complaint("wrong-argument", f"`{place.potential.key}` depends on none of these coordinates"))
     for q, value in place.values.items():
         require_constant("stability", "value", value)
-        force = tidied(diff(place.energy, q).subs(dict(place.values), simultaneous=True))
+        force = tidied(derivative(place.energy, q).xreplace(dict(place.values)))
         if not is_zero(force):
             where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
             message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"
@@ -149,7 +150,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     outcome, condition, border = _judged(place, value, letter)
     _check_nothing_else_holds_it(place, outcome)
     told: dict[str, tuple[Any, Any]] = {"state": _state(place), **steady_in(potential, [q])}
-    is_short = int(diff(place.energy, q, 2).count_ops()) <= SHORT
+    is_short = int(derivative(place.energy, q, 2).count_ops()) <= SHORT
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:
         told["place"] = (Relation(q, "=", place.values[q]), Relation(place.values[q], "=", q))
@@ -165,7 +166,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
     if outcome.endswith("order") or border is not None:
         energy = place.energy.subs(border.left, border.right) if border is not None else place.energy
-        there = tidied(diff(energy, q, order).subs(q, place.values[q]))
+        there = tidied(derivative(energy, q, order).xreplace({q: place.values[q]}))
         told["higher"] = (there, _coefficient(energy, q, place.values[q], order))
     return establish(
         "minima.stability",
@@ -235,7 +236,7 @@ def _by_higher_order(place: Place, energy: Expr) -> str:
     order = _order(energy, place)
     if order == 0:
         return "flat"
-    sign = sign_by_factors(tidied(diff(energy, q, order).subs(q, place.values[q])))
+    sign = sign_by_factors(tidied(derivative(energy, q, order).xreplace({q: place.values[q]})))
     if order % 2 or sign == -1:
         return "unstable_by_higher_order"
     return "stable_by_higher_order" if sign == 1 else "flat"
@@ -279,7 +280,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         """The second order of the energy of a displacement in an arbitrary direction has the same minors."""
         marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = coefficient_along(place.energy, place.values, marks, 2).expand()
-        second = ImmutableDenseMatrix([[diff(energy, marks[p], marks[q]) for q in moving] for p in moving])
+        second = ImmutableDenseMatrix([[derivative(energy, marks[p], marks[q]) for q in moving] for p in moving])
         return found, ImmutableDenseMatrix([second[:n, :n].det(method="laplace") for n in range(1, len(moving) + 1)])
 
     return establish(
@@ -333,9 +334,9 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         return
     still = {rate(q, n): ZERO for q in matter.coordinates for n in (1, 2)}
     for p, q in ((p, q) for p in place.coordinates for q in matter.coordinates if p != q):
-        turned = diff(matter.momentum_along(p), q) - diff(matter.momentum_along(q), p)
-        turned += diff(matter.other_force_along(p), rate(q)) - diff(matter.other_force_along(q), rate(p))
-        if not is_zero(turned.xreplace(still).subs(dict(place.values), simultaneous=True)):
+        turned = derivative(matter.momentum_along(p), q) - derivative(matter.momentum_along(q), p)
+        turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
+        if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
             message = f"`stability`: `{place.potential.key}` has no minimum there for all letters, and forces that"
             message += f" depend on the rates of {q.name} and {p.name} may hold the state all the same"
             help_line = "to first order the equations of motion tell, `linear_stability(linearised(motion))`"

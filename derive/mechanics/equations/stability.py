@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, diff, factorial
+from sympy import Add, Dummy, Expr, Integer, Pow, Symbol, factorial
 
 from derive.algebra.collect import spread_or_by_terms
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, Terms, Truncated, explicit, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along
@@ -86,7 +87,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
 
 
 def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
-    return Add(*(tidied(diff(term, q, order)) for term in Add.make_args(value)))
+    return Add(*(tidied(derivative(term, q, order)) for term in Add.make_args(value)))
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
@@ -102,7 +103,7 @@ def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:
 
 
 def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> None:
-    if tidied(diff(value, q).subs(q, place)) != 0:
+    if tidied(derivative(value, q).xreplace({q: place})) != 0:
         message = f"`{potential.key}` is not level at {q.name} = {place}"
         raise Rejected(Complaint("no-equilibrium", message))
 
@@ -136,7 +137,7 @@ def leading_order(
     _check_level(value, q, place, potential)
     _check_border(value, q, place, potential, where)
     order, leading = _first_that_decides(value, q, place)
-    constant = tidied(value.subs(q, place))
+    constant = tidied(value.xreplace({q: place}))
     truncated = Terms(constant, leading * Pow(q - place, order))
 
     def by_derivatives(found: Expr) -> tuple[Expr, Expr]:
@@ -144,10 +145,10 @@ def leading_order(
         orders = range(1, (order or HIGHEST) + 1)
         marks = {n: stand_in(f"u_{n}") for n in orders}
         expected = leading * factorial(order) * marks[order] if order else Integer(0)
-        return Add(*(diff(found, q, n).subs(q, place) * marks[n] for n in orders)), expected
+        return Add(*(derivative(found, q, n).xreplace({q: place}) * marks[n] for n in orders)), expected
 
     def lowest(found: Expr) -> tuple[Expr, Expr]:
-        orders = (n for n in range(1, HIGHEST + 1) if tidied(diff(found, q, n).subs(q, place)) != 0)
+        orders = (n for n in range(1, HIGHEST + 1) if tidied(derivative(found, q, n).xreplace({q: place})) != 0)
         return Integer(order), Integer(next(orders, 0))
 
     return establish(
@@ -177,7 +178,7 @@ def leading_order(
 
 def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, where: Relation | None) -> None:
     """At the border of this very potential its curvature vanishes."""
-    if where is not None and not is_zero(diff(value, q, 2).subs(q, place)):
+    if where is not None and not is_zero(derivative(value, q, 2).xreplace({q: place})):
         message = f"the curvature of `{potential.key}` does not vanish at {where}, so that is not its border"
         help_line = "leave `where` out, or give the letter at its bound"
         raise Rejected(Complaint("wrong-border", message, help=help_line))

@@ -14,8 +14,10 @@ from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, 
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.amplitudes import determinant_of
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, bound, explicit, rate, scalar
 from derive.algebra.ranges import never_vanishes_within, strict_sign_within
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import RestOf, matter_behind
@@ -91,7 +93,7 @@ def steady_motion(
     places = {q.symbol: values.get(q.symbol, q.symbol) for q in still}
     motion = {letter: ZERO for q in every for letter in (q.rate, q.acceleration)}
     motion |= {rate(q): value for q, value in steady_rates.items()} | values
-    conditions = tuple(lecture_form(bound(diff(L, q.symbol), motion)) for q in still)
+    conditions = tuple(lecture_form(bound(derivative(L, q.symbol), motion)) for q in still)
     steady = Steady(of, places, steady_rates, conditions)
     if equation is not None:
         return _of_equation(equation, steady, equation.needed(OfCoordinate).coordinate, motion, key)
@@ -164,8 +166,8 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
     Source: that of `steady_motion`.
     """
     of, matter = steady.lagrangian, steady.lagrangian.needed(Matter)
-    slope = bound(diff(explicit(of.value), q.symbol), motion)
-    core = _without_positive(_rates_first(lecture_form(-slope), steady))
+    force = bound(derivative(explicit(of.value), q.symbol), motion)
+    core = _without_positive(_rates_first(lecture_form(-force), steady))
     if core.is_nonzero or core != 0 and never_vanishes_within(core):
         raise Rejected(Complaint("cannot-hold", f"there is no such steady motion: {core} cannot vanish"))
     told = {f"stays_{n}": (s, value) for n, (s, value) in enumerate(steady.values.items(), 1) if s != value}
@@ -213,11 +215,11 @@ def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
     left: Expr = ZERO
     for point in matter.points:
         for c in (explicit(x) for x in point.place):
-            way = diff(c, q).subs(motion, simultaneous=True)
-            left += point.mass * diff(c.subs(motion, simultaneous=True), TIME, 2) * way
+            speed = slope(c.xreplace(motion), TIME)
+            left += point.mass * slope(speed, TIME) * slope(c, q).xreplace(motion)
     fields = [field.load(matter.coordinates) for field in matter.fields]
     works = (load.work_along(q) for load in (*matter.loads, *fields, *matter.others) if isinstance(load, Load))
-    return left - explicit(Add(*works)).xreplace(rates).subs(motion, simultaneous=True)
+    return left - explicit(Add(*works)).xreplace(rates).xreplace(motion)
 
 
 # --- small oscillations about it --------------------------------------------------------------------------------------
@@ -411,8 +413,8 @@ def _determinant(about: About, found: Expr) -> Expr:
     def entry(i: int, j: int) -> Expr:
         left = explicit(matter.inertia_along(moving[int(i)]) - matter.force_along(moving[int(i)]))
         other = moving[int(j)]
-        slopes = [diff(left, rate(other, n) if n else other) for n in range(3)]
-        at_place = [slope.xreplace(still).subs(about.q, about.place) for slope in slopes]
+        slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
+        at_place = [each.xreplace({**still, about.q: about.place}) for each in slopes]
         if j:  # a cyclic coordinate stands there by its rates alone: counted by its rate
             return at_place[1] + s * at_place[2]
         return at_place[0] + s * at_place[1] + s**2 * at_place[2]

@@ -10,9 +10,10 @@ from itertools import combinations_with_replacement
 from typing import Any
 
 from mpmath import mp
-from sympy import Expr, Rational, diff, im, lambdify, prime
+from sympy import Expr, Rational, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import rational_in_range
 from derive.mechanics.equations.counting import is_countable
@@ -185,7 +186,7 @@ def _higher(kind: str) -> Predicate:
 def kind_of_order(value: Expr, facts: Judged) -> str:
     (q,), (place,) = _moving(facts), facts.inputs["place"]
     for order in range(2, 9):
-        there = diff(value, q, order).subs(q, place)
+        there = derivative(value, q, order).xreplace({q: place})
         if not is_zero(there):
             signs = {1 if there.xreplace(n).evalf(20) > 0 else -1 for n in _numbers(there.free_symbols)}
             if order % 2 or signs == {-1}:

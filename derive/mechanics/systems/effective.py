@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
 from derive.algebra.expressions import (
     TIME,
@@ -22,6 +22,7 @@ from derive.algebra.expressions import (
     rate,
     scalar,
 )
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
@@ -217,7 +218,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     whole = bound(explicit(of.value), put_in) - carried
 
     def by_matter(found: Expr) -> tuple[Any, Any]:
-        ours = [-diff(found, p) for p in letters] + [diff(found, s) for q in left for s in (q.rate, q.symbol)]
+        ours = [-slope(found, p) for p in letters] + [slope(found, s) for q in left for s in (q.rate, q.symbol)]
         theirs: list[Expr] = list(put_in.values())
         for q in left:
             pushed = reduced.force_along(q.symbol) + reduced.turning_along(q.symbol)
@@ -302,7 +303,7 @@ def effective_potential(
         return whole if n else -whole
 
     def forces(found: Expr) -> tuple[Any, Any]:
-        ours = [-diff(found, q.symbol) for q in left]
+        ours = [-slope(found, q.symbol) for q in left]
         theirs = [reduced.force_along(q.symbol) - reduced.inertia_along(q.symbol) for q in left]
         return ImmutableDenseMatrix(ours), bound(ImmutableDenseMatrix(theirs), still)
 

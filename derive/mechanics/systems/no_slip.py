@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, diff, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar, stand_in
+from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import PlacedBody, after
@@ -95,7 +97,7 @@ class _Condition:
 
     @property
     def factor(self) -> Expr:
-        return diff(self.left, rate(self.q))
+        return derivative(self.left, rate(self.q))
 
     @property
     def rate(self) -> Expr:
@@ -112,8 +114,8 @@ def _independent(
     order = list(dict.fromkeys([*first, *_order(body, at)]))
     for left in _conditions(contact_velocity(body, at, ground)):
         rest = tidied(left.subs(known))
-        present = [q for q in order if not is_zero(diff(rest, rate(q)))]
-        steady = [q for q in present if changes(diff(rest, rate(q)), order) is None]
+        present = [q for q in order if not is_zero(derivative(rest, rate(q)))]
+        steady = [q for q in present if changes(derivative(rest, rate(q)), order) is None]
         q = next(iter([*steady, *present]), None)
         if q is None:
             if not is_zero(rest):
@@ -199,7 +201,7 @@ def _solved(
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 
-    coefficients = [diff(found, rate(other)) for other in moving]
+    coefficients = [derivative(found, rate(other)) for other in moving]
     plain = found - Add(*(c * rate(other) for c, other in zip(coefficients, moving, strict=True)))
     constant = all(changes(c, moving) is None for c in coefficients) and is_zero(plain)
     facts: list[Fact] = [Rolling(body, at, ground)]
@@ -230,12 +232,12 @@ def _solved(
 
 def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
     """Of linear conditions on the rates, at a place of no significance."""
-    rows = Matrix(
-        [[*(diff(line, rate(q)) for q in moving), line.subs(dict.fromkeys(map(rate, moving), ZERO))] for line in lines]
-    )
+    rates = [rate(q) for q in moving]
+    still = dict.fromkeys(rates, ZERO)
+    rows = Matrix([[*(slope(line, v) for v in rates), line.xreplace(still)] for line in lines])
     letters = sorted(rows.free_symbols, key=str)
     there = {letter: Rational(3 * i + 7, 2 * i + 11) for i, letter in enumerate(letters)}
-    return int(rows.subs(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
+    return int(rows.xreplace(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
 
 
 def _all_rates(body: PlacedBody, at: Location, ground: Location | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:

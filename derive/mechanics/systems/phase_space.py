@@ -22,7 +22,6 @@ from sympy import (
     Rational,
     Symbol,
     cos,
-    diff,
     expand,
     factor,
     factor_terms,
@@ -191,7 +190,7 @@ def rates_by_momenta(
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
     """Linear equations for the rates, those that are coupled solved together."""
-    matrix = Matrix([[diff(explicit(p), v) for v in rates] for p in momenta_of.values()])
+    matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
     if matrix.has(*rates):
@@ -393,8 +392,8 @@ def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))
-        linear = first < len(names) and not any(diff(term, a, b) != 0 for a in names for b in names)
-        mixed = first < len(names) and diff(term, names[first], 2) == 0
+        linear = first < len(names) and not any(derivative(term, a, b) != 0 for a in names for b in names)
+        mixed = first < len(names) and derivative(term, names[first], 2) == 0
         return linear, first, mixed, term.could_extract_minus_sign(), str(term)
 
     terms = sorted(Add.make_args(value), key=rank)

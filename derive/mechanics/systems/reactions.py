@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, diff
+from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
 from derive.algebra.collect import by_accelerations
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, explicit, rate, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes
@@ -83,10 +84,11 @@ class _Problem:
         found: dict[Symbol, Expr] = {}
         for each in self.constraints:
             residual = each.residual.xreplace(found)
-            q = next((q for q in self.moving if diff(residual, q).is_nonzero and diff(residual, q).is_number), None)
+            slopes = {q: derivative(residual, q) for q in self.moving}
+            q = next((q for q, slope in slopes.items() if slope.is_nonzero and slope.is_number), None)
             if each.in_rates or q is None:
                 continue
-            value = -(residual - diff(residual, q) * q) / diff(residual, q)
+            value = -(residual - slopes[q] * q) / slopes[q]
             new = {q: tidied(value), rate(q): tidied(TimeRate(value, *self.moving))}
             found = {**{letter: old.xreplace(new) for letter, old in found.items()}, **new}
         return found
@@ -346,7 +348,7 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
     """Accelerations and multipliers, all equations being linear in them."""
     unknowns = problem.unknowns
     rows = [row.xreplace(problem.known) for row in problem.residuals]
-    matrix = ImmutableDenseMatrix([[diff(row, u) for u in unknowns] for row in rows])
+    matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
     right = ImmutableDenseMatrix([-row.xreplace(dict.fromkeys(unknowns, ZERO)) for row in rows])
     if _is_singular(matrix):
         raise _undetermined(problem, matrix)

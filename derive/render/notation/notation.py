@@ -96,10 +96,10 @@ class Notation:
     def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None):
         self.known_dimensions = dimensions or {}
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
-        self._known: dict[Any, Layout] = {}
+        self._known: dict[Any, Layout] = {}  # worked out once: every format of a page asks for the same ones
+        self._results: dict[Any, Layout] = {}
 
     def layout(self, expr: Any) -> Layout:
-        """The layout, worked out once: every format of a page asks for the same ones."""
         if expr not in self._known:
             self._known[expr] = self._worked_out(expr)
         return self._known[expr]
@@ -119,7 +119,11 @@ class Notation:
 
     def result(self, expr: Any) -> Layout:
         """A result, with its common factor in front; components in running text as a list."""
-        return self.list_of(expr) if isinstance(expr, tuple) else self.layout(present(expr))
+        if isinstance(expr, tuple):
+            return self.list_of(expr)
+        if expr not in self._results:
+            self._results[expr] = self.layout(present(expr))
+        return self._results[expr]
 
     def list_of(self, components: tuple[Any, ...]) -> Layout:
         """(1, 1, 0)"""

@@ -19,12 +19,14 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 from derive.render.notation.layout import (
     DEGREE_SIGN,
     GREEK_LETTERS,
     SCRIPT_LETTERS,
+    THIN_SPACE,
     Applied,
     Array,
     Bracketed,
@@ -78,7 +80,7 @@ _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
 def columns(text: str) -> int:
     """How wide a text is: an arrow or a dot above a letter takes no room."""
-    return sum(not unicodedata.combining(character) for character in text)
+    return len(text) if text.isascii() else sum(not unicodedata.combining(character) for character in text)
 
 
 def to_the_right(text: str, width: int) -> str:
@@ -97,6 +99,8 @@ class TextBox:
         return columns(self.lines[0])
 
     def beside(self, other: TextBox) -> TextBox:
+        if len(self.lines) == len(other.lines) == 1:
+            return TextBox((self.lines[0] + other.lines[0],))
         above = max(self.middle, other.middle)
         below = max(len(self.lines) - self.middle, len(other.lines) - other.middle)
         left, right = (each._padded(above, below) for each in (self, other))
@@ -127,7 +131,14 @@ def text_box(layout: Layout) -> TextBox:
             return TextBox((f"{left}{inner.lines[0]}{right}",))
         case Lowered(base, word):
             return text_box(base).beside(TextBox((f"_{word}",)))
-    return TextBox((_line(_on_one_line(layout)),))
+    return TextBox((_line(_on_one_line(layout) if _holds_matrix(layout) else layout),))
+
+
+def _holds_matrix(layout: Any) -> bool:
+    if isinstance(layout, Array) and len(layout.rows[0]) > 1:
+        return True
+    parts = layout if isinstance(layout, tuple) else vars(layout).values()
+    return any(_holds_matrix(part) for part in parts if part is not None and not isinstance(part, str | int))
 
 
 def _on_one_line(layout: Any) -> Any:
@@ -198,24 +209,27 @@ def _tight(layout: Layout, *, is_above: bool = False) -> str:
 
 
 def _row(items: tuple[Layout, ...]) -> TextBox:
-    result: TextBox | None = None
-    before: Layout | None = None
-    for i, item in enumerate(items):
-        leads = i == 0 or (isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close"))
-        piece = TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
-        if item == Operator("space") and 0 < i < len(items) - 1:
-            piece = TextBox((_gap(items[:i], items[i + 1]),))
-        elif result is not None and before is not None and _needs_space(before, item):
-            result = result.beside(TextBox((_gap(items[:i], item),)))
-        result = piece if result is None else result.beside(piece)
-        before = item
-    return result or TextBox(("",))
+    pieces = [_piece(before, item) for before, item in zip((None, *items), items, strict=False)]
+    result = pieces[0] if pieces else TextBox(("",))
+    for i, (before, item) in enumerate(pairwise(items), 1):
+        piece = pieces[i]
+        if item == THIN_SPACE and i < len(items) - 1:
+            piece = TextBox((_gap(items[:i], items[i + 1], pieces[i + 1]),))
+        elif _needs_space(before, item):
+            result = result.beside(TextBox((_gap(items[:i], item, piece),)))
+        result = result.beside(piece)
+    return result
 
 
-def _gap(before: tuple[Layout, ...], item: Layout) -> str:
+def _piece(before: Layout | None, item: Layout) -> TextBox:
+    """What stands in a row, behind what is before it."""
+    leads = before is None or isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close")
+    return TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
+
+
+def _gap(before: tuple[Layout, ...], item: Layout, piece: TextBox) -> str:
     """Between two factors: a dot if the second begins with a figure, but not behind a differential."""
-    shown = text_box(item).lines
-    begins = len(shown) == 1 and shown[0][:1].isdigit() and not isinstance(first_of(item), Name)
+    begins = len(piece.lines) == 1 and piece.lines[0][:1].isdigit() and not isinstance(first_of(item), Name)
     behind_differential = len(before) > 1 and is_differential(before[-2])
     return "·" if begins and not behind_differential else " "
 

@@ -74,7 +74,13 @@ class Page:
         return found
 
     def names_of(self, step: Step) -> StepNames:
-        return replace(self._drafts[step.key], identifiers=self.identifiers)
+        draft = self._drafts[step.key]
+        is_final = not self._renamed & {*draft.values, step.symbol} and not isinstance(step.symbol, MatrixBase)
+        return draft if is_final else replace(draft, identifiers=self.identifiers)
+
+    @cached_property
+    def _renamed(self) -> set[Any]:
+        return {name for name, called in self.identifiers.items() if called != self._first_identifiers[name]}
 
     @cached_property
     def _drafts(self) -> dict[str, StepNames]:
@@ -102,11 +108,11 @@ class StepNames:
 
     def text(self, expr: Any) -> PerRoot:
         """The text of a line or of a part of it; two if the step is about two roots."""
-        return _of_each_root(written(expr, setting).text for setting in self._settings(self._called))
+        return _of_each_root(written(expr, setting).text for setting in self._with_names)
 
     def text_of_value(self, expr: Any) -> PerRoot:
         """The text of an expression in which letters alone are meant."""
-        return _of_each_root(written(expr, setting).text for setting in self._settings({}))
+        return _of_each_root(written(expr, setting).text for setting in self._in_letters)
 
     def factor(self, i: int) -> Any:
         """What times the residual of line i is that of the line before, with the names and the motion put in."""
@@ -133,26 +139,32 @@ class StepNames:
     @property
     def motion(self) -> dict[str, PerRoot]:
         """What the equations of motion make of each rate."""
-        plain = Setting(moving=self.moving)
-        return {written(rate, plain).text: self.text_of_value(value) for rate, value in self.step.motion}
+        return {written(rate, self._plain).text: self.text_of_value(value) for rate, value in self.step.motion}
 
-    @property
+    @cached_property
     def lines(self) -> list[Written]:
         """Every line, with what its names stand for and what its motion is."""
-        setting = self._settings(self._called)[0]
         shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
-        lines = [written(expr, setting) for expr in shown]
+        lines = [written(expr, self._with_names[0]) for expr in shown]
         used = {name for line in lines for name in line.used}
-        plain = Setting(moving=self.moving)
         motion = [side for pair in self.step.motion for side in pair]
-        return [*lines, *(written(expr, plain) for expr in [*(self.values[name] for name in used), *motion])]
+        return [*lines, *(written(expr, self._plain) for expr in [*(self.values[name] for name in used), *motion])]
 
-    @property
-    def _called(self) -> dict[Any, str]:
+    @cached_property
+    def _with_names(self) -> list[Setting]:
+        """The setting of the lines, for each of two roots."""
         own = {self.step.symbol} if self.has_formula else set()
-        return {name: self.identifiers[name] for name in self.values if name not in own}
+        return self._for_each_root({name: self.identifiers[name] for name in self.values if name not in own})
 
-    def _settings(self, names: Mapping[Any, str]) -> list[Setting]:
+    @cached_property
+    def _in_letters(self) -> list[Setting]:
+        return self._for_each_root({})
+
+    @cached_property
+    def _plain(self) -> Setting:
+        return Setting(moving=self.moving) if self._has_two_roots else self._in_letters[0]
+
+    def _for_each_root(self, names: Mapping[Any, str]) -> list[Setting]:
         signs: tuple[int | None, ...] = (1, -1) if self._has_two_roots else (None,)
         return [Setting(names, self.moving, sign) for sign in signs]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from derive.page.document import Answer, Equations
 from derive.page.wording import Inline, Text
@@ -29,7 +30,8 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> list[Printed]:
+@lru_cache(maxsize=1024)  # each format asks for them, and so does the height of a display
+def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
     """The lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the equation that goes on
@@ -51,8 +53,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         else:
             packed.append(Printed(None if last else left, (side,), line.reason))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
-    lines[-1] = replace(lines[-1], number=equations.number)
-    return lines
+    return (*lines[:-1], replace(lines[-1], number=equations.number))
 
 
 def _alike(first: Layout, second: Layout) -> bool:

@@ -13,6 +13,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import sympy
@@ -31,11 +32,13 @@ class Setting:
     names    what is written as an identifier: expression -> identifier
     moving   the names of the coordinates that are functions of the time
     sign     which of two roots is meant where they differ by it
+    known    what was written in it before: a value stands in several lines, and a line is asked for again
     """
 
     names: Mapping[Any, str] = field(default_factory=dict)
     moving: Collection[str] = frozenset()
     sign: int | None = None
+    known: dict[Any, Written] = field(default_factory=dict, compare=False, repr=False)
 
 
 def sympy_text(expr: Any, setting: Setting | None = None) -> str:
@@ -53,10 +56,14 @@ class Written:
 
 
 def written(expr: Any, setting: Setting) -> Written:
-    printer = _PlainSymPy(setting)
-    return Written(str(printer.doprint(expr)), printer.used, printer.words)
+    found = setting.known.get(expr)
+    if found is None:
+        printer = _PlainSymPy(setting)
+        found = setting.known[expr] = Written(str(printer.doprint(expr)), printer.used, printer.words)
+    return found
 
 
+@cache
 def is_taken(name: str) -> bool:
     """Whether a word means something to SymPy's reader already, or cannot be one."""
     known = hasattr(sympy, name) or hasattr(builtins, name)
@@ -132,7 +139,7 @@ class _PlainSymPy(StrPrinter):
         return f"MatrixSymbol({expr.name!r}, {expr.shape[0]}, {expr.shape[1]})"
 
     def _print_MatrixBase(self, expr: MatrixBase) -> str:
-        rows = ", ".join("[" + ", ".join(self._print(entry) for entry in expr.row(i)) + "]" for i in range(expr.rows))
+        rows = ", ".join("[" + ", ".join(self._print(entry) for entry in row) + "]" for row in expr.tolist())
         return f"Matrix([{rows}])"
 
     _print_ImmutableDenseMatrix = _print_DenseMatrix = _print_MatrixBase
