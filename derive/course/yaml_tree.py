@@ -12,7 +12,7 @@ import stat
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -251,6 +251,7 @@ def read_yaml(path: Path, shown_as: str) -> Tree:
     return yaml_tree(read_source(path, shown_as))
 
 
+@lru_cache(maxsize=64)  # each problem of a set asks for what a reference states of it
 def yaml_tree(source: Source) -> Tree:
     """The tree of a YAML text, or one `Rejected` with every fault of its form."""
     faults = Faults()

@@ -127,7 +127,7 @@ class Body(Placeable, OfParticles):
         """The step that says what a radius in the limits of a region stands for, where there is one."""
         return []
 
-    @property
+    @cached_property
     def middle(self) -> Point:
         """Its centre of mass, as its particles have it."""
         total = summed(self.particles(), lambda r: r)

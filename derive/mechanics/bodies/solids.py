@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, solve, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Poly, Rational, Symbol, cos, diag, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
@@ -375,8 +375,8 @@ def _edge_at(body: RoundSolid, point: Point, z: Expr) -> Expr:
     """The radius at z from a point, as the condition of the edge has it: solved for what makes its two sides equal."""
     r = Symbol("r_edge", nonnegative=True)
     left, right = body.edge_condition(point.along_body(z), r)
-    (found,) = solve(left - right, r)
-    return found
+    per_radius, rest = Poly(left - right, r).all_coeffs()
+    return -rest / per_radius
 
 
 def _by_pappus(body: Cone) -> Expr:

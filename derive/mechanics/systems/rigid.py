@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, eye, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, cos, eye, factor, sin
 from sympy.matrices import ImmutableMatrix
 from sympy.simplify.fu import TR5, TR6
 
@@ -87,9 +87,14 @@ def by_squares(value: Expr) -> Expr:
     """-cos^2 a/sin a, not (sin^2 a - 1)/sin a, whichever is shorter."""
     value = tidied(value)
     above, below = value.as_numer_denom()
-    uppers, lowers = ([factor(f(part.expand()).expand()) for f in _SQUARES] for part in (above, below))
+    uppers, lowers = (_factored_by_squares(part.expand()) for part in (above, below))
     forms = [upper / lower for upper in uppers for lower in lowers]
     return min((value, *forms), key=lambda form: (int(form.count_ops()) + _minuses_below(form), len(form.atoms(Add))))
+
+
+def _factored_by_squares(value: Expr) -> list[Expr]:
+    forms = dict.fromkeys(f(value).expand() for f in _SQUARES) if value.has(sin, cos) else [value]
+    return [factor(form) for form in forms]
 
 
 def _minuses_below(value: Expr) -> int:
