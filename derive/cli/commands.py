@@ -173,8 +173,8 @@ def _solve(arguments: argparse.Namespace) -> int:
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     _check_output(arguments.output, root)
     with _waiting(f"deriving {problem_id}"):
-        draws = arguments.format == "pdf"
-        work = partial(rendered, root, problem_id, arguments.detail, draws=draws)
+        form = arguments.format
+        work = partial(rendered, root, problem_id, arguments.detail, draws=form == "pdf", only=(form,))
         solved: Rendered = done(job_of(root, problem_id, work, limit))
     complain(solved.warnings)
     text = solved.texts.get(arguments.format, "")
@@ -289,7 +289,8 @@ def _check(arguments: argparse.Namespace) -> int:
     if len(ids) > 1:
         load(draws=False)
     jobs = {
-        job_of(root, problem, partial(rendered, root, problem, None), arguments.time_limit): problem for problem in ids
+        job_of(root, problem, partial(rendered, root, problem, only=()), arguments.time_limit): problem
+        for problem in ids
     }
     outcomes: dict[str, Outcome] = {}
     with Crew(arguments.jobs or os.cpu_count() or 1, lambda running: tell(f"checking {', '.join(running)}")) as crew:
