@@ -121,14 +121,15 @@ def _drawn(
 
 
 def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
-    """The letters of a drawing, which it mostly still has when its numbers are others."""
-    key = digest("letters", engine_digest("matplotlib"), *sorted(texts))
-    known: Mapping[str, Lettered] | None = cache.recalled_data(key)
-    if known is None:
+    """Letters as they were kept for this drawing with other numbers or for another drawing; the others are set now."""
+    keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
+    known = {text: kept for text, key in keys.items() if (kept := cache.recalled_data(key)) is not None}
+    if new := keys.keys() - known:
         from derive.render.drawing.lettering import letters_of
 
-        known = letters_of(texts)
-        cache.keep_data(key, known)
+        known |= letters_of(new)
+        for text in new:
+            cache.keep_data(keys[text], known[text])
     return known
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -30,6 +30,7 @@ from derive.figures.annotations import Arrow
 from derive.figures.marks import Drawing
 from derive.page.wording import Text, phrases
 from derive.render.drawing import lettering
+from derive.render.drawing.lettering import Lettered, letters_of
 from derive.render.notation.notation import Notation
 from derive.render.rendered import Rendered
 from tests.building.test_solved import forbid_deriving
@@ -143,13 +144,21 @@ def test_what_is_said_of_a_letter_makes_those_drawings_anew_that_have_it(
     assert not is_made_anew(a, {c: MASS}) and is_made_anew(a, {b: MASS})
 
 
-def test_other_numbers_set_no_letters_anew(problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    a = Symbol("a", positive=True)
-    files_of(problem, Cache(tmp_path), label=a)
-    with monkeypatch.context() as patch:
-        patch.setattr(lettering, "letters_of", lambda _: pytest.fail("set again"))
-        again = files_of(problem, Cache(tmp_path), length=-1, label=a)
-    assert again == files_of(problem, NO_CACHE, length=-1, label=a)
+def test_each_letter_is_set_once(problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not again for other numbers, nor for a drawing that has others beside it."""
+    a, b = (Symbol(name, positive=True) for name in "ab")
+    made: list[str] = []
+
+    def noted(texts: Collection[str]) -> dict[str, Lettered]:
+        made.extend(texts)
+        return letters_of(texts)
+
+    monkeypatch.setattr(lettering, "letters_of", noted)
+    for length, label in ((1, a), (-1, a), (1, b), (2, b)):
+        assert files_of(problem, Cache(tmp_path), length=length, label=label)
+    assert made == ["$a$", "$b$"]
+    kept = files_of(problem, Cache(tmp_path), length=-1, label=a)
+    assert kept == files_of(problem, NO_CACHE, length=-1, label=a)
 
 
 def test_a_file_that_is_lost_makes_both_anew(problem: Problem, drawings: list[str], tmp_path: Path) -> None:
