@@ -9,8 +9,9 @@ import re
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import FrameType
@@ -23,7 +24,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError, Misused, did_you_
 from derive.render.formats import TYPESET
 
 if TYPE_CHECKING:
-    from derive.building.sets import Report
+    from derive.building.sets import Options, Report
     from derive.building.workers import Outcome
     from derive.render.rendered import Files, Rendered
 
@@ -341,12 +342,48 @@ def _build(arguments: argparse.Namespace) -> int:
     if not arguments.sets:
         _warn_of_names(root)
     options = Options(arguments.engine, arguments.detail, arguments.force, arguments.jobs, arguments.time_limit)
-    sets = arguments.sets or set_names(root)
-    if not sets:
+    asked = _sets_asked(arguments.sets or set_names(root))
+    if not asked:
         raise Misused(
             Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
         )
-    return max(_reported(built_set(root, _problem_id(name), options, tell)) for name in dict.fromkeys(sets))
+    if arguments.watch:
+        return _watched(root, asked, options)
+    return max(_reported(built_set(root, name, replace(options, only=only), tell)) for name, only in asked.items())
+
+
+def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """The sets by name, and those of their problems that are asked for; none if that is all of them."""
+    found: dict[str, dict[str, None]] = {}
+    for set_id, _, name in (_problem_id(each).partition("/") for each in asked):
+        found.setdefault(set_id, {})[name] = None
+    return {set_id: () if "" in names else tuple(names) for set_id, names in found.items()}
+
+
+def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options) -> int:
+    """Builds at each edit until somebody interrupts, which is its only end and no failure."""
+    from derive.building.files import shown_path
+    from derive.building.watch import Shown, watch
+
+    failed: dict[str, bool] = {}  # if a set that failed is as it was before, that is news
+
+    def wrote(path: Path, seconds: float) -> None:
+        tell("")
+        print(f"wrote {shown_path(path)} ({seconds:.1f} s)", flush=True)
+
+    def built(report: Report) -> None:
+        if report.derived or report.changed or report.failed or failed.get(report.set_id, True):
+            _reported(report)
+        failed[report.set_id] = report.failed
+
+    def refused(complaints: Sequence[Complaint]) -> None:
+        tell("")
+        complain(complaints)
+
+    with suppress(KeyboardInterrupt):
+        watch(root, asked, options, Shown(tell, wrote, built, refused))
+    tell("")
+    return 0
 
 
 def _reported(report: Report) -> int:

@@ -63,8 +63,10 @@ def _parser() -> argparse.ArgumentParser:
     check = command("check", "derive problems, verify every line, compare with the reference")
     check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem")
     build = command("build", "typeset sets of problems; only what changed is done again")
-    build.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
-    build.add_argument("--force", action="store_true", help="do everything again")
+    build.add_argument("sets", nargs="*", metavar="SET|ID", help="default: every set")
+    how = build.add_mutually_exclusive_group()
+    how.add_argument("--force", action="store_true", help="do everything again")
+    how.add_argument("--watch", action="store_true", help="build again at each edit, until Ctrl-C")
     doctor = command("doctor", "show what a build needs and what is missing")
     for sub in (solve, build):
         sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
