@@ -220,6 +220,6 @@ def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_pa
         assert new not in page.read_text()
         (root / "templates" / file).write_text(text.replace(old, new))
         process.until("build/hw9/euler.pdf (")
-        assert new.rpartition(": ")[2] in page.read_text()
         process.until("hw9: derived")
+        assert new.rpartition(": ")[2] in page.read_text()
     assert process.end(signal.SIGINT) == (0, "")
