@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, reduce
+from functools import cached_property, lru_cache, reduce
 from operator import mul
 
 
@@ -17,6 +17,13 @@ class Dimension:
     length: Fraction = Fraction(0)
     time: Fraction = Fraction(0)
     current: Fraction = Fraction(0)
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.mass, self.length, self.time, self.current))
+
+    def __hash__(self) -> int:
+        return self._hash
 
     @property
     def powers(self) -> dict[str, Fraction]:

@@ -25,6 +25,11 @@ MOST_PARTS = 12  # the power beyond which nothing is integrated by parts
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
     """The integral of an explicit expression, limits innermost first, or None where a term is of no known kind."""
+    return _definite(value, tuple(tuple(limit) for limit in limits))
+
+
+@lru_cache(maxsize=1024)  # what is written down is carried out, checked and compared
+def _definite(value: Expr, limits: Limits) -> Expr | None:
     for i, (x, lower, upper) in enumerate(limits):
         terms = [_term(outside, inside, x, lower, upper, limits[i + 1 :]) for outside, inside in _terms(value, x)]
         if any(term is None for term in terms):

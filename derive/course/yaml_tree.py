@@ -139,6 +139,8 @@ class Scalar:
     def _spans(self) -> list[tuple[int, int]]:
         """For each character of the text, from where to where it stands in the source."""
         raw, at = self.source.text, self.start
+        if self.style not in (">", "|") and raw.startswith(self.text, at + self.quoted):
+            return [(i, i + 1) for i in range(at + self.quoted, at + self.quoted + len(self.text))]
         if self.style in (">", "|"):
             at = min(i for i in (raw.find(end, at) for end in "\r\n") if i >= 0) + 1
         elif self.style:
