@@ -60,11 +60,9 @@ def angular_velocity(
     whole = [scaled(speed, around) for speed, around in turning]
 
     def by_rotation_matrix() -> ImmutableMatrix:
-        matrix = axes.in_space
-        turned = by_functions_of_time(matrix, moving) * matrix.T
-        frame = after(axes.turns[:count])
-        here = frame.T * turned * frame
-        return column(*(entry.expand() for entry in (here[2, 1], here[0, 2], here[1, 0])))
+        matrix, frame = axes.in_space, after(axes.turns[:count])
+        rows, columns = frame.T * by_functions_of_time(matrix, moving), matrix.T * frame
+        return column(*((rows[i, :] * columns[:, j])[0].expand() for i, j in ((2, 1), (0, 2), (1, 0))))
 
     return establish(
         "rigid.angular_velocity",
