@@ -21,7 +21,6 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
-    cancel,
     cos,
     expand,
     factor,
@@ -39,8 +38,10 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5, TR6, TR10i
 
-from derive.algebra.coefficients import Outside, in_front, is_multiplied_out
+from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
+from derive.algebra.factors_in_front import in_front
+from derive.algebra.lowest_terms import Outside, in_lowest_terms
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
 from derive.algebra.squares import differences_of_squares
@@ -80,7 +81,7 @@ def _tidied_scalar(value: Expr) -> Expr:
         if value.atoms(Add) and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
-        return _shortest((_in_front(value), _in_front(_expanded_above(value))))
+        return _shortest((in_front(value), in_front(_expanded_above(value))))
     forms = (value, *_by_one_square(value), *_by_pairs(value), *_by_one_angle(value))
     return _shortest(_as_one_fraction(form) for form in dict.fromkeys(forms))
 
@@ -137,17 +138,10 @@ def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
 
 def _as_one_fraction(value: Expr) -> Expr:
     try:
-        expanded = _in_front_expanded(value)
-        return expanded if is_multiplied_out(value) else _shortest((expanded, _in_front(value)))
-    except PolynomialError:
-        return _in_front(value)
-
-
-def _in_front_expanded(value: Expr) -> Expr:
-    try:
-        return in_front(value)
+        expanded = in_lowest_terms(value)
     except Outside:
-        return _in_front(cancel(value))
+        return in_front(value)
+    return expanded if is_multiplied_out(value) else _shortest((expanded, in_front(value)))
 
 
 def _by_one_square(value: Expr) -> list[Expr]:
@@ -274,27 +268,6 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
         inside *= base ** (power - q * whole)
     # A sum that lost no factor is left as it was written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
-
-
-def _in_front(value: Expr) -> Expr:
-    """Common factors of the terms in front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
-    numerator, denominator = together(value).as_numer_denom()
-    sign, below = _plus_below(factor_terms(denominator))
-    return Mul(factor_terms(sign * numerator), Pow(below, -1))
-
-
-def _plus_below(denominator: Expr) -> tuple[Expr, Expr]:
-    """-1 and 7 M + 7 m - 5 m c^2 of 5 m c^2 - 7 M - 7 m: below a line the terms with a plus are in the majority."""
-    sign: Expr = Integer(1)
-    factors, turned = [], False
-    for part in Mul.make_args(denominator):
-        base, power = part.as_base_exp()
-        negative = sum(term.could_extract_minus_sign() for term in base.args) if base.is_Add else 0
-        if power.is_Integer and 2 * negative > len(base.args):
-            sign, part = sign * (-1) ** power, Pow(-base, power)
-            turned = True
-        factors.append(part)
-    return (sign, Mul(*factors)) if turned else (sign, denominator)
 
 
 def common_factor(entries: list[Expr]) -> Expr:
