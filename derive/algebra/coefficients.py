@@ -88,6 +88,9 @@ class Expanded(Ring):
             self._angles |= ONES << place if isinstance(letter, sin | cos) else 0
         return place
 
+    def name(self, place: int) -> Expr:
+        return self._names[place]
+
     def function(self, expr: Expr) -> Form:
         if not isinstance(expr, sin | cos):
             raise Outside

@@ -41,7 +41,7 @@ from sympy.simplify.fu import TR5, TR6, TR10i
 from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.factors_in_front import in_front
-from derive.algebra.lowest_terms import Outside, in_lowest_terms
+from derive.algebra.lowest_terms import Outside, in_lowest_terms, squares_turned
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
 from derive.algebra.squares import differences_of_squares
@@ -82,8 +82,7 @@ def _tidied_scalar(value: Expr) -> Expr:
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
         return _shortest((in_front(value), in_front(_expanded_above(value))))
-    forms = (value, *_by_one_square(value), *_by_pairs(value), *_by_one_angle(value))
-    return _shortest(_as_one_fraction(form) for form in dict.fromkeys(forms))
+    return _shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -144,34 +143,15 @@ def _as_one_fraction(value: Expr) -> Expr:
     return expanded if is_multiplied_out(value) else _shortest((expanded, in_front(value)))
 
 
-def _by_one_square(value: Expr) -> list[Expr]:
-    """The value multiplied out, with sin^2 written by cos^2, and with cos^2 by sin^2."""
-    if not value.atoms(sin) or not value.atoms(cos):
+def _by_squares(value: Expr) -> list[Expr]:
+    try:
+        return squares_turned(value) if value.atoms(sin, cos) else []
+    except Outside:
         return []
-    return _in_one_square(value)
 
 
 def _in_one_square(value: Expr) -> list[Expr]:
     return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
-
-
-def _by_pairs(value: Expr) -> list[Expr]:
-    """x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair, where other terms keep their squares."""
-    if not value.atoms(sin, cos):
-        return []
-    terms = dict(term.as_coeff_Mul()[::-1] for term in Add.make_args(value.expand()))
-    found = False
-    for term in list(terms):
-        for part in () if term not in terms else Mul.make_args(term):
-            base, power = part.as_base_exp()
-            plain = term / part
-            if isinstance(base, sin | cos) and power == 2 and plain in terms and terms[plain] == -terms[term]:
-                squared = plain * (cos if isinstance(base, sin) else sin)(base.args[0]) ** 2
-                terms[squared] = terms.get(squared, Integer(0)) + terms.pop(plain)
-                del terms[term]
-                found = True
-                break
-    return [Add(*(number * term for term, number in terms.items()))] if found else []
 
 
 def _by_one_angle(value: Expr) -> list[Expr]:
