@@ -10,7 +10,7 @@ from functools import lru_cache, reduce
 from math import comb
 from typing import NamedTuple
 
-from sympy import ZZ, Expr, Rational, S, cos, lex, sin
+from sympy import ZZ, Expr, S, cos, lex, sin
 from sympy.core.exprtools import decompose_power
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.rings import PolyElement, PolyRing
@@ -33,7 +33,7 @@ def squares_turned(value: Expr) -> list[Expr]:
     """The same with sin^2 written by cos^2, with cos^2 by sin^2, and with 1 - cos^2 or 1 - sin^2 as one square."""
     ring = _ring()
     plain = ring.fraction(product_of(value))
-    turns = [ring.in_pairs]
+    turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]
     if value.has(sin) and value.has(cos):
         turns += [ring.without(sin), ring.without(cos)]
     turned = (plain._replace(top=turn(plain.top), bottom=turn(plain.bottom)) for turn in turns)

@@ -25,7 +25,6 @@ from sympy import (
     expand,
     factor,
     factor_list,
-    factor_terms,
     gcd,
     lcm,
     radsimp,
@@ -40,10 +39,11 @@ from sympy.simplify.fu import TR5, TR6, TR10i
 
 from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
-from derive.algebra.factors_in_front import in_front
-from derive.algebra.lowest_terms import Outside, in_lowest_terms, squares_turned
+from derive.algebra.factors_in_front import fraction_of, in_front, product_of
+from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
+from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.squares import differences_of_squares
 
 
@@ -78,9 +78,9 @@ def _tidied_scalar(value: Expr) -> Expr:
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):
-        if value.atoms(Add) and vanishes(value):
+        if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
-        value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
+        value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
         return _shortest((in_front(value), in_front(_expanded_above(value))))
     return _shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
 
@@ -198,7 +198,8 @@ def _denested(value: Expr) -> Expr:
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
     """1/(1 + sqrt(2)) is sqrt(2) - 1; a root of letters stays below, where it is easier to read."""
-    numerator, denominator = value.as_numer_denom()
+    numerator, denominator = fraction_of(product_of(value))
+    value = numerator / denominator
     if denominator.is_number or not denominator.has(Pow):
         return radsimp(value) if len(Add.make_args(denominator)) <= 4 else value
     above, below = (part.as_independent(*part.free_symbols, as_Add=False) for part in (numerator, denominator))
@@ -206,28 +207,29 @@ def _roots_in_the_numerator(value: Expr) -> Expr:
 
 
 def _expanded_above(value: Expr) -> Expr:
-    numerator, denominator = value.as_numer_denom()
+    numerator, denominator = fraction_of(product_of(value))
     return expand(numerator) / denominator
 
 
 def _roots_drawn_out(value: Expr) -> Expr:
     """Squares out from under each root, where their sign is known: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+    return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, _drawn_out)
 
-    def drawn(power: Expr) -> Expr:
-        turning = power.base.atoms(sin, cos)
-        base = together(_shortest((power.base, *(_in_one_square(power.base) if turning else ()))))
-        numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
-        (outside, inside), (below, under) = numerator, denominator
-        root = Rational(1, power.exp.q)
-        return (outside / below) ** power.exp.p * Pow(inside / under, root) ** power.exp.p
 
-    return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, drawn)
+@lru_cache(maxsize=1024)  # what one value has under its roots, others have there too
+def _drawn_out(power: Pow) -> Expr:
+    turning = power.base.atoms(sin, cos)
+    base = _shortest((power.base, *(_in_one_square(power.base) if turning else ())))
+    parts = fraction_of(product_of(base))
+    (outside, inside), (below, under) = (_square_free(part, power.exp.q) for part in parts)
+    root = Rational(1, power.exp.q)
+    return (outside / below) ** power.exp.p * Pow(inside / under, root) ** power.exp.p
 
 
 def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
     """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
     outside, inside = Integer(1), Integer(1)
-    for piece in Mul.make_args(factor_terms(part)):
+    for piece in Mul.make_args(part):
         out, kept = _square_free_factor(piece, q)
         outside, inside = outside * out, inside * kept
     return outside, inside
@@ -237,8 +239,10 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
     if part.is_number:
         return Integer(1), part
     try:
+        if is_squarefree(part):
+            return Integer(1), part
         content, factors = factor_list(part)
-    except PolynomialError:
+    except (Outside, PolynomialError):
         return Integer(1), part
     outside, inside = Integer(1), content
     for base, power in factors:
