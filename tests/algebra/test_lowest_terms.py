@@ -9,7 +9,7 @@ from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.rings import PolyElement
 
 from derive.algebra.equality import equal
-from derive.algebra.lowest_terms import Outside, in_lowest_terms
+from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
 from tests.algebra.test_tidy import bounded, expressions
 
 a, b, c = symbols("a b c", positive=True)
@@ -78,3 +78,54 @@ def test_what_is_too_large_is_left_to_others(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(PolyElement, "cofactors", failing)
     with pytest.raises(Outside):
         in_lowest_terms((x**2 - Integer(1)) / (x + 2))
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (a * sin(p) ** 2 + a * cos(p) ** 2, [a]),
+        (x * cos(p) ** 2 - x + y * sin(p), [-x * sin(p) ** 2 + y * sin(p)]),
+        (x / (1 - cos(p) ** 2), [x / sin(p) ** 2]),
+        (sin(p) ** 3 * cos(p), [sin(p) * cos(p) * (1 - cos(p) ** 2)]),
+        (sin(p) / x + cos(p), []),
+    ],
+    ids=str,
+)
+def test_squares_are_written_by_one_another(value: Expr, expected: list[Expr]) -> None:
+    found = squares_turned(value)
+    assert all(equal(each, value) for each in found)
+    assert {in_front(each) for each in expected} <= set(found)
+    assert bool(found) == bool(expected)
+
+
+@bounded
+@given(expressions)
+def test_turned_squares_change_no_value(value: Expr) -> None:
+    try:
+        assert all(equal(each, value) for each in squares_turned(value))
+    except Outside:
+        return
+
+
+def test_pairs_do_not_depend_on_what_was_asked_before() -> None:
+    one = cos(p) ** 2 * sin(x) ** 2 - cos(p) ** 2 - sin(x) ** 2 + 1
+    found = squares_turned(one)
+    in_lowest_terms(sum(symbols("k_0:400")))  # begins the table anew
+    in_lowest_terms(sin(x) + cos(p))
+    assert squares_turned(one) == found
+
+
+@pytest.mark.parametrize(
+    ("value", "is_one"),
+    [
+        (a**2 + b**2, True),
+        (a**2 - b**2, True),
+        (a**2 + 2 * a * b + b**2, False),
+        (a**2 * b - a**2, False),
+        (x**2 * sin(p) + sin(p), True),
+        (a * (x + 1) ** 2 * (x - 2), False),
+    ],
+    ids=str,
+)
+def test_what_is_divided_by_no_square(value: Expr, is_one: bool) -> None:
+    assert is_squarefree(value) is is_one
