@@ -6,7 +6,6 @@ How the result then stands on paper is decided by `derive.render.notation.notati
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import lru_cache, reduce
 from typing import Any
 
@@ -35,11 +34,12 @@ from sympy import (
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR5, TR6, TR10i
+from sympy.simplify.fu import TR10i
 
 from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.factors_in_front import fraction_of, in_front, product_of
+from derive.algebra.length import shortest
 from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
@@ -81,8 +81,8 @@ def _tidied_scalar(value: Expr) -> Expr:
         if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
-        return _shortest((in_front(value), in_front(_expanded_above(value))))
-    return _shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
+        return shortest((in_front(value), in_front(_expanded_above(value))))
+    return shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -140,7 +140,7 @@ def _as_one_fraction(value: Expr) -> Expr:
         expanded = in_lowest_terms(value)
     except Outside:
         return in_front(value)
-    return expanded if is_multiplied_out(value) else _shortest((expanded, in_front(value)))
+    return expanded if is_multiplied_out(value) else shortest((expanded, in_front(value)))
 
 
 def _by_squares(value: Expr) -> list[Expr]:
@@ -150,31 +150,10 @@ def _by_squares(value: Expr) -> list[Expr]:
         return []
 
 
-def _in_one_square(value: Expr) -> list[Expr]:
-    return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
-
-
 def _by_one_angle(value: Expr) -> list[Expr]:
     """cos a cos b + sin a sin b written as cos(a - b), and the like."""
     angles = {function.args[0] for function in value.atoms(sin, cos)}
     return [TR10i(expand(value))] if len(angles) > 1 and value.atoms(sin) else []
-
-
-def _shortest(forms: Iterable[Expr]) -> Expr:
-    """With the least to write; between equals, always the same one."""
-    lengths: dict[Expr, int] = {form: int(form.count_ops()) for form in forms}
-    least = min(lengths.values())
-    return min((form for form, length in lengths.items() if length == least), key=_Text)
-
-
-class _Text:
-    """How an expression is written, found only where it must be compared."""
-
-    def __init__(self, value: Expr) -> None:
-        self.value = value
-
-    def __lt__(self, other: _Text) -> bool:
-        return str(self.value) < str(other.value)
 
 
 def _has_roots(value: Expr) -> bool:
@@ -193,7 +172,7 @@ def _denested(value: Expr) -> Expr:
     content, rest = square.primitive()
     found = sqrt(content) * sqrtdenest(sqrt(rest))
     found = found if number.is_positive else -found
-    return _shortest((value, found * letters))
+    return shortest((value, found * letters))
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
@@ -218,8 +197,7 @@ def _roots_drawn_out(value: Expr) -> Expr:
 
 @lru_cache(maxsize=1024)  # what one value has under its roots, others have there too
 def _drawn_out(power: Pow) -> Expr:
-    turning = power.base.atoms(sin, cos)
-    base = _shortest((power.base, *(_in_one_square(power.base) if turning else ())))
+    base = shortest((power.base, *_by_squares(power.base)))
     parts = fraction_of(product_of(base))
     (outside, inside), (below, under) = (_square_free(part, power.exp.q) for part in parts)
     root = Rational(1, power.exp.q)
