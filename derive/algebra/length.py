@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import lru_cache
 
-from sympy import E, Expr, Mul, Pow, S
+from sympy import E, Expr, Integer, Mul, Pow
 
 __all__ = ["length", "shortest"]
 
@@ -58,8 +58,8 @@ def _of_fraction(value: Expr) -> int:
     below: list[Expr] = []
     for factor in value.args:
         if factor.is_Rational:
-            above += [S(factor.p)] if factor.p != 1 else []
-            below += [S(factor.q)] if factor.q != 1 else []
+            above += [Integer(factor.p)] if factor.p != 1 else []
+            below += [Integer(factor.q)] if factor.q != 1 else []
         elif factor.is_Pow and _is_negative(factor.exp):
             below.append(Pow(factor.base, -factor.exp))
         else:
