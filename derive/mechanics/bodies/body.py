@@ -282,6 +282,10 @@ class Hollow(Body):
     def __post_init__(self) -> None:
         require_order(self.name, self.inner, self.outer)
 
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"inner radius": self.inner, "outer radius": self.outer}
+
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:
     if (outer - inner).is_nonpositive:

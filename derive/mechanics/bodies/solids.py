@@ -244,10 +244,15 @@ class ThickShell(Hollow):
     def map(self) -> Map:
         return spherical(self.letters, (self.inner, self.outer))
 
-    def particles(self) -> Particles:
-        """A ball less the ball that was taken out, their masses as the cubes of their radii."""
+    def whole_and_removed(self) -> tuple[Ball, Ball]:
+        """A ball and the ball that was taken out, their masses as the cubes of their radii."""
         between = self.outer**3 - self.inner**3
         whole, removed = (Ball(r, self.mass * r**3 / between) for r in (self.outer, self.inner))
+        return whole, removed
+
+    def particles(self) -> Particles:
+        """The one less the other."""
+        whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
 
