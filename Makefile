@@ -59,6 +59,7 @@ check: .venv/.runtime
 bench: .venv/.runtime
 	@$(PYTHON) bench/ratios.py
 	@$(PYTHON) bench/systems.py
+	@$(PYTHON) bench/scale.py
 
 test: .venv/.tests
 	@$(PYTHON) -m ruff check --quiet .

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 PENDULA, SPRINGS = range(2, 11), range(2, 11)
@@ -157,7 +157,7 @@ def timed_apart(way: str, kind: str, n: int) -> float:
     return min(float(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(ROUNDS))
 
 
-def exponent(sizes: range, times: list[float]) -> float:
+def exponent(sizes: Sequence[int], times: list[float]) -> float:
     """b of time = a size^b, through the upper half of the sizes."""
     half = len(times) // 2
     return math.log(times[-1] / times[half]) / math.log(sizes[-1] / sizes[half])

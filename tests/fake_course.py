@@ -32,7 +32,14 @@ fi
 """
 
 
-def rendered(root: Path, problem_id: str, detail: str | None, cache: object = None, draws: bool = False) -> Rendered:
+def rendered(
+    root: Path,
+    problem_id: str,
+    detail: str | None = None,
+    cache: object = None,
+    draws: bool = False,
+    only: tuple[str, ...] | None = None,
+) -> Rendered:
     path = path_of(root, problem_id)
     said = (root / path).read_text().strip()
     if said == "loop":

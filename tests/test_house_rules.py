@@ -8,6 +8,7 @@ import re
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,6 @@ MODULES = {
     for path in sorted(SOURCE.rglob("*.py"))
     if path.name != "__init__.py"
 }
-TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MODULES.items()}
 
 # From the ground up: a room imports from the floors below it, and two rooms of one floor not from each other. What
 # scripts import, `given`, and the front door stand before the rooms.
@@ -62,10 +62,16 @@ DEFINITIONS = {
 VAGUE = {"utils", "helpers", "helper", "manager", "process", "data", "misc", "common"}
 
 
+@cache
+def tree(name: str) -> ast.Module:
+    return ast.parse(MODULES[name].read_text(encoding="utf-8"))
+
+
+@cache
 def imported(name: str) -> set[str]:
     """The modules of ours that a module imports, anywhere in it."""
     found: set[str] = set()
-    for node in ast.walk(TREES[name]):
+    for node in ast.walk(tree(name)):
         if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "derive":
             whole = [f"{node.module}.{alias.name}" for alias in node.names]
             found |= {m for m in whole if m.removeprefix("derive.") in MODULES} or {node.module or ""}
@@ -79,10 +85,10 @@ def strings(name: str) -> Iterator[ast.Constant]:
     documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
     docstrings = {
         id(node.body[0].value)
-        for node in ast.walk(TREES[name])
+        for node in ast.walk(tree(name))
         if isinstance(node, documented) and node.body and isinstance(node.body[0], ast.Expr)
     }
-    for node in ast.walk(TREES[name]):
+    for node in ast.walk(tree(name)):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
             yield node
 
@@ -147,7 +153,7 @@ def test_a_module_can_be_read_at_one_sitting(name: str) -> None:
 
 @pytest.mark.parametrize("name", MODULES)
 def test_a_module_says_what_it_is_for_and_has_a_name_that_says_something(name: str) -> None:
-    assert ast.get_docstring(TREES[name])
+    assert ast.get_docstring(tree(name))
     assert not set(re.split(r"[._]", name)) & VAGUE
 
 
@@ -165,22 +171,22 @@ def test_the_engine_holds_no_sentence(name: str) -> None:
 
 @pytest.mark.parametrize("name", MODULES)
 def test_only_the_command_line_prints(name: str) -> None:
-    prints = [n for n in ast.walk(TREES[name]) if isinstance(n, ast.Call) and ast.unparse(n.func) == "print"]
+    prints = [n for n in ast.walk(tree(name)) if isinstance(n, ast.Call) and ast.unparse(n.func) == "print"]
     assert not prints or name in PRINTING
 
 
 @pytest.mark.parametrize("name", MODULES)
 def test_nothing_is_evaluated_from_text(name: str) -> None:
     banned = {"eval", "exec", "sympify", "parse_expr", "parse_latex", "S"}
-    called = {ast.unparse(n.func) for n in ast.walk(TREES[name]) if isinstance(n, ast.Call)}
+    called = {ast.unparse(n.func) for n in ast.walk(tree(name)) if isinstance(n, ast.Call)}
     allowed = {"exec"} if name == "course.script" else set()  # a problem's own script is code, and trusted
     assert called & banned <= allowed
 
 
 def test_modules_of_the_engine_import_no_reader_of_files() -> None:
     for name in ENGINE:
-        modules = {alias.name for n in ast.walk(TREES[name]) if isinstance(n, ast.Import) for alias in n.names}
-        modules |= {n.module or "" for n in ast.walk(TREES[name]) if isinstance(n, ast.ImportFrom)}
+        modules = {alias.name for n in ast.walk(tree(name)) if isinstance(n, ast.Import) for alias in n.names}
+        modules |= {n.module or "" for n in ast.walk(tree(name)) if isinstance(n, ast.ImportFrom)}
         assert not modules & {"yaml", "jinja2", "pathlib", "os", "subprocess", "pylatexenc", "io"}
 
 
@@ -204,6 +210,7 @@ def test_nothing_that_is_shipped_names_a_machine() -> None:
 # --- verbs ---
 
 
+@cache
 def verbs() -> dict[str, Any]:
     """Every public function of mechanics and numbers that yields a quantity."""
     modules = [
@@ -260,22 +267,24 @@ def test_a_verb_is_named_for_what_it_yields() -> None:
 # --- words ---
 
 
-def establishing_calls() -> Iterator[tuple[str, str, ast.Call]]:
+@cache
+def establishing_calls() -> list[tuple[str, str, ast.Call]]:
     """Module, rule and call of every `establish(...)` in the engine."""
-    for name in sorted(ENGINE):
-        for node in ast.walk(TREES[name]):
-            if (
-                isinstance(node, ast.Call)
-                and ast.unparse(node.func) == "establish"
-                and isinstance(node.args[0], ast.Constant)
-            ):
-                yield name, node.args[0].value, node
+    return [
+        (name, node.args[0].value, node)
+        for name in sorted(ENGINE)
+        for node in ast.walk(tree(name))
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id == "establish"
+        and isinstance(node.args[0], ast.Constant)
+    ]
 
 
 def written_outcomes(module: str, call: ast.Call) -> set[str]:
     """The outcomes that can be read off the source: constants, the branches of a choice, the values of a table."""
     given = next((keyword.value for keyword in call.keywords if keyword.arg == "outcome"), ast.Constant("generic"))
-    functions = {n.name: n for n in ast.walk(TREES[module]) if isinstance(n, ast.FunctionDef)}
+    functions = {n.name: n for n in ast.walk(tree(module)) if isinstance(n, ast.FunctionDef)}
     roots: list[ast.AST] = [given]
     roots += [functions[n.id] for n in ast.walk(given) if isinstance(n, ast.Name) and n.id in functions]
     found: set[str] = set()
@@ -296,7 +305,7 @@ def written_outcomes(module: str, call: ast.Call) -> set[str]:
 
 def documented_outcomes(module: str, call: ast.Call) -> set[str]:
     """The outcomes that the docstring of the verb names, without what it says of them in brackets."""
-    functions = [n for n in TREES[module].body if isinstance(n, ast.FunctionDef)]
+    functions = [n for n in tree(module).body if isinstance(n, ast.FunctionDef)]
     verb = next((n for n in functions if n.lineno <= call.lineno <= (n.end_lineno or 0)), None)
     told = re.search(r"Outcomes: (.*?)\.?\n\s*(?:\w+ ?\w*:|$)", (verb and ast.get_docstring(verb)) or "", re.DOTALL)
     listed = re.sub(r"\([^()]*\)", "", told[1]) if told else ""
@@ -307,6 +316,7 @@ def documented_outcomes(module: str, call: ast.Call) -> set[str]:
     }
 
 
+@cache
 def reached_outcomes() -> dict[str, set[str]]:
     """The outcomes that the variants of the block reach, by rule."""
     found: dict[str, set[str]] = {}
@@ -386,7 +396,7 @@ def test_a_definition_is_a_definition_and_everything_else_has_a_route() -> None:
 def test_quantities_are_made_by_establish_alone() -> None:
     for name in MODULES:
         made = [
-            n for n in ast.walk(TREES[name]) if isinstance(n, ast.Call) and ast.unparse(n.func) in {"Quantity", "Step"}
+            n for n in ast.walk(tree(name)) if isinstance(n, ast.Call) and ast.unparse(n.func) in {"Quantity", "Step"}
         ]
         assert not made or name in {"steps.establish", "steps.derivation"}, name
     assert isinstance(known_block()["torque"], Quantity)

@@ -12,8 +12,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests.mutation.known import KNOWN
-from tests.mutation.mutants import MODULES, mutants_of
-from tests.mutation.trial import Trials, Tried, Verdict, verbs_with_a_mutant
+from tests.mutation.trial import Trials, Tried, Verdict
 from tests.test_house_rules import DEFINITIONS, verbs
 
 RUNS = ("block", "euler", "body-cylinder", "slab")
@@ -43,8 +42,16 @@ def in_a_process_of_its_own(trials: Trials) -> Iterator[Tried]:
 
 
 @pytest.fixture(scope="module")
-def found() -> list[Tried]:
-    return list(in_a_process_of_its_own(Trials(RUNS)))
+def trials() -> Trials:
+    """The mutants themselves, made once for all tests here."""
+    made = Trials(RUNS)
+    assert made.mutants
+    return made
+
+
+@pytest.fixture(scope="module")
+def found(trials: Trials) -> list[Tried]:
+    return list(in_a_process_of_its_own(trials))
 
 
 def test_no_mutant_prints_another_result_or_another_sentence(found: list[Tried]) -> None:
@@ -58,11 +65,10 @@ def test_every_mutant_of_the_sample_was_tried(found: list[Tried]) -> None:
     assert refused >= SIZE // 2
 
 
-def test_the_law_of_every_verb_has_mutants() -> None:
+def test_the_law_of_every_verb_has_mutants(trials: Trials) -> None:
     """A definition asserts nothing, so a change of it is another definition; every other verb can be made wrong."""
-    assert set(verbs()) - DEFINITIONS <= verbs_with_a_mutant()
+    assert set(verbs()) - DEFINITIONS <= trials.changed()
 
 
-def test_a_known_survivor_is_a_mutant_that_can_still_be_made() -> None:
-    made = {mutant.id for module in MODULES for mutant in mutants_of(module)[1]}
-    assert set(KNOWN) - made == set()
+def test_a_known_survivor_is_a_mutant_that_can_still_be_made(trials: Trials) -> None:
+    assert set(KNOWN) - {mutant.id for mutant in trials.mutants} == set()

@@ -12,9 +12,10 @@ from typing import NamedTuple
 
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, S, Symbol, cos, sin
 
+from derive.algebra.factors_in_front import Product
 from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
 
-__all__ = ["Coefficient", "Outside", "coefficients", "in_front", "is_multiplied_out"]
+__all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_multiplied_out"]
 
 ONES = (1 << WIDTH) - 1
 PHASE = 2  # bits below those of the letters
@@ -45,7 +46,7 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
     Raises `Outside` for what is no polynomial, or one that is too large.
     """
-    ring = _Kept.ring = _Expanded() if _Kept.ring.is_full else _Kept.ring
+    ring = _Kept.ring = Expanded() if _Kept.ring.is_full else _Kept.ring
     form = ring.form(value)
     places = [ring.place(letter) for letter in letters]
     mask = sum(ONES << place for place in places)
@@ -59,13 +60,6 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
     return sorted(found, key=lambda entry: entry[0], reverse=True)
 
 
-def in_front(value: Expr) -> Expr:
-    """A polynomial multiplied out, with the common factors of its terms in front; raises `Outside` for what is none."""
-    ring = _Kept.ring = _Expanded() if _Kept.ring.is_full else _Kept.ring
-    form = ring.form(value)
-    return ring.factored(form.terms, Rational(1, form.below)).value if form.terms else S.Zero
-
-
 def is_multiplied_out(value: Expr) -> bool:
     """Whether it is a sum of products of powers of letters and of functions."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
@@ -77,7 +71,7 @@ def _is_power(factor: Expr) -> bool:
     return bool(known and power.is_Integer and power.is_positive or factor.is_Rational)
 
 
-class _Expanded(Ring):
+class Expanded(Ring):
     """What is multiplied out: letters, and functions of what is multiplied out; nothing is divided by."""
 
     def __init__(self) -> None:
@@ -93,6 +87,9 @@ class _Expanded(Ring):
             self._names[place] = letter
             self._angles |= ONES << place if isinstance(letter, sin | cos) else 0
         return place
+
+    def name(self, place: int) -> Expr:
+        return self._names[place]
 
     def function(self, expr: Expr) -> Form:
         if not isinstance(expr, sin | cos):
@@ -136,18 +133,24 @@ class _Expanded(Ring):
 
     def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
         """The common factors of the terms in front, with a number and one factor more."""
-        lowest = reduce(_common, terms)
         if number < 0:
             terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
-        content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
+        lowest, content, rest = _in_front(terms)
         whole, below = (number * content).as_numer_denom()
-        rest = {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}
         inner = self.expression(rest, 1) * Mul(*self._powers(lowest), other)
         if whole != 1:
             inner = Mul(whole, inner, evaluate=False) if inner.is_Add else whole * inner
         found = Mul(inner, Pow(below, -1))
         is_prime = len(terms) == 1 or (below == 1 or found.is_Mul) and _is_linear_in_some_letter(rest)
         return Factored(found, is_prime)
+
+    def product_in_front(self, terms: Terms, power: int = 1) -> Product:
+        """The common factors of the terms, and the sum of what is left of them; or the same below the line."""
+        lowest, content, rest = _in_front(terms)
+        powers = {letter: power * n for letter, n in self._letters(lowest)}
+        if len(rest) > 1:
+            powers[self.expression(rest, 1)] = power
+        return Product(Rational(content) ** power, powers)
 
     def expression(self, terms: Terms, below: int) -> Expr:
         key = (frozenset(terms.items()), below)
@@ -158,6 +161,9 @@ class _Expanded(Ring):
         return found
 
     def _powers(self, monomial: int) -> Iterator[Expr]:
+        return (letter ** Integer(power) for letter, power in self._letters(monomial))
+
+    def _letters(self, monomial: int) -> Iterator[tuple[Expr, int]]:
         """The letters of a monomial, from the first: the places are whole numbers of `WIDTH` bits above the lowest."""
         monomial >>= PHASE
         place = PHASE
@@ -166,9 +172,16 @@ class _Expanded(Ring):
             skipped = lowest - lowest % WIDTH
             monomial >>= skipped
             place += skipped
-            yield self._names[place] ** Integer(monomial & ONES)
+            yield self._names[place], monomial & ONES
             monomial >>= WIDTH
             place += WIDTH
+
+
+def _in_front(terms: Terms) -> tuple[int, int, Terms]:
+    """What the terms have in common, letters and number, and what is left of them."""
+    lowest = reduce(_common, terms)
+    content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
+    return lowest, content, {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}
 
 
 def _common(one: int, other: int) -> int:
@@ -194,4 +207,4 @@ def _is_linear_in_some_letter(terms: Terms) -> bool:
 class _Kept:
     """The ring that goes from one sum to the next."""
 
-    ring = _Expanded()
+    ring = Expanded()

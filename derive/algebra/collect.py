@@ -10,6 +10,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
 from derive.algebra.expressions import TIME, rate
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 
 
@@ -101,7 +102,7 @@ def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
     """l ((M + m) g - m l omega^2 cos(theta)) sin(theta): the constants in its sums together, where that is shorter."""
 
     def together(sum_of: Expr) -> Expr:
-        return min((sum_of, with_constants_together(sum_of, moving)), key=lambda form: int(form.count_ops()))
+        return min((sum_of, with_constants_together(sum_of, moving)), key=length)
 
     return Mul(*(together(f) if f.is_Add else f for f in Mul.make_args(value)))
 
@@ -176,7 +177,7 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
     powers = [s**n for s, n in rates]
     if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
-        if _has_fractions_inside(inside) or int(inside.count_ops()) > int(whole.count_ops()):  # (3/4) m (R - a)^2
+        if _has_fractions_inside(inside) or length(inside) > length(whole):  # (3/4) m (R - a)^2
             return Mul(whole, *powers)
         has_number = inside.is_Mul and not inside.args[0].is_Integer and inside.args[0].is_Rational
         written = not has_number and not inside.as_numer_denom()[1].free_symbols
@@ -209,7 +210,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 
 def _shorter_as_product(value: Expr) -> Expr:
     """(l + x)^2, not l^2 + 2 l x + x^2."""
-    return min((value, factor(value)), key=lambda form: int(form.count_ops()))
+    return min((value, factor(value)), key=length)
 
 
 def spread(value: Expr) -> Expr:
@@ -238,7 +239,7 @@ def by_terms(value: Expr) -> Expr:
 
 def _shorter(term: Expr) -> Expr:
     numerator, denominator = term.as_numer_denom()
-    return min((term, numerator / factor(denominator)), key=lambda form: int(form.count_ops()))
+    return min((term, numerator / factor(denominator)), key=length)
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
@@ -246,4 +247,4 @@ def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]
-    return min(forms, key=lambda form: int(form.count_ops()))
+    return min(forms, key=length)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cached_property, lru_cache, reduce
 from operator import mul
 
 
@@ -18,16 +18,23 @@ class Dimension:
     time: Fraction = Fraction(0)
     current: Fraction = Fraction(0)
 
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.mass, self.length, self.time, self.current))
+
+    def __hash__(self) -> int:
+        return self._hash
+
     @property
     def powers(self) -> dict[str, Fraction]:
         """By the letters that physics has for them."""
         return {"M": self.mass, "L": self.length, "T": self.time, "I": self.current}
 
     def __mul__(self, other: Dimension) -> Dimension:
-        return Dimension(*(a + b for a, b in zip(self.powers.values(), other.powers.values(), strict=True)))
+        return _multiplied(self, other)
 
     def __pow__(self, exponent: Fraction | int) -> Dimension:
-        return Dimension(*(n * exponent for n in self.powers.values()))
+        return _raised(self, exponent)
 
     def __truediv__(self, other: Dimension) -> Dimension:
         return self * other**-1
@@ -35,6 +42,16 @@ class Dimension:
     @property
     def is_number(self) -> bool:
         return self == NUMBER
+
+
+@lru_cache(maxsize=1024)  # there are few, and every line of a page is checked
+def _multiplied(one: Dimension, other: Dimension) -> Dimension:
+    return Dimension(*(a + b for a, b in zip(one.powers.values(), other.powers.values(), strict=True)))
+
+
+@lru_cache(maxsize=1024)
+def _raised(base: Dimension, exponent: Fraction | int) -> Dimension:
+    return Dimension(*(n * exponent for n in base.powers.values()))
 
 
 def dimension(mass: int, length: int, time: int, current: int = 0) -> Dimension:

@@ -100,6 +100,7 @@ def component_names(name: str) -> tuple[Symbol, Symbol, Symbol]:
     return x, y, z
 
 
+@lru_cache(maxsize=4096, typed=True)  # the same places and velocities are written down by each verb that needs them
 def column(*components: Any) -> ImmutableMatrix:
     return ImmutableDenseMatrix(3, 1, list(components))
 
@@ -303,7 +304,7 @@ class Bracket(ScalarNode):
     def doit(self, **hints: Any) -> Expr:
         antiderivative, x, lower, upper = self.args
         f = explicit(antiderivative)
-        return f.subs(x, upper) - f.subs(x, lower)
+        return f.xreplace({x: upper}) - f.xreplace({x: lower})
 
     @property
     def variables(self) -> tuple[Any, ...]:

@@ -12,6 +12,7 @@ None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from sympy import Add, Expr, Integer, Mul, Poly, Pow, Rational, Symbol, cos, exp, log, pi, sin
 from sympy.polys.polyerrors import PolynomialError
@@ -24,42 +25,79 @@ MOST_PARTS = 12  # the power beyond which nothing is integrated by parts
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
     """The integral of an explicit expression, limits innermost first, or None where a term is of no known kind."""
+    return _definite(value, tuple(tuple(limit) for limit in limits))
+
+
+@lru_cache(maxsize=1024)  # what is written down is carried out, checked and compared
+def _definite(value: Expr, limits: Limits) -> Expr | None:
     for i, (x, lower, upper) in enumerate(limits):
-        terms = [_term(term, x, lower, upper, limits[i + 1 :]) for term in Add.make_args(_prepared(value, x))]
+        terms = [_term(outside, inside, x, lower, upper, limits[i + 1 :]) for outside, inside in _terms(value, x)]
         if any(term is None for term in terms):
             return None
         value = Add(*terms)
-    return value.expand()
+    return _expanded(value)
 
 
 def antiderivative(value: Expr, x: Symbol) -> Expr | None:
     """A function whose derivative is the value, term by term; None where a term is of no known kind."""
-    found = [_antiderivative_of_term(term, x) for term in Add.make_args(_prepared(value, x))]
-    return None if any(term is None for term in found) else Add(*found)
+    found = [(outside, _antiderivative_of_factor(inside, x)) for outside, inside in _terms(value, x)]
+    return None if any(whole is None for _, whole in found) else Add(*(outside * whole for outside, whole in found))
 
 
-def _prepared(value: Expr, x: Symbol) -> Expr:
-    """A sum of terms; products of sines and cosines of x as sums of them."""
-    value = value.expand()
-    return TR8(value).expand() if any(f.has(x) for f in value.atoms(sin, cos)) else value
+def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
+    """The terms of a sum, each as what does not hold x and what does; products of sines and cosines of x as sums."""
+    found = []
+    for term in Add.make_args(_expanded(value)):
+        outside, inside = _apart(term, x)
+        if any(f.has(x) for f in inside.atoms(sin, cos)):
+            parts = (_apart(part, x) for part in Add.make_args(_by_sums(inside)))
+            found += [(outside * more, part) for more, part in parts]
+        else:
+            found.append((outside, inside))
+    return found
 
 
-def _antiderivative_of_term(term: Expr, x: Symbol) -> Expr | None:
-    outside, inside = term.as_independent(x, as_Add=False)
-    if term == 0 or inside == 1:
-        return term * x
+@lru_cache(maxsize=1024)  # the entries of a tensor have few of them
+def _by_sums(product: Expr) -> Expr:
+    return TR8(product).expand()
+
+
+def _expanded(value: Expr) -> Expr:
+    return value if all(map(_is_product, Add.make_args(value))) else value.expand()
+
+
+def _is_product(term: Expr) -> bool:
+    """Whether nothing in it is to be multiplied out."""
+    factors = (factor.as_base_exp() for factor in Mul.make_args(term))
+    return all(
+        (base.is_Atom or isinstance(base, sin | cos) and base.args[0].is_Atom) and exponent.is_Number
+        for base, exponent in factors
+    )
+
+
+def _apart(term: Expr, x: Symbol) -> tuple[Expr, Expr]:
+    """The product of the factors that do not hold x, and of those that do."""
+    factors: tuple[list[Expr], list[Expr]] = [], []
+    for factor in Mul.make_args(term):
+        factors[factor.has(x)].append(factor)
+    return Mul(*factors[False]), Mul(*factors[True])
+
+
+@lru_cache(maxsize=1024)
+def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
+    if inside in (0, 1):
+        return inside * x
     power = inside.as_coeff_exponent(x)
     if power[0] == 1 and power[1].is_Integer and power[1] >= 0:
-        return outside * x ** (power[1] + 1) / (power[1] + 1)
+        return x ** (power[1] + 1) / (power[1] + 1)
     if isinstance(inside, sin | cos):
         rate = inside.args[0].diff(x)
         if rate != 0 and not rate.has(x):
             whole = -cos(inside.args[0]) if isinstance(inside, sin) else sin(inside.args[0])
-            return outside * whole / rate
+            return whole / rate
     if power[0] == 1 and power[1].is_Rational:
-        return outside * (log(x) if power[1] == -1 else x ** (power[1] + 1) / (power[1] + 1))
-    by_parts = _powers_by_parts(inside, x)
-    return None if by_parts is None else outside * by_parts
+        return log(x) if power[1] == -1 else x ** (power[1] + 1) / (power[1] + 1)
+    return _powers_by_parts(inside, x)
 
 
 def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:
@@ -83,19 +121,18 @@ def _by_parts(n: int, f: Expr, x: Symbol, rate: Expr) -> Expr:
     return first if n == 0 else first - n * sign / rate * _by_parts(n - 1, other, x, rate)
 
 
-def _term(term: Expr, x: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
-    found = _antiderivative_of_term(term, x)
+def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
+    found = _antiderivative_of_factor(inside, x)
     if found is not None:
-        return found.subs(x, upper) - found.subs(x, lower)
-    return _chord_integral(term, x, lower, upper, outer)
+        return outside * (found.xreplace({x: upper}) - found.xreplace({x: lower}))
+    return _chord_integral(outside, inside, x, lower, upper, outer)
 
 
-def _chord_integral(term: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
+def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
     """y = w sin u turns the integral of y^m (w^2 - y^2)^(k/2) from -w to w into w^(m+k+1) times a number.
 
     This needs w >= 0, or the root is not w cos u: the outer limits must show it.
     """
-    outside, inside = term.as_independent(y, as_Add=False)
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
         if base == y and exponent.is_Integer and exponent > 0:

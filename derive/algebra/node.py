@@ -10,7 +10,22 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, TypeAlias
 
-from sympy import Basic, Expr, ImmutableDenseMatrix, Integer, Integral, MatrixBase, MatrixExpr, MatrixSymbol, nan
+from sympy import (
+    Add,
+    Basic,
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Integral,
+    MatrixBase,
+    MatrixExpr,
+    MatrixSymbol,
+    Mul,
+    Pow,
+    cos,
+    nan,
+    sin,
+)
 
 from derive.algebra.dimensions import Dimension, product
 from derive.algebra.integrals import definite, has_root
@@ -101,8 +116,12 @@ def explicit(expr: Value) -> Value:
     return Integer(expr)
 
 
-@lru_cache(maxsize=4096)  # each line of a chain is compared with the one before and the one after
+@lru_cache(maxsize=16384)  # each line of a chain has most of its parts in common with the one before and the one after
 def _carried_out(expr: Basic) -> Value:
+    if type(expr) in (Add, Mul, Pow, sin, cos):
+        return expr.func(*map(_carried_out, expr.args))
+    if expr.is_Atom:
+        return expr
     value = _definite(expr) if isinstance(expr, Integral) else expr.doit()
     if isinstance(value, MatrixExpr) and not value.has(MatrixSymbol):
         value = value.as_explicit()

@@ -54,6 +54,8 @@ class Ring:
     The lowest two bits of a monomial count factors i, at most one; then each letter has `WIDTH` bits.
     """
 
+    highest = HIGHEST
+
     def __init__(self) -> None:
         self.letters: dict[object, int] = {}
         self.forms: dict[Expr, Form] = {}
@@ -72,8 +74,8 @@ class Ring:
     def _made(self, expr: Expr) -> Form:
         if expr.is_Rational:
             return Form({0: int(expr.p)} if expr.p else {}, int(expr.q))
-        if isinstance(expr, Symbol):
-            if not expr.is_commutative or expr == PLUS_MINUS:
+        if isinstance(expr, Symbol) and expr != PLUS_MINUS:
+            if not expr.is_commutative:
                 raise Outside
             return self.letter(expr)
         if expr.is_Add:
@@ -133,7 +135,7 @@ class Ring:
         return found._replace(terms=_without_zeros(terms)) if len(a.terms) > 1 else found
 
     def power(self, form: Form, n: int) -> Form:
-        if n > (HIGHEST if len(form.terms) > 1 else FARTHEST):
+        if n > (self.highest if len(form.terms) > 1 else FARTHEST):
             raise Outside
         found = ONE
         for bit in bin(n)[2:]:

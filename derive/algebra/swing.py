@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from sympy import Add, Dummy, Expr, Integer, Mul, Rational, Symbol, cos, diff, nan, sin, sqrt
+from sympy import Add, Dummy, Expr, Integer, Mul, Rational, Symbol, cos, nan, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5
 
@@ -18,6 +18,7 @@ from derive.algebra.dimensions import Dimension, power, quotient
 from derive.algebra.expansion import HIGHEST, SPOILT, NoExpansion
 from derive.algebra.integrals import sine_and_cosine_integral
 from derive.algebra.node import DimensionOf, ScalarNode, TextOf, explicit
+from derive.algebra.taylor import NoSeries, taylor
 from derive.algebra.tidy import tidied
 
 ANGLE = Dummy("u", real=True)
@@ -61,13 +62,12 @@ def reduced_square(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> list[Ex
     """The coefficients of the powers of A in f/(A cos u)^2 at q = A sin u."""
     if order > HIGHEST - 2 or not tidied(f.subs(q, -q) - f) == 0 or not tidied(f.subs(q, amplitude)) == 0:
         raise NoExpansion(f)
-    small = Dummy("a", positive=True)
-    value = f.subs({q: small * sin(ANGLE), amplitude: small}, simultaneous=True)
-    found, factorial = [], Integer(1)
-    for n in range(order + 3):
-        if n:
-            value, factorial = diff(value, small), factorial * n
-        found.append(TR5((value.subs(small, 0) / factorial).expand(), max=2 * HIGHEST).expand())
+    none = [Integer(0)] * (order + 1)
+    try:
+        powers = taylor(f, {q: (*none[:1], sin(ANGLE), *none), amplitude: (*none[:1], Integer(1), *none)}, order + 2)
+    except NoSeries:
+        raise NoExpansion(f) from None
+    found = [TR5(power.expand(), max=2 * HIGHEST).expand() for power in powers]
     if any(c.has(*SPOILT) for c in found) or found[0] != 0 or found[1] != 0:
         raise NoExpansion(f)
     return [_divided(c, f) for c in found[2:]]

@@ -6,7 +6,6 @@ How the result then stands on paper is decided by `derive.render.notation.notati
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import lru_cache, reduce
 from typing import Any
 
@@ -21,12 +20,10 @@ from sympy import (
     Pow,
     Rational,
     Symbol,
-    cancel,
     cos,
     expand,
     factor,
     factor_list,
-    factor_terms,
     gcd,
     lcm,
     radsimp,
@@ -37,12 +34,16 @@ from sympy import (
     together,
 )
 from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR5, TR6, TR10i
+from sympy.simplify.fu import TR10i
 
-from derive.algebra.coefficients import Outside, in_front, is_multiplied_out
+from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
+from derive.algebra.factors_in_front import fraction_of, in_front, product_of
+from derive.algebra.length import shortest
+from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
+from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.squares import differences_of_squares
 
 
@@ -77,12 +78,11 @@ def _tidied_scalar(value: Expr) -> Expr:
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):
-        if value.atoms(Add) and vanishes(value):
+        if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
-        value = _denested(_roots_drawn_out(_roots_in_the_numerator(together(_roots_drawn_out(value)))))
-        return _shortest((_in_front(value), _in_front(_expanded_above(value))))
-    forms = (value, *_by_one_square(value), *_by_pairs(value), *_by_one_angle(value))
-    return _shortest(_as_one_fraction(form) for form in dict.fromkeys(forms))
+        value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
+        return shortest((in_front(value), in_front(_expanded_above(value))))
+    return shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -137,70 +137,23 @@ def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
 
 def _as_one_fraction(value: Expr) -> Expr:
     try:
-        expanded = _in_front_expanded(value)
-        return expanded if is_multiplied_out(value) else _shortest((expanded, _in_front(value)))
-    except PolynomialError:
-        return _in_front(value)
-
-
-def _in_front_expanded(value: Expr) -> Expr:
-    try:
-        return in_front(value)
+        expanded = in_lowest_terms(value)
     except Outside:
-        return _in_front(cancel(value))
+        return in_front(value)
+    return expanded if is_multiplied_out(value) else shortest((expanded, in_front(value)))
 
 
-def _by_one_square(value: Expr) -> list[Expr]:
-    """The value multiplied out, with sin^2 written by cos^2, and with cos^2 by sin^2."""
-    if not value.atoms(sin) or not value.atoms(cos):
+def _by_squares(value: Expr) -> list[Expr]:
+    try:
+        return squares_turned(value) if value.atoms(sin, cos) else []
+    except Outside:
         return []
-    return _in_one_square(value)
-
-
-def _in_one_square(value: Expr) -> list[Expr]:
-    return [expand(in_one(expand(value))) for in_one in (TR5, TR6)]
-
-
-def _by_pairs(value: Expr) -> list[Expr]:
-    """x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair, where other terms keep their squares."""
-    if not value.atoms(sin, cos):
-        return []
-    terms = dict(term.as_coeff_Mul()[::-1] for term in Add.make_args(value.expand()))
-    found = False
-    for term in list(terms):
-        for part in () if term not in terms else Mul.make_args(term):
-            base, power = part.as_base_exp()
-            plain = term / part
-            if isinstance(base, sin | cos) and power == 2 and plain in terms and terms[plain] == -terms[term]:
-                squared = plain * (cos if isinstance(base, sin) else sin)(base.args[0]) ** 2
-                terms[squared] = terms.get(squared, Integer(0)) + terms.pop(plain)
-                del terms[term]
-                found = True
-                break
-    return [Add(*(number * term for term, number in terms.items()))] if found else []
 
 
 def _by_one_angle(value: Expr) -> list[Expr]:
     """cos a cos b + sin a sin b written as cos(a - b), and the like."""
     angles = {function.args[0] for function in value.atoms(sin, cos)}
     return [TR10i(expand(value))] if len(angles) > 1 and value.atoms(sin) else []
-
-
-def _shortest(forms: Iterable[Expr]) -> Expr:
-    """With the least to write; between equals, always the same one."""
-    lengths: dict[Expr, int] = {form: int(form.count_ops()) for form in forms}
-    least = min(lengths.values())
-    return min((form for form, length in lengths.items() if length == least), key=_Text)
-
-
-class _Text:
-    """How an expression is written, found only where it must be compared."""
-
-    def __init__(self, value: Expr) -> None:
-        self.value = value
-
-    def __lt__(self, other: _Text) -> bool:
-        return str(self.value) < str(other.value)
 
 
 def _has_roots(value: Expr) -> bool:
@@ -219,12 +172,13 @@ def _denested(value: Expr) -> Expr:
     content, rest = square.primitive()
     found = sqrt(content) * sqrtdenest(sqrt(rest))
     found = found if number.is_positive else -found
-    return _shortest((value, found * letters))
+    return shortest((value, found * letters))
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
     """1/(1 + sqrt(2)) is sqrt(2) - 1; a root of letters stays below, where it is easier to read."""
-    numerator, denominator = value.as_numer_denom()
+    numerator, denominator = fraction_of(product_of(value))
+    value = numerator / denominator
     if denominator.is_number or not denominator.has(Pow):
         return radsimp(value) if len(Add.make_args(denominator)) <= 4 else value
     above, below = (part.as_independent(*part.free_symbols, as_Add=False) for part in (numerator, denominator))
@@ -232,28 +186,28 @@ def _roots_in_the_numerator(value: Expr) -> Expr:
 
 
 def _expanded_above(value: Expr) -> Expr:
-    numerator, denominator = value.as_numer_denom()
+    numerator, denominator = fraction_of(product_of(value))
     return expand(numerator) / denominator
 
 
 def _roots_drawn_out(value: Expr) -> Expr:
     """Squares out from under each root, where their sign is known: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+    return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, _drawn_out)
 
-    def drawn(power: Expr) -> Expr:
-        turning = power.base.atoms(sin, cos)
-        base = together(_shortest((power.base, *(_in_one_square(power.base) if turning else ()))))
-        numerator, denominator = (_square_free(part, power.exp.q) for part in base.as_numer_denom())
-        (outside, inside), (below, under) = numerator, denominator
-        root = Rational(1, power.exp.q)
-        return (outside / below) ** power.exp.p * Pow(inside / under, root) ** power.exp.p
 
-    return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, drawn)
+@lru_cache(maxsize=1024)  # what one value has under its roots, others have there too
+def _drawn_out(power: Pow) -> Expr:
+    base = shortest((power.base, *_by_squares(power.base)))
+    parts = fraction_of(product_of(base))
+    (outside, inside), (below, under) = (_square_free(part, power.exp.q) for part in parts)
+    root = Rational(1, power.exp.q)
+    return (outside / below) ** power.exp.p * Pow(inside / under, root) ** power.exp.p
 
 
 def _square_free(part: Expr, q: int) -> tuple[Expr, Expr]:
     """A polynomial as (outside, inside) with part = outside^q * inside, outside known to be non-negative."""
     outside, inside = Integer(1), Integer(1)
-    for piece in Mul.make_args(factor_terms(part)):
+    for piece in Mul.make_args(part):
         out, kept = _square_free_factor(piece, q)
         outside, inside = outside * out, inside * kept
     return outside, inside
@@ -263,8 +217,10 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
     if part.is_number:
         return Integer(1), part
     try:
+        if is_squarefree(part):
+            return Integer(1), part
         content, factors = factor_list(part)
-    except PolynomialError:
+    except (Outside, PolynomialError):
         return Integer(1), part
     outside, inside = Integer(1), content
     for base, power in factors:
@@ -274,27 +230,6 @@ def _square_free_factor(part: Expr, q: int) -> tuple[Expr, Expr]:
         inside *= base ** (power - q * whole)
     # A sum that lost no factor is left as it was written, not multiplied out.
     return (outside, part) if outside == 1 else (outside, inside)
-
-
-def _in_front(value: Expr) -> Expr:
-    """Common factors of the terms in front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
-    numerator, denominator = together(value).as_numer_denom()
-    sign, below = _plus_below(factor_terms(denominator))
-    return Mul(factor_terms(sign * numerator), Pow(below, -1))
-
-
-def _plus_below(denominator: Expr) -> tuple[Expr, Expr]:
-    """-1 and 7 M + 7 m - 5 m c^2 of 5 m c^2 - 7 M - 7 m: below a line the terms with a plus are in the majority."""
-    sign: Expr = Integer(1)
-    factors, turned = [], False
-    for part in Mul.make_args(denominator):
-        base, power = part.as_base_exp()
-        negative = sum(term.could_extract_minus_sign() for term in base.args) if base.is_Add else 0
-        if power.is_Integer and 2 * negative > len(base.args):
-            sign, part = sign * (-1) ** power, Pow(-base, power)
-            turned = True
-        factors.append(part)
-    return (sign, Mul(*factors)) if turned else (sign, denominator)
 
 
 def common_factor(entries: list[Expr]) -> Expr:

@@ -20,43 +20,52 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 from math import gcd, lcm
+from typing import Any, TypeVar
 
-from sympy import Add, Expr, I, Mul, Pow, Rational, cos, cyclotomic_poly, pi, sin, tan
+from sympy import Add, Expr, I, Mul, Pow, Rational, S, cos, cyclotomic_poly, pi, sin, tan
 
-from derive.algebra.sparse_polynomials import HIGHEST, PARTS, WIDTH, Form, Outside, Ring, Terms
+from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-LONGEST = 60  # operations that an angle is written with, and powers in it
-SMALL = range(-8, 9)
+LONGEST, STEEPEST = 60, 8  # operations that an angle is written with, and power in it
+ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
-__all__ = ["Outside", "TrigRing", "are_equal", "is_zero"]
+R = TypeVar("R", bound="TrigRing")
+
+__all__ = ["Finer", "Outside", "TrigRing", "are_equal", "asked", "is_zero"]
 
 
 def is_zero(expr: Expr) -> bool:
     """Whether the expression is zero; raises `Outside` where that is not for this module to say."""
-    return _asked(lambda ring: ring.is_zero(ring.form(expr)), expr)
+    if _has_nested_roots(expr):
+        raise Outside
+    return asked(TrigRing, lambda ring: ring.is_zero(ring.form(expr)), expr)
 
 
 def are_equal(left: Expr, right: Expr) -> bool:
     """Whether two expressions are equal; raises `Outside` where that is not for this module to say."""
-    return _asked(lambda ring: ring.is_zero(ring.difference(ring.form(left), ring.form(right))), left, right)
+    if _has_nested_roots(left) or _has_nested_roots(right):
+        raise Outside
+    return asked(TrigRing, lambda ring: ring.is_zero(ring.difference(ring.form(left), ring.form(right))), left, right)
 
 
-def _asked(question: Callable[[TrigRing], bool], *exprs: Expr) -> bool:
-    ring = TrigRing({}) if _Kept.ring.is_full else _Kept.ring
+def asked(kind: type[R], question: Callable[[R], bool], *exprs: Expr) -> bool:
+    """What the ring of that kind that is kept says of the expressions; raises `Outside` where it says nothing."""
+    ring: Any = _KEPT.get(kind)
+    ring = kind({}) if ring is None or ring.is_full else ring
     begun_anew = False
     while True:
-        _Kept.ring = ring
-        if any(expr in ring.outside or _has_nested_roots(expr) for expr in exprs):
+        _KEPT[kind] = ring
+        if any(expr in ring.outside for expr in exprs):
             raise Outside
         try:
             return question(ring)
-        except _Finer as finer:
+        except Finer as finer:
             units = {**ring.units, finer.angle: lcm(ring.units.get(finer.angle, 1), finer.parts)}
             if units[finer.angle] > PARTS:  # what was asked before must not count
                 if begun_anew:
                     raise Outside from None
                 units, begun_anew = {finer.angle: finer.parts}, True
-            ring = TrigRing(units)
+            ring = kind(units)
         except Outside:
             if len(exprs) == 1:
                 ring.outside.update(exprs)
@@ -82,10 +91,19 @@ def _is_in_angles(base: Expr) -> bool:
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 
-class _Finer(Exception):
+def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
+    """The terms of what is multiplied out, each with its number; raises `Outside` where they may be too many."""
+    if angle.is_Symbol:
+        return [(S.One, angle)]
+    if angle.count_ops() > LONGEST or any(p.exp.is_number and abs(p.exp) > STEEPEST for p in angle.atoms(Pow)):
+        raise Outside
+    return [term.as_coeff_Mul(rational=True) for term in Add.make_args(angle.expand())]
+
+
+class Finer(Exception):
     """Of an angle there is a part that is no whole number of those whose exponential has a letter."""
 
-    def __init__(self, angle: Expr, parts: int):
+    def __init__(self, angle: object, parts: int):
         super().__init__(angle)
         self.angle, self.parts = angle, parts
 
@@ -93,12 +111,12 @@ class _Finer(Exception):
 class TrigRing(Ring):
     """The polynomials in letters, in exp(i q) of angles, and in one over each sum that is divided by."""
 
-    def __init__(self, units: dict[Expr, int]) -> None:
+    def __init__(self, units: dict[object, int]) -> None:
         super().__init__()
         self.units = units  # into how many parts an angle is divided
         self.outside: set[Expr] = set()
-        self._divisors: list[tuple[int, Form]] = []
-        self._roots: list[tuple[int, Form]] = []
+        self._relations: list[tuple[int, int, Form]] = []  # a letter, and what that power of it is
+        self._related = 0  # the bits of all these letters
         self._middle = (0, 0)
 
     # --- from expressions ---------------------------------------------------------------------------------------
@@ -108,7 +126,7 @@ class TrigRing(Ring):
             return self._circular(expr)
         if isinstance(expr, tan):
             sine, cosine = (self.form(of(expr.args[0])) for of in (sin, cos))
-            return self.product(sine, self._one_over(cosine))
+            return self.product(sine, self.one_over(cosine))
         if expr is I:
             return Form({1: 1})
         if expr is pi:
@@ -119,47 +137,46 @@ class TrigRing(Ring):
 
     def _root(self, square: Form, n: int) -> Form:
         """A power of the square root of what is known not to vanish."""
-        if not square.terms or self._is_unsure(square.terms) or abs(n) > HIGHEST:
+        if not square.terms or self.is_unsure(square.terms) or abs(n) > self.highest:
             raise Outside
         shared = gcd(square.below, *square.terms.values())
         terms = {monomial: coefficient // shared for monomial, coefficient in square.terms.items()}
         key = (frozenset(terms.items()), square.below // shared)
-        if key not in self.letters:
-            self._roots.append((self.place(key), square))
-        return Form({n << self.place(key): 1}, 1, abs(n), square.cost)
+        return Form({n << self.related_letter(key, 2, square): 1}, 1, abs(n), square.cost)
 
     def _circular(self, function: Expr) -> Form:
         """cos q = (z + 1/z)/2 and sin q = (-i z + i/z)/2"""
         z, reach = 0, 0
-        angle = function.args[0]
-        if not angle.is_Symbol and (angle.count_ops() > LONGEST or any(p.exp not in SMALL for p in angle.atoms(Pow))):
-            raise Outside
-        for term in Add.make_args(angle.expand()):
-            number, angle = term.as_coeff_Mul(rational=True)
-            z += self._multiple(number, angle) << self.place((angle,))
+        for number, term in terms_of_angle(function.args[0]):
+            angle = self.angle(term)
+            z += self.multiple(number, angle) << self.place((angle,))
             reach = max(reach, abs(int(number.p)))
         if isinstance(function, cos):
             return Form({z: 1, -z: 1}, 2, reach)
         return Form({z + 1: -1, -z + 1: 1}, 2, reach)
 
-    def _multiple(self, number: Rational, angle: Expr) -> int:
-        """How many of the smallest parts of the angle there are."""
+    def angle(self, angle: Expr) -> Expr:
+        """What stands for the angle, the same for equal ones; raises `Outside` where that is not known."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
         if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside
-        if abs(number.p) > HIGHEST or number.q > PARTS:
+        return angle
+
+    def multiple(self, number: Rational, angle: object) -> int:
+        """How many of the smallest parts of the angle there are."""
+        if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
         if parts % number.q:
-            raise _Finer(angle, int(number.q))
+            raise Finer(angle, int(number.q))
         return int(number.p) * (parts // int(number.q))
 
     # --- quotients ----------------------------------------------------------------------------------------------
 
     def inverse(self, base: Expr) -> Form:
-        return self._one_over(self.form(base))
+        return self.one_over(self.form(base))
 
-    def _one_over(self, form: Form) -> Form:
+    def one_over(self, form: Form) -> Form:
         """One over it: of a monomial a monomial; of a sum that of its last one, times a letter for what is left."""
         if not form.terms:  # it is zero, and so nothing is said of what is divided by it
             raise Outside
@@ -171,42 +188,56 @@ class TrigRing(Ring):
         content = gcd(*form.terms.values())
         terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
         key = frozenset(terms.items())
-        if self._is_unsure(terms):
+        if self.is_unsure(terms):
             raise Outside
-        if key not in self.letters:
-            self._divisors.append((self.place(key), Form(terms, 1, form.reach)))
+        place = self.related_letter(key, -1, Form(terms, 1, form.reach))
         scale = gcd(form.below, content)
-        return Form({1 << self.place(key): form.below // scale}, content // scale, 1, form.cost)
+        return Form({1 << place: form.below // scale}, content // scale, 1, form.cost)
 
     def is_zero(self, form: Form) -> bool:
         """Whether it has no terms once roots are squared and what is divided by is multiplied out, the latest first.
 
         Raises `Outside` where roots are left.
         """
-        for place, square in self._roots:
-            if form.terms:
-                form = self._squared(form, place, square)
-        for place, divisor in reversed(self._divisors):
-            if form.terms:
-                form = self._multiplied_out(form, place, divisor)
-        if not form.terms or self._has_parts_of_pi(form.terms) and self._is_zero_by_roots_of_one(form.terms):
+        form = self.cleared(form)
+        if not form.terms or self.has_parts_of_pi(form.terms) and self.is_zero_by_roots_of_one(form.terms):
             return True
         if self._has_roots(form.terms):
             raise Outside
         return False
 
-    def _is_unsure(self, terms: Terms) -> bool:
-        """Whether a sum may vanish although it has terms."""
-        return self._has_parts_of_pi(terms) or self._has_roots(terms)
+    def cleared(self, form: Form) -> Form:
+        """A multiple of it in which no letter has a power that is known, the latest letter first."""
+        for place, order, of in reversed(self._relations):
+            present = self.letters_in(form.terms) & self._related
+            if not present:
+                return form
+            if present >> place & ONES:
+                form = self._lowered(form, place, order, of)
+        return form
 
-    def _has_parts_of_pi(self, terms: Terms) -> bool:
+    def related_letter(self, key: object, order: int, of: Form) -> int:
+        """The place of a letter a power of which is known."""
+        known = key in self.letters
+        place = self.place(key)
+        if not known:
+            self._relations.append((place, order, of))
+            self._related |= ONES << place
+        return place
+
+    def is_unsure(self, terms: Terms) -> bool:
+        """Whether a sum may vanish although it has terms."""
+        return self.has_parts_of_pi(terms) or self._has_roots(terms)
+
+    def has_parts_of_pi(self, terms: Terms) -> bool:
         place = self.letters.get((pi,))
-        return place is not None and any(self._power_in(monomial, place) for monomial in terms)
+        return place is not None and bool(self.letters_in(terms) >> place & ONES)
 
     def _has_roots(self, terms: Terms) -> bool:
-        return any(self._power_in(monomial, place) for place, _ in self._roots for monomial in terms)
+        present = self.letters_in(terms) & self._related
+        return bool(present) and any(order > 0 and present >> place & ONES for place, order, _ in self._relations)
 
-    def _is_zero_by_roots_of_one(self, terms: Terms) -> bool:
+    def is_zero_by_roots_of_one(self, terms: Terms) -> bool:
         """Whether, before each product of the other letters, the sum of powers of exp(i pi/parts) and of i is zero."""
         place, parts = self.letters[(pi,)], self.units.get(pi, 1)
         order = lcm(2 * parts, 4)
@@ -218,41 +249,36 @@ class TrigRing(Ring):
             of_rest[turn] = of_rest.get(turn, 0) + coefficient
         return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
-    def _squared(self, form: Form, place: int, square: Form) -> Form:
-        """With the root in its first power at most; times as much of the square as takes it out from below."""
+    def _lowered(self, form: Form, place: int, order: int, of: Form) -> Form:
+        """As a polynomial of lower power in a letter of which that power is known, times as much of what it is as takes
+        it out from below."""
         by_power: dict[int, Terms] = {}
         for monomial, coefficient in form.terms.items():
-            whole = self._power_in(monomial, place) // 2
-            by_power.setdefault(whole, {})[monomial - (2 * whole << place)] = coefficient
-        if by_power.keys() == {0}:
-            return form
-        lowest = min(*by_power, 0)
+            whole = self._power_in(monomial, place) // order
+            by_power.setdefault(whole, {})[monomial - (order * whole << place)] = coefficient
+        lowest = min(by_power)
         parts = [
-            self.product(form._replace(terms=terms), self.power(square, whole - lowest))
+            self.product(form._replace(terms=terms), self.power(of, whole - lowest))
             for whole, terms in by_power.items()
         ]
         return self.sum(parts)
 
-    def _multiplied_out(self, form: Form, place: int, divisor: Form) -> Form:
-        by_power: dict[int, Terms] = {}
-        for monomial, coefficient in form.terms.items():
-            power = self._power_in(monomial, place)
-            by_power.setdefault(power, {})[monomial - (power << place)] = coefficient
-        if by_power.keys() == {0}:
-            return form
-        highest = max(by_power)
-        parts = [
-            self.product(form._replace(terms=terms), self.power(divisor, highest - power))
-            for power, terms in by_power.items()
-        ]
-        return self.sum(parts)
+    def letters_in(self, terms: Terms) -> int:
+        """A whole number in which the places of all letters that occur are not empty."""
+        middle, found = self._half_of_all(), 0
+        for monomial in terms:
+            found |= (monomial + middle) ^ middle
+        return found
 
     def _power_in(self, monomial: int, place: int) -> int:
         """The power of the letter at that place: with the half of all of them added, none is negative."""
-        half = 1 << (WIDTH - 1)
-        if self._middle[0] != len(self.letters):
-            self._middle = len(self.letters), sum(half << other for other in self.letters.values())
-        return (((monomial + self._middle[1]) >> place) & ((1 << WIDTH) - 1)) - half
+        return (((monomial + self._half_of_all()) >> place) & ONES) - HALF
+
+    def _half_of_all(self) -> int:
+        count = len(self.letters)
+        if self._middle[0] != count:
+            self._middle = count, ((1 << WIDTH * count) - 1) // ONES * HALF << 2
+        return self._middle[1]
 
 
 def _monomial_over(monomial: int, form: Form) -> Form:
@@ -280,7 +306,4 @@ def _irreducible_at(order: int) -> tuple[int, ...]:
     return tuple(int(c) for c in reversed(cyclotomic_poly(order, polys=True).all_coeffs()))
 
 
-class _Kept:
-    """The ring that goes from one question to the next."""
-
-    ring = TrigRing({})
+_KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that go from one question to the next

@@ -44,7 +44,12 @@ def file_digest(path: Path) -> str:
 def engine_digest(*packages: str) -> str:
     """Of derive's own modules, and of the packages that decide a result with them."""
     versions = [f"{name}=={package_version(name)}" for name in packages]
-    return digest(folder_digest(FOLDER, "*.py"), *versions)
+    return digest(_own_modules(), *versions)
+
+
+@functools.cache
+def _own_modules() -> str:
+    return folder_digest(FOLDER, "*.py")
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:

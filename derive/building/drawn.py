@@ -1,13 +1,15 @@
 """The drawings of a page as files, drawn anew only when what they show has changed.
 
-What decides the bytes of a drawing: its description, the numbers and the size, its words, derive's modules and
-matplotlib.
+What decides the bytes of a drawing: its description, what is known of the letters in it, its size and its words,
+derive's modules and matplotlib.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import json
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from sympy import Symbol
@@ -29,7 +31,8 @@ from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Files
 
 if TYPE_CHECKING:
-    from derive.render.drawing.canvas import Sheet
+    from derive.render.drawing.lettering import Lettered, Letters
+    from derive.render.drawing.sheets import Sheet
 
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
@@ -49,50 +52,85 @@ def drawing_files(
     return tuple(
         (f"{shown.stem}.{suffix}", content)
         for shown in document.illustrations
-        for suffix, content in _sheet(problem, by_key[shown.key], shown, words, notation, cache).items()
+        for suffix, content in zip(
+            SUFFIXES, _files(problem, by_key[shown.key], shown, words, notation, cache), strict=True
+        )
     )
 
 
-def _sheet(
+def _files(
     problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
-) -> dict[str, bytes]:
+) -> tuple[bytes, bytes]:
+    """As they were kept, or drawn now. An SVG has no zero byte, so that both are kept as one."""
     placement = placement_of(problem, drawing.key)
-    values = numbers_of(problem, placement, drawing)
-    curves = curves_of(problem, drawing, placement) if isinstance(drawing, Plot) else None
     width = placement.width if placement else None
     alt = inline_text(shown.alt, notation)
-    seen = (drawings_to_data([drawing]), sorted(values.items(), key=str), curves, width, alt, words.drawings)
-    keys = {each: digest("drawing", each, engine_digest("matplotlib"), repr(seen)) for each in SUFFIXES}
-    files = {each: content for each, key in keys.items() if (content := cache.recalled(key))}
-    if len(files) < len(keys):
+    data = json.dumps(drawings_to_data([drawing]))
+    known: Any
+    told: Any
+    if isinstance(drawing, Plot):
+        known = curves_of(problem, drawing, placement)
+        told = known, words.drawings
+    else:
+        known = numbers_of(problem, placement, drawing)
+        told = sorted(_within(data, known))
+    seen = data, told, _within(data, notation.known_dimensions), width, alt
+    key = digest("drawing", engine_digest("matplotlib"), repr(seen))
+    svg, zero, pdf = (cache.recalled(key) or b"").partition(b"\0")
+    if not zero:
         try:
-            drawn = _drawn(drawing, curves or values, notation, words, width, alt)
+            sheet = _drawn(drawing, known, notation, words, width, alt, partial(_letters, cache))
         except Rejected as error:  # a mark knows no file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
-        files = {"pdf": drawn.pdf, "svg": drawn.svg}
-        for each, key in keys.items():
-            cache.keep(key, files[each])
-    return files
+        pdf, svg = sheet.pdf, sheet.svg
+        cache.keep(key, svg + b"\0" + pdf)
+    return pdf, svg
+
+
+def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
+    """What is known of the letters that occur in a drawing, so that those of others change nothing in it."""
+    return [
+        (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
+    ]
 
 
 def _drawn(
-    what: Any, seen: Mapping[Symbol, float] | Curves, notation: Notation, words: Phrases, width: float | None, alt: str
+    what: Any,
+    seen: Mapping[Symbol, float] | Curves,
+    notation: Notation,
+    words: Phrases,
+    width: float | None,
+    alt: str,
+    letters: Letters,
 ) -> Sheet:
     if isinstance(seen, Curves):
         from derive.render.drawing.plotting import plot_sheet
 
-        return plot_sheet(what, seen, notation, words, width, alt)
+        return plot_sheet(what, seen, notation, words, width, alt, letters)
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture
 
     sizes = (width,) if width else (WIDTH, WIDE)
     for wide in sizes:
         pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
-        sheet = sheet_of(pieces, notation, alt)
+        sheet = sheet_of(pieces, notation, alt, letters)
         if sheet.height > LOW * sheet.width:
             break
     return sheet
+
+
+def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
+    """Letters as they were kept for this drawing with other numbers or for another drawing; the others are set now."""
+    keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
+    known = {text: kept for text, key in keys.items() if (kept := cache.recalled_data(key)) is not None}
+    if new := keys.keys() - known:
+        from derive.render.drawing.lettering import letters_of
+
+        known |= letters_of(new)
+        for text in new:
+            cache.keep_data(keys[text], known[text])
+    return known
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:

@@ -18,17 +18,14 @@ DERIVING = (
     "sympy.tensor.array.expressions",
     "sympy.tensor.tensor",
 )
-DRAWING = (
-    "derive.render.drawing.canvas",
-    "derive.render.drawing.picture",
-    "derive.render.drawing.plotting",
-    "matplotlib.backends.backend_pdf",
-    "matplotlib.backends.backend_svg",
-    "matplotlib.style",
-)
+DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
 def load(draws: bool) -> None:
     """The modules that derive a problem and print it; and those that draw."""
     for name in (*DERIVING, *(DRAWING if draws else ())):
         import_module(name)
+    if draws:
+        from derive.render.drawing.lettering import letters_of
+
+        letters_of(["$x$"])  # by the first letter all that sets letters is loaded

@@ -68,6 +68,19 @@ class Options:
     force: bool = False
     jobs: int = 0  # 0: as many as there are processors
     limit: float = TIME_LIMIT
+    only: tuple[str, ...] = ()  # problems of the set, if not all of them
+
+
+class Superseded(Exception):
+    """What is being built has been edited since, and what is unfinished is not worth finishing."""
+
+
+@dataclass(frozen=True)
+class Edits:
+    """Somebody who edits the set while it is built again and again, and waits for what was edited before all else."""
+
+    edited: Callable[[], bool]  # since this build began
+    wrote: Callable[[Path], None]  # is told of the PDF of a problem as soon as it has changed
 
 
 @dataclass
@@ -115,8 +128,8 @@ def misnamed_sets(root: Path) -> list[Complaint]:
     ]
 
 
-def built_set(root: Path, set_id: str, options: Options, tell: Callable[[str], None]) -> Report:
-    """Build one set. `tell` shows what is under way to someone who waits."""
+def check_asked(root: Path, set_id: str, options: Options) -> Engine:
+    """The engine of a build that can be asked for: of a set, and of problems, that there are."""
     engine = chosen_engine(options.engine)
     if set_id not in set_names(root):
         from derive.course.problem_set import problem_set
@@ -124,9 +137,21 @@ def built_set(root: Path, set_id: str, options: Options, tell: Callable[[str], N
         if (root / "problems" / set_id / "set.yaml").is_file() and (why := wrong_set_name(set_id)):
             raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
         problem_set(root, set_id)  # which says so, with the nearest name
+    for name in options.only:
+        from derive.course.problem_set import path_of
+
+        path_of(root, f"{set_id}/{name}")
+    return engine
+
+
+def built_set(
+    root: Path, set_id: str, options: Options, tell: Callable[[str], None], edits: Edits | None = None
+) -> Report:
+    """Build one set. `tell` shows what is under way to someone who waits; with `edits` it may raise `Superseded`."""
+    engine = check_asked(root, set_id, options)
     outputs = folder(set_folder(root, set_id))
     with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
-        return _Build(root, set_id, options, engine, outputs, tell).report()
+        return _Build(root, set_id, options, engine, outputs, tell, edits).report()
 
 
 @contextmanager
@@ -152,14 +177,23 @@ class _Build:
     """The state of one build of one set."""
 
     def __init__(
-        self, root: Path, set_id: str, options: Options, engine: Engine, outputs: Path, tell: Callable[[str], None]
+        self,
+        root: Path,
+        set_id: str,
+        options: Options,
+        engine: Engine,
+        outputs: Path,
+        tell: Callable[[str], None],
+        edits: Edits | None,
     ):
         self.root, self.set_id, self.options, self.engine, self.outputs = root, set_id, options, engine, outputs
+        self.edits = edits
         self.started = time.time_ns()
         templates = [folder_digest(each / "templates") for each in (root, FOLDER, FOLDER.parent)]
         self.recipe = digest(engine_digest(*PACKAGES), *templates, options.detail or "")
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
+        self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
         self.names: list[str] = []
@@ -177,7 +211,7 @@ class _Build:
         else:
             self._rebuild()
         result.problems = len(self.names)
-        if not result.failed:
+        if manifest.complete and not result.failed:
             self._stamp()
         result.seconds = (time.time_ns() - self.started) / 1e9
         return result
@@ -189,17 +223,22 @@ class _Build:
         reading = partial(problem_set, self.root, self.set_id)
         heading = self.heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
+        if unlisted := [name for name in self.options.only if name not in self.names]:
+            message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
+            raise Misused(Complaint("no-such-problem", message, help=f"list it in `{heading.inputs[0]}`"))
         with self.crew:
             try:
                 for name in self.manifest.pages.keys() - set(self.names):
                     self.manifest.forget(name)
-                kept = {name: page for name in self.names if (page := self._kept(name))}
-                self._derive([name for name in self.names if name not in kept])
-                for name, page in kept.items():
-                    self._take(name, *page)
+                asked = [name for name in self.names if name in self.options.only or not self.options.only]
+                keys = {name: self.manifest.page_key(name, self.recipe, self._digest) for name in asked}
+                edited = {name: key for name, key in keys.items() if self.manifest.pages.get(name) != key}
+                self._pages(edited)
+                if self.edits:
+                    self._finish()
+                self._pages({name: key for name, key in keys.items() if name not in edited})
                 self._whole()
-                for outcome in self.crew.outcomes():
-                    self.then.pop(outcome.job)(outcome)
+                self._finish()
                 if self.whole_failed and not self.result.failed:  # else a problem's own document said the same
                     self._took(self.whole_failed)
                 if not self.result.failed:
@@ -213,7 +252,14 @@ class _Build:
                 self.manifest.save()
                 self.cache.let_go()
 
+    def _finish(self) -> None:
+        """All that is under way, and what follows from it."""
+        for outcome in self.crew.outcomes():
+            self.then.pop(outcome.job)(outcome)
+
     def _tick(self, running: list[str]) -> None:
+        if self.edits and self.edits.edited():
+            raise Superseded
         done = f"{len(self.derived)} of {len(self.names)} derived"
         self.tell(f"{self.set_id}: {done}; {', '.join(running)} ({(time.time_ns() - self.started) // 10**9} s)")
 
@@ -229,22 +275,23 @@ class _Build:
             self.result.bugs.append(outcome.error)
         return outcome.error is None
 
-    def _kept(self, name: str) -> tuple[str, Rendered, Sequence[Complaint]] | None:
-        """Its page as an earlier build left it, the key of that, and the warnings that nobody was told."""
-        key = self.manifest.page_key(name, self.recipe, self._digest)
-        kept = Rendered.from_data(self.cache.recalled_data(key))
-        told_before = self.manifest.pages.get(name) == key
-        return (key, kept, () if told_before else kept.warnings) if kept else None
+    def _pages(self, keys: Mapping[str, str]) -> None:
+        """The pages of problems by name and key: those that an earlier build kept, and meanwhile the others derived."""
+        kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.recalled_data(key)))}
+        self._derive([name for name in keys if name not in kept])
+        for name, page in kept.items():
+            told_before = self.manifest.pages.get(name) == keys[name]
+            self._take(name, keys[name], page, () if told_before else page.warnings)
 
     def _derive(self, names: Sequence[str]) -> None:
         if not names:
             return
-        anew = self.options.force or self.manifest.engine != engine_digest(*PACKAGES)
-        if anew:  # TeX takes in what documents begin with while this process loads what derives them
+        if self.anew:  # TeX takes in what documents begin with while this process loads what derives them
             self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
         if len(names) > 1:
-            load(draws=anew)
+            load(draws=self.anew)
+        self.anew = False
         from derive.building.solution import rendered
 
         for name in names:
@@ -304,7 +351,8 @@ class _Build:
         derived = self.derived[name]
         texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in formats().values()}
         if self._record(dict(derived.files)):
-            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, LAST)
+            rank = FIRST if self.edits else LAST
+            self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, rank)
 
     def _whole(self) -> None:
         """The documents of the set, as soon as its last problem is derived."""
@@ -356,18 +404,23 @@ class _Build:
         if not self._took(outcome):
             return
         if outcome.value:
-            self.result.changed.append(self.outputs / pdf)
+            self._changed(pdf)
         with suppress(OSError):  # of somebody who takes it away in this moment
             self.cache.keep(source, regular_content(self.outputs / pdf))
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         self._record(texts)
+
+    def _changed(self, output: str) -> None:
+        self.result.changed.append(self.outputs / output)
+        if self.edits and output in (f"{name}.pdf" for name in self.names):
+            self.edits.wrote(self.outputs / output)
 
     def _record(self, contents: Mapping[str, str | bytes]) -> bool:
         """Write outputs of a problem; whether the disk took them."""
         try:
             for name, content in contents.items():
                 if write(self.outputs / name, content):
-                    self.result.changed.append(self.outputs / name)
+                    self._changed(name)
                 self.manifest.outputs[name] = file_digest(self.outputs / name)
         except DeriveError as error:
             self.result.complaints += error.complaints

@@ -5,7 +5,7 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -31,11 +31,11 @@ from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
 from derive.page.template import template_folder
 from derive.page.wording import phrases
-from derive.render.formats import Solution, formats
+from derive.render.formats import TYPESET, Solution, formats
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
-from derive.render.printing.latex_page import problem_latex
+from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered
 from derive.steps import record
@@ -54,12 +54,17 @@ from derive.steps.step import Level, Quantity, Step
 
 
 def rendered(
-    root: Path, problem_id: str, detail: str | None = None, cache: Cache = NO_CACHE, draws: bool = False
+    root: Path,
+    problem_id: str,
+    detail: str | None = None,
+    cache: Cache = NO_CACHE,
+    draws: bool = False,
+    only: Collection[str] | None = None,
 ) -> Rendered:
-    """Derive a problem and print it in every format; raises `DeriveError` with everything that is wrong.
+    """Derive a problem and print it; raises `DeriveError` with everything that is wrong.
 
     Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time; `draws`
-    says whether the files of its drawings are wanted too.
+    says whether the files of its drawings are wanted too, and `only` in which formats the page is, else it is in all.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
@@ -74,7 +79,9 @@ def rendered(
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = Notation(document.dimensions)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
-    fragments = problem_latex(document, words, notation, template_folder(root))
+    wanted = {*formats(), *TYPESET} if only is None else {*only}
+    typeset = not wanted.isdisjoint(TYPESET)
+    fragments = problem_latex(document, words, notation, template_folder(root)) if typeset else NOT_TYPESET
     return Rendered(
         id=problem_id,
         title=inline_text(document.title, notation),
@@ -83,7 +90,7 @@ def rendered(
         title_latex=fragments.title,
         sheet=fragments.sheet,
         checked=fragments.checked,
-        texts={name: form.render(solution) for name, form in formats().items()},
+        texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
         warnings=(*(w for w in document.warnings if w not in of_nobody), *failures),
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),

@@ -9,8 +9,9 @@ import re
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import FrameType
@@ -23,7 +24,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError, Misused, did_you_
 from derive.render.formats import TYPESET
 
 if TYPE_CHECKING:
-    from derive.building.sets import Report
+    from derive.building.sets import Options, Report
     from derive.building.workers import Outcome
     from derive.render.rendered import Files, Rendered
 
@@ -173,8 +174,8 @@ def _solve(arguments: argparse.Namespace) -> int:
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     _check_output(arguments.output, root)
     with _waiting(f"deriving {problem_id}"):
-        draws = arguments.format == "pdf"
-        work = partial(rendered, root, problem_id, arguments.detail, draws=draws)
+        form = arguments.format
+        work = partial(rendered, root, problem_id, arguments.detail, draws=form == "pdf", only=(form,))
         solved: Rendered = done(job_of(root, problem_id, work, limit))
     complain(solved.warnings)
     text = solved.texts.get(arguments.format, "")
@@ -289,7 +290,8 @@ def _check(arguments: argparse.Namespace) -> int:
     if len(ids) > 1:
         load(draws=False)
     jobs = {
-        job_of(root, problem, partial(rendered, root, problem, None), arguments.time_limit): problem for problem in ids
+        job_of(root, problem, partial(rendered, root, problem, only=()), arguments.time_limit): problem
+        for problem in ids
     }
     outcomes: dict[str, Outcome] = {}
     with Crew(arguments.jobs or os.cpu_count() or 1, lambda running: tell(f"checking {', '.join(running)}")) as crew:
@@ -340,12 +342,48 @@ def _build(arguments: argparse.Namespace) -> int:
     if not arguments.sets:
         _warn_of_names(root)
     options = Options(arguments.engine, arguments.detail, arguments.force, arguments.jobs, arguments.time_limit)
-    sets = arguments.sets or set_names(root)
-    if not sets:
+    asked = _sets_asked(arguments.sets or set_names(root))
+    if not asked:
         raise Misused(
             Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
         )
-    return max(_reported(built_set(root, _problem_id(name), options, tell)) for name in dict.fromkeys(sets))
+    if arguments.watch:
+        return _watched(root, asked, options)
+    return max(_reported(built_set(root, name, replace(options, only=only), tell)) for name, only in asked.items())
+
+
+def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """The sets by name, and those of their problems that are asked for; none if that is all of them."""
+    found: dict[str, dict[str, None]] = {}
+    for set_id, _, name in (_problem_id(each).partition("/") for each in asked):
+        found.setdefault(set_id, {})[name] = None
+    return {set_id: () if "" in names else tuple(names) for set_id, names in found.items()}
+
+
+def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options) -> int:
+    """Builds at each edit until somebody interrupts, which is its only end and no failure."""
+    from derive.building.files import shown_path
+    from derive.building.watch import Shown, watch
+
+    failed: dict[str, bool] = {}  # if a set that failed is as it was before, that is news
+
+    def wrote(path: Path, seconds: float) -> None:
+        tell("")
+        print(f"wrote {shown_path(path)} ({seconds:.1f} s)", flush=True)
+
+    def built(report: Report) -> None:
+        if report.derived or report.changed or report.failed or failed.get(report.set_id, True):
+            _reported(report)
+        failed[report.set_id] = report.failed
+
+    def refused(complaints: Sequence[Complaint]) -> None:
+        tell("")
+        complain(complaints)
+
+    with suppress(KeyboardInterrupt):
+        watch(root, asked, options, Shown(tell, wrote, built, refused))
+    tell("")
+    return 0
 
 
 def _reported(report: Report) -> int:

@@ -12,7 +12,7 @@ import stat
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -139,6 +139,8 @@ class Scalar:
     def _spans(self) -> list[tuple[int, int]]:
         """For each character of the text, from where to where it stands in the source."""
         raw, at = self.source.text, self.start
+        if self.style not in (">", "|") and raw.startswith(self.text, at + self.quoted):
+            return [(i, i + 1) for i in range(at + self.quoted, at + self.quoted + len(self.text))]
         if self.style in (">", "|"):
             at = min(i for i in (raw.find(end, at) for end in "\r\n") if i >= 0) + 1
         elif self.style:
@@ -251,6 +253,7 @@ def read_yaml(path: Path, shown_as: str) -> Tree:
     return yaml_tree(read_source(path, shown_as))
 
 
+@lru_cache(maxsize=64)  # each problem of a set asks for what a reference states of it
 def yaml_tree(source: Source) -> Tree:
     """The tree of a YAML text, or one `Rejected` with every fault of its form."""
     faults = Faults()

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
-from sympy import Expr, Integer, Rational
+from sympy import Expr, Integer, Rational, sqrt
 
 from derive.algebra.expressions import AXES, column, scalar
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import Axis, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
-from derive.mechanics.bodies.body import Body, RoundBody
+from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, ThinRod
+from derive.mechanics.bodies.body import Body, OfRadius, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.regions import Point
+from derive.mechanics.bodies.solids import ThickShell
 from derive.steps.step import is_zero
 
 __all__ = ["outline"]
@@ -21,6 +25,7 @@ __all__ = ["outline"]
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 20)  # half the thickness with which a disc is drawn, in terms of its radius
+EDGE = 32  # steps along each side of the edge of a flat body
 CURVED = 48  # circles by which a curved side is drawn, close together where it may come to a tip
 
 
@@ -31,13 +36,31 @@ def outline(body: Any, about: str | None = None, named: bool = True) -> list[Mar
     about   the name of the point, otherwise the one at which the body's own axes begin
     named   whether its measures and the axes are written beside it
     """
-    if not isinstance(body, RoundBody | EdgedBody):
+    found = seen_outline(body, about, named) if isinstance(body, Body) else []
+    if not found:
         raise Rejected(Complaint("wrong-argument", f"there is no outline of a {type(body).__name__}"))
+    return found
+
+
+def seen_outline(body: Body, about: str | None = None, named: bool = True) -> list[Mark]:
+    """The same; nothing of a body of which no outline is known."""
     point: Point = body.point(about or body.reference)
     if isinstance(body, EdgedBody):
         return _with_edges(body, point, named)
-    surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
-    return [surface, *_measures(body, point)] if named else [surface]
+    if isinstance(body, RoundBody):
+        surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
+        return [surface, *_measures(body, point)] if named else [surface]
+    in_plane = is_in_plane(body)
+    found = _of_parts(body.parts, point, named, in_plane) if hasattr(body, "parts") else _by_its_map(body, point, named)
+    if found and named:
+        axes = list(zip(UNIT, AXES, strict=True))[: 2 if in_plane else 3]
+        found += [Axis(ORIGIN, ORIGIN, along, label=scalar(name)) for along, name in axes]
+    return found
+
+
+def is_in_plane(body: Body) -> bool:
+    """Whether a body of several parts is best seen in the plane in which they lie."""
+    return hasattr(body, "parts") and body.flat_across == "z"
 
 
 # --- bodies with edges -----------------------------------------------------------------------------------------------
@@ -125,3 +148,100 @@ def _is_told(length: Expr, body: Body) -> bool:
 def in_units(length: Expr) -> float:
     """A length with every letter one, to put lengths in order."""
     return float(length.subs(dict.fromkeys(length.free_symbols, Integer(1))))
+
+
+# --- bodies of several parts, and others -----------------------------------------------------------------------------
+
+
+def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
+    """Each part where it is; nothing where one of them is not known, or leaves a hole that one would look into."""
+    marks: list[Mark] = []
+    for part in parts:
+        body, held = part.body, part.body.point(part.of).position
+        point = Point(part.of, held - part.turn.T * (part.position - whole.position), part.turn.T * whole.axes)
+        aside = X if in_plane else Y
+        if part.sign < 0:
+            found = _hollow(body, point, -aside, named)
+        elif isinstance(body, RoundBody):
+            surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
+            found = [surface, *(_sizes(body, point, aside) if named else [])]
+        elif isinstance(body, EdgedBody):
+            found = _with_edges(body, point, named)[:1]
+        elif hasattr(body, "parts"):
+            found = _of_parts(body.parts, point, named, in_plane)
+        else:
+            found = []
+        if not found:
+            return []
+        told = [mark.label for mark in marks]
+        marks += [mark for mark in found if mark.label is None or mark.label not in told]  # equal sizes are told once
+    return marks
+
+
+def _hollow(body: Body, point: Point, aside: Position, named: bool) -> list[Mark]:
+    """What is cut out, if it has no rim."""
+    if not isinstance(body, RoundBody) or any(body.radius_at(end) != 0 for end in body.ends) or is_line(body):
+        return []
+    surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
+    return [Cavity(surface), *(_sizes(body, point, aside) if named else [])]
+
+
+def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
+    """The radius where it is widest, and the length, of a body that lies in any way."""
+    along, origin = point.axes.T * Z, point.seen(ORIGIN)
+    profile = _profile(body)
+    low, high = profile[0][0], profile[-1][0]
+    wide, radius = max(profile, key=lambda ring: in_units(ring[1]))
+    marks: list[Mark] = []
+    if _is_told(radius, body):
+        middle = origin + wide * along
+        marks.append(Line(middle + radius * aside, middle, "hidden", label=radius))
+    if _is_told(high - low, body):
+        marks.append(LengthMark(origin + low * along, origin + high * along, None, radius, label=high - low))
+    return marks
+
+
+def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:
+    """A straight wire, or a plate in the plane of x and y whose edge the ends of its map have."""
+    if isinstance(body, ThickShell):
+        whole, removed = body.whole_and_removed()
+        outer, inner = (round_outline(each, point.seen(ORIGIN), Z) for each in (whole, removed))
+        sizes = [*_sizes(whole, point, Y), *_sizes(removed, point, -Y)] if named else []
+        return [replace(outer, **_words(body)), Cavity(replace(inner, name="")), *sizes]
+    if not hasattr(body, "map"):
+        return []
+    place, limits = body.map()
+    if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
+        u, *ends = limits[0]
+        start, end = (point.seen(place.xreplace({u: at})) for at in ends)
+        length = tidied(sqrt((end - start).dot(end - start)))
+        return [ThinRod(start, end, **_words(body)), *([LengthMark(start, end, None, label=length)] if named else [])]
+    spots = edge_of(body)
+    if not spots:
+        return []
+    rim = Polyhedron(tuple(point.seen(spot) for spot in spots), **_words(body))
+    if not named or not isinstance(body, OfRadius):
+        return [rim]
+    return [rim, (Line(point.seen(-body.radius * X), point.seen(ORIGIN), "edge", label=body.radius))]
+
+
+def edge_of(body: Body) -> list[Position]:
+    """Places along the edge of a flat body in the plane of x and y, which the ends of its map have, all round."""
+    if not hasattr(body, "map") or body.flat_across != "z":
+        return []
+    place, limits = body.map()
+    if len(limits) != 2 or any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
+        return []
+    (u, *u_ends), (v, *v_ends) = limits
+    sides = [
+        (u, u_ends[0], v, v_ends),
+        (v, v_ends[1], u, u_ends),
+        (u, u_ends[1], v, v_ends[::-1]),
+        (v, v_ends[0], u, u_ends[::-1]),
+    ]
+    spots = [
+        place.xreplace({held: end, letter: first + (last - first) * Rational(k, EDGE)})
+        for held, end, letter, (first, last) in sides
+        for k in range(EDGE + 1)
+    ]
+    return list(dict.fromkeys(spots))

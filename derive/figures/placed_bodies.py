@@ -12,7 +12,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, cos, sin, 
 from derive.algebra.expressions import TIME, column
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
-from derive.figures.bodies import is_line, round_outline
+from derive.figures.bodies import edge_of, is_line, round_outline
 from derive.figures.marks import Mark, Position, Surface
 from derive.figures.parts import BarMark, ConnectionMark, WheelMark, beside
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
@@ -31,7 +31,6 @@ from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
 from derive.steps.step import is_zero
 
-EDGE = 32  # steps along the edge of a flat body
 ACROSS = column(0, 0, 1)
 FAR = Rational(8, 5)  # how much of a line is drawn, in terms of the coordinate
 
@@ -311,21 +310,8 @@ def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:
 
 def _mapped(body: Any, placed: Any, at: Any, words: dict[str, Any]) -> list[Mark]:
     """A flat body in its own plane by its edge, which the ends of its map have."""
-    map_of = getattr(body, "map", None)
-    if map_of is None or getattr(body, "flat_across", None) != "z" or placed.across != 2 or placed.point is None:
-        return []
-    place, limits = map_of()
-    if len(limits) != 2 or any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
-        return []
-    (u, *u_ends), (v, *v_ends) = limits
-    edges = [(u, end, v, v_ends) for end in u_ends] + [(v, end, u, u_ends) for end in v_ends]
-    spots = [
-        place.xreplace({held: end, letter: low + (high - low) * Rational(k, EDGE)})
-        for held, end, letter, (low, high) in edges
-        for k in range(EDGE + 1)
-    ]
-    corners = tuple(dict.fromkeys(at(*spot) for spot in spots))
-    return [SilhouetteMark(corners, **words)]
+    corners = tuple(dict.fromkeys(at(*spot) for spot in edge_of(body))) if placed.across == 2 and placed.point else ()
+    return [SilhouetteMark(corners, **words)] if corners else []
 
 
 def _measures(body: Any) -> tuple[tuple[str, Any], ...]:

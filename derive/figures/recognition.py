@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, diff, expand, factor, sin, sqrt
+from sympy import Abs, Add, Expr, Float, Integer, Symbol, cos, expand, factor, sin, sqrt
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
@@ -71,7 +72,7 @@ def is_fixed(system: System, place: Location) -> bool:
 
 def is_spring(each: Central) -> bool:
     """Whether its energy is of the second degree in the distance."""
-    third: Expr = diff(explicit(each.energy), each.distance, 3)
+    third: Expr = derivative(explicit(each.energy), each.distance, 3)
     return third.is_zero is True
 
 
@@ -249,7 +250,12 @@ def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
     """
     way = other - link.start
     *across, height = way.components
-    if link.is_constant or not is_fixed(system, link.start) or any(across) or tidied(diff(height, link.length)) != 1:
+    if (
+        link.is_constant
+        or not is_fixed(system, link.start)
+        or any(across)
+        or tidied(derivative(height, link.length)) != 1
+    ):
         return None
     string = tidied(link.length - height)
     return string if string.is_Symbol and not moving_in(system, string) else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from derive.figures.marks import BESIDE, InWords, Position, Surface
+from derive.figures.marks import BESIDE, InWords, Mark, Position, Surface
 from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.space import Spot, Vector, rim
 
@@ -96,6 +96,20 @@ class Circle(Surface):
 
     def in_words(self) -> InWords:
         return super().in_words() or ("circle", {"radius": self.radius})
+
+
+@dataclass(frozen=True)
+class Cavity(Mark):
+    """What is cut out within a body: its outline, dashed."""
+
+    of: Surface
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        patches = [piece for piece in self.of.pieces(paper) if isinstance(piece, Patch)]
+        return [Stroke((*patch.spots, patch.spots[0]), "hidden") for patch in patches]
+
+    def in_words(self) -> InWords | None:
+        return ("cavity", {"name": self.of.name, "measures": self.of.measures}) if self.of.name else None
 
 
 def _bounded(spots: tuple[Spot, ...], filled: bool = True) -> list[Piece]:

@@ -21,7 +21,7 @@ class Tex(str):
 
 @dataclass(frozen=True)
 class Rendered:
-    """One problem, solved and printed.
+    """One problem, solved and printed in the formats that were asked for.
 
     texts                   its page by the name of each format
     latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked

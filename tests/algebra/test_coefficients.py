@@ -1,11 +1,11 @@
-"""What stands before products of powers, and common factors in front: as SymPy has them."""
+"""What stands before products of powers: as SymPy has it."""
 
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Rational, cos, factor_terms, sin, sqrt, symbols, together
+from sympy import Expr, Integer, Rational, cos, sin, sqrt, symbols
 
-from derive.algebra.coefficients import Outside, coefficients, in_front, is_multiplied_out
+from derive.algebra.coefficients import Outside, coefficients, is_multiplied_out
 from derive.algebra.normal_form import vanishes
 
 a, b, c = symbols("a b c", positive=True)
@@ -72,31 +72,6 @@ def test_a_sum_that_is_linear_in_a_letter_has_no_factors(value: Expr, is_prime: 
 def test_what_is_no_polynomial_is_left_to_others(value: Expr) -> None:
     with pytest.raises(Outside):
         coefficients(value, (x,))
-    with pytest.raises(Outside):
-        in_front(value)
-
-
-@pytest.mark.parametrize(
-    "value",
-    [
-        a * b - a * c,
-        2 * a + 2 * b,
-        -2 * a - 4 * b,
-        a / 2 + b / 3,
-        -a / 2 - b / 3,
-        3 * a * b / 2 + 3 * a * c / 2,
-        -a * b - a * c,
-        a**2 * x - a * x**2,
-        a * sin(p) - b * sin(p),
-        Integer(0),
-        Rational(3, 4) * a,
-        (a + b) ** 2 - a**2,
-    ],
-    ids=str,
-)
-def test_common_factors_stand_in_front_as_sympy_puts_them(value: Expr) -> None:
-    numerator, denominator = together(value.expand()).as_numer_denom()
-    assert in_front(value) == factor_terms(numerator) / denominator
 
 
 def test_sums_of_products_are_told_from_what_is_to_be_multiplied_out() -> None:

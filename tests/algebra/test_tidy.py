@@ -176,3 +176,16 @@ def test_one_and_the_square_of_a_tangent_is_the_square_of_a_secant() -> None:
     assert tidied(1 + tan(angle) ** 2 + tan(other)) == 1 + tan(angle) ** 2 + tan(other)
     assert tidied(2 + tan(angle) ** 2).has(tan)
     assert tidied((1 + tan(angle)) ** 2 - 2 * tan(angle)).subs(angle, 0) == 1
+
+
+@pytest.mark.parametrize(
+    ("value", "tidy"),
+    [
+        (-b * cos(x) / (a * (cos(x) - 1) * (cos(x) + 1)), b * cos(x) / (a * sin(x) ** 2)),
+        (y * sin(x) - y / sin(x), -y * cos(x) ** 2 / sin(x)),
+        (b * sin(x) * cos(b * x / a) + b * sin(b * x / a) * cos(x), b * sin(x * (a + b) / a)),
+    ],
+    ids=str,
+)
+def test_one_minus_a_square_is_the_other_square_and_an_angle_one_fraction(value: Expr, tidy: Expr) -> None:
+    assert tidied(value) == tidied(tidy) == tidy

@@ -7,7 +7,8 @@ from algebra.test_corpus import PROVED, SLIPS
 from sympy import Expr, I, Rational, S, cos, diff, exp, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.normal_form import _vanishes_by_relations, is_identity, vanishes
-from derive.algebra.trig_polynomials import HIGHEST, Outside, TrigRing, are_equal, is_zero
+from derive.algebra.sparse_polynomials import HIGHEST
+from derive.algebra.trig_polynomials import Outside, TrigRing, are_equal, is_zero
 
 a, b, m = symbols("a b m", positive=True)
 x, y, z, t = symbols("x y z t", real=True)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import Symbol
+from sympy import Integer, Symbol
 
+from derive.algebra.dimensions import dimension
 from derive.algebra.expressions import column
 from derive.building import drawn
 from derive.building.cache import NO_CACHE, Cache
@@ -27,12 +29,15 @@ from derive.errors import Complaint, Place, Rejected
 from derive.figures.annotations import Arrow
 from derive.figures.marks import Drawing
 from derive.page.wording import Text, phrases
+from derive.render.drawing import lettering
+from derive.render.drawing.lettering import Lettered, letters_of
 from derive.render.notation.notation import Notation
 from derive.render.rendered import Rendered
 from tests.building.test_solved import forbid_deriving
 from tests.courses import ROOT, course_in, rendered_once
 
 CAPTION = "  vectors:\n"
+MASS = dimension(1, 0, 0)
 HERE = Place("problems/hw9/block.yaml", 3, 1, "vectors:", 8)
 FILES = ["block-axes.pdf", "block-axes.svg", "block-vectors.pdf", "block-vectors.svg"]
 
@@ -70,12 +75,19 @@ def test_what_a_drawing_says_of_its_letters_goes_before() -> None:
     assert numbers(known, (c, 2 * b + a)) == {"a": 7.0, "b": 2.0, "c": 11.0}
 
 
-def files_of(problem: Problem, cache: Cache, length: int = 1, alt: str = "") -> dict[str, bytes]:
+def files_of(
+    problem: Problem,
+    cache: Cache,
+    length: Any = 1,
+    alt: str = "",
+    label: Any = None,
+    kinds: Mapping[Any, Any] | None = None,
+) -> dict[str, bytes]:
     shown = SimpleNamespace(key="vectors", stem="block-vectors", alt=(Text(alt),))
-    arrow = Arrow(column(0, 0, 0), column(length, 0, 0), 1)
+    arrow = Arrow(column(0, 0, 0), column(length, 0, 0), 1, label=label)
     page: Any = SimpleNamespace(illustrations=(shown,))
     words = phrases(ROOT / "templates")
-    return dict(drawing_files(problem, [Drawing("vectors", (arrow,))], page, words, Notation({}), cache))
+    return dict(drawing_files(problem, [Drawing("vectors", (arrow,))], page, words, Notation(kinds or {}), cache))
 
 
 @pytest.fixture
@@ -115,7 +127,41 @@ def test_a_drawing_that_shows_or_says_something_else_is_made_anew(
     assert len(drawings) == 2
 
 
-def test_one_file_that_is_lost_makes_both_anew(problem: Problem, drawings: list[str], tmp_path: Path) -> None:
+def test_what_is_said_of_a_letter_makes_those_drawings_anew_that_have_it(
+    problem: Problem, drawings: list[str], tmp_path: Path
+) -> None:
+    """A number moves what it measures, a kind the letter's place in a label; of letters elsewhere neither is seen."""
+    a, b, c = (Symbol(name, positive=True) for name in "abc")
+
+    def is_made_anew(said: Symbol | None = None, kinds: Mapping[Any, Any] | None = None) -> bool:
+        before = len(drawings)
+        own = Placement("vectors", HERE, values=((said, Integer(7)),) if said else ())
+        files_of(replace(problem, drawings=(own,)), Cache(tmp_path), length=a, label=a * b, kinds=kinds)
+        return len(drawings) > before
+
+    assert is_made_anew()
+    assert not is_made_anew(c) and is_made_anew(a)
+    assert not is_made_anew(a, {c: MASS}) and is_made_anew(a, {b: MASS})
+
+
+def test_each_letter_is_set_once(problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not again for other numbers, nor for a drawing that has others beside it."""
+    a, b = (Symbol(name, positive=True) for name in "ab")
+    made: list[str] = []
+
+    def noted(texts: Collection[str]) -> dict[str, Lettered]:
+        made.extend(texts)
+        return letters_of(texts)
+
+    monkeypatch.setattr(lettering, "letters_of", noted)
+    for length, label in ((1, a), (-1, a), (1, b), (2, b)):
+        assert files_of(problem, Cache(tmp_path), length=length, label=label)
+    assert made == ["$a$", "$b$"]
+    kept = files_of(problem, Cache(tmp_path), length=-1, label=a)
+    assert kept == files_of(problem, NO_CACHE, length=-1, label=a)
+
+
+def test_a_file_that_is_lost_makes_both_anew(problem: Problem, drawings: list[str], tmp_path: Path) -> None:
     files_of(problem, Cache(tmp_path))
     next(tmp_path.iterdir()).unlink()
     assert set(files_of(problem, Cache(tmp_path)).values()) == {b"pdf 2", b"svg 2"}

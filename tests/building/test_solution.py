@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from pathlib import Path
 
 import pytest
@@ -38,13 +39,13 @@ parts:
 """
 
 
-def solved(folder: Path, form: str = "") -> Rendered:
+def solved(folder: Path, form: str = "", only: Collection[str] | None = None) -> Rendered:
     problems = folder / "problems" / "set"
     problems.mkdir(parents=True)
     (folder / "templates").symlink_to(ROOT / "templates")
     (problems / "pendulum.py").write_text(SCRIPT, encoding="utf-8")
     (problems / "pendulum.yaml").write_text(PROBLEM + form, encoding="utf-8")
-    return rendered(folder, "set/pendulum")
+    return rendered(folder, "set/pendulum", only=only)
 
 
 def refused(folder: Path, form: str) -> Complaint:
@@ -99,3 +100,15 @@ def test_a_letter_of_the_script_that_nobody_gave_is_refused_where_the_script_ret
     assert complaint.code == "unknown-letter"
     assert complaint.message == "`period` contains h, which is neither given nor a coordinate"
     assert complaint.place and complaint.place.text.strip() == "return ("
+
+
+@pytest.mark.parametrize(
+    ("only", "texts", "typeset"), [((), set(), False), (["text"], {"text"}, False), (["pdf"], set(), True)]
+)
+def test_a_page_is_printed_in_the_formats_that_are_asked_for(
+    tmp_path: Path, only: list[str], texts: set[str], typeset: bool
+) -> None:
+    solution = solved(tmp_path, only=only)
+    assert set(solution.texts) == texts
+    assert bool(solution.latex) == typeset
+    assert solution.title == "A pendulum"

@@ -9,16 +9,17 @@ from typing import Any, ClassVar
 
 import pytest
 import sympy
-from sympy import Expr, Rational, diag, pi
+from sympy import Expr, Rational, Symbol, diag, pi
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
 from derive.errors import Rejected
 from derive.figures import drawing, outline, sketch
-from derive.figures.annotations import LengthMark, Line
+from derive.figures.annotations import Axis, LengthMark, Line
+from derive.figures.bodies import is_in_plane, seen_outline
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
-from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
+from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, ThinRod
 from derive.mechanics import (
     Ball,
     Composite,
@@ -26,15 +27,21 @@ from derive.mechanics import (
     Cuboid,
     Cylinder,
     Disc,
+    HalfDisc,
     Hoop,
     Plate,
+    PointMass,
     Rod,
     System,
+    ThickShell,
+    Torus,
     Triangle,
+    Wire,
     X,
     Z,
     coordinate,
     inertia_tensor,
+    minus,
     space,
 )
 from derive.mechanics.bodies.edged_bodies import EdgedBody
@@ -223,8 +230,10 @@ def test_the_radius_of_a_ball_is_drawn_from_its_centre() -> None:
 
 
 def test_what_is_no_body_has_no_outline() -> None:
-    with pytest.raises(Rejected, match="no outline of a Composite"):
-        outline(Composite(Rod(2 * h, M)))
+    with pytest.raises(Rejected, match="no outline of a PointMass"):
+        outline(PointMass(M))
+    with pytest.raises(Rejected, match="no outline of a str"):
+        outline("rod")
 
 
 def test_an_outline_has_the_sides_of_the_body() -> None:
@@ -258,3 +267,85 @@ def test_a_triangle_tells_each_length_of_its_sides_once() -> None:
     assert [mark.label for mark in outline(isosceles) if isinstance(mark, LengthMark)] == [a]
     other = Triangle(((0, 0), (3 * a, 0), (0, 4 * R)), M)
     assert [mark.label for mark in outline(other) if isinstance(mark, LengthMark)] == [3 * a, 4 * R]
+
+
+# --- bodies of several parts, and others -----------------------------------------------------------------------------
+
+l, b = sympy.symbols("l b", positive=True)
+DUMBBELL = Composite(
+    Rod(2 * l, M).at(0, 0, 0),
+    Ball(R, M).named("upper ball").at(0, 0, l + R),
+    Ball(R, M).named("lower ball").at(0, 0, -l - R),
+)
+CLOCK = Composite(
+    Rod(l, M).turned("x", pi / 2).at(0, 0, 0, of="end"), Disc(R, M).at(0, -l, 0), points={"pivot": (0, 0, 0)}
+)
+HOLED = Composite(Ball(R, M), minus(Ball(R / 2, M / 8).named("hole").at(0, 0, R / 2)))
+
+
+def test_each_part_is_drawn_where_it_is_and_equal_sizes_are_told_once() -> None:
+    marks = outline(DUMBBELL)
+    rod, *balls = (mark for mark in marks if isinstance(mark, Surface))
+    assert isinstance(rod, ThinRod) and (rod.start, rod.end) == (column(0, 0, -l), column(0, 0, l))
+    assert [ball.through for ball in balls if isinstance(ball, Revolved)] == [column(0, 0, l + R), column(0, 0, -l - R)]
+    assert [mark.label for mark in marks if isinstance(mark, Line | LengthMark)] == [2 * l, R]
+
+
+def test_a_part_that_is_turned_is_seen_from_the_point_that_is_named() -> None:
+    rod, disc = (mark for mark in outline(CLOCK, "pivot", named=False) if isinstance(mark, Surface))
+    assert isinstance(rod, ThinRod) and {rod.start, rod.end} == {column(0, 0, 0), column(0, -l, 0)}
+    assert isinstance(disc, Revolved) and (disc.through, disc.along) == (column(0, -l, 0), column(0, 0, 1))
+
+
+def test_a_body_in_the_plane_of_x_and_y_has_no_third_axis() -> None:
+    assert is_in_plane(CLOCK) and not is_in_plane(DUMBBELL) and not is_in_plane(Disc(R, M))
+    for body, names in ((CLOCK, "xy"), (DUMBBELL, "xyz")):
+        assert "".join(str(mark.label) for mark in outline(body) if isinstance(mark, Axis)) == names
+
+
+def test_what_is_cut_out_is_dashed_and_told_and_kept() -> None:
+    found = drawing("one", outline(HOLED))
+    (cavity,) = (mark for mark in found.marks if isinstance(mark, Cavity))
+    assert isinstance(cavity.of, Revolved) and cavity.of.through == column(0, 0, R / 2)
+    assert drawings_from_data(drawings_to_data([found])) == (found,)
+    assert (
+        in_words(HOLED, named=False)
+        == "A drawing in space of a ball of radius R and a ball of radius 1/2 R cut out of it."
+    )
+
+
+def test_a_hollow_ball_is_told_as_one() -> None:
+    shell = ThickShell(a, b, M)
+    assert in_words(shell, named=False) == "A drawing in space of a hollow ball of inner radius a and outer radius b."
+    assert [mark.label for mark in outline(shell) if isinstance(mark, Line)] == [b, a]
+    whole, removed = shell.whole_and_removed()
+    assert sympy.simplify(whole.mass - removed.mass - M) == 0
+    assert (whole.mass / removed.mass).expand() == b**3 / a**3
+
+
+def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> None:
+    half, *_ = outline(HalfDisc(R, M), named=False)
+    assert isinstance(half, Polyhedron)
+    arc = [corner for corner in half.corners if corner[1] != 0]
+    assert len(arc) > 20 and all(sympy.simplify(x**2 + y**2 - R**2) == 0 and z == 0 for x, y, z in arc)
+    assert {tuple(corner) for corner in half.corners} > {(R, 0, 0), (0, 0, 0), (-R, 0, 0)}
+    s = Symbol("s", real=True)
+    wire, length, *_ = outline(Wire((2 * s, 0, 0), {s: (0, l)}, mass=M))
+    assert isinstance(wire, ThinRod) and (wire.start, wire.end) == (column(0, 0, 0), column(2 * l, 0, 0))
+    assert isinstance(length, LengthMark) and length.label == 2 * l
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        Torus(b, a, M),
+        Composite(Cuboid((a, a, a), M), minus(Cylinder(R, a, M / 9))),
+        Composite(Ball(R, M), Torus(b, a, M).at(0, 0, 3 * R)),
+        Wire((R * sympy.cos(theta), R * sympy.sin(theta), 0), {theta: (0, 1)}, mass=M),
+    ],
+    ids=["a ring", "a hole with a rim", "a part that is not known", "a bent wire"],
+)
+def test_what_would_be_drawn_wrong_has_no_outline(body: Any) -> None:
+    assert seen_outline(body) == []
+    with pytest.raises(Rejected, match="there is no outline"):
+        outline(body)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot
 
 import pytest
@@ -9,7 +10,7 @@ from sympy import Rational, sqrt, symbols
 
 from derive.algebra.expressions import column
 from derive.figures.pieces import Patch, Stroke
-from derive.figures.surfaces import Circle, Polyhedron, Revolved, ThinRod
+from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, ThinRod
 from derive.render.drawing.camera import Numbers
 from tests.figures.scenery import pieces_of, plane
 
@@ -55,3 +56,14 @@ def test_a_rod_is_one_line_and_a_piece_of_it_is_not_told_again() -> None:
     rod = ThinRod(ORIGIN, h * Z)
     assert rod.places(NUMBERS) == [(0.0, 0.0, 0.0), (0.0, 0.0, 3.0)]
     assert rod.in_words() is None
+
+
+def test_what_is_cut_out_is_a_dashed_outline_that_hides_nothing() -> None:
+    heights = [Rational(k, 24) for k in range(-24, 25)]
+    ball = Revolved(
+        tuple((k * R, R * sqrt(1 - k**2)) for k in heights), ORIGIN, Z, name="a ball", measures=(("radius", R),)
+    )
+    (line,) = pieces_of(plane(Cavity(ball)))
+    assert isinstance(line, Stroke) and line.pen == "hidden" and line.spots[0] == line.spots[-1]
+    assert Cavity(ball).in_words() == ("cavity", {"name": "a ball", "measures": (("radius", R),)})
+    assert Cavity(replace(ball, name="")).in_words() is None

@@ -6,6 +6,7 @@ What is only told to a person of the course, messages and docstrings, is left al
 from __future__ import annotations
 
 import ast
+import functools
 import importlib
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -142,7 +143,17 @@ def _short(text: str) -> str:
 
 
 def _called(call: ast.Call) -> str:
+    match call.func:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return name
     return ast.unparse(call.func).rpartition(".")[2]
+
+
+@functools.lru_cache(maxsize=1)  # as long as its mutants are asked for
+def _local_names(top: ast.stmt) -> set[str]:
+    """The names of a function, or of all functions of a class, that stand for something in it alone."""
+    names = {n.arg for n in ast.walk(top) if isinstance(n, ast.arg)}
+    return names | {n.id for n in ast.walk(top) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
 
 
 class _Maker:
@@ -242,18 +253,12 @@ class _Maker:
             yield "condition", ast.IfExp(_negated(node.test), node.body, node.orelse)
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load) and node.id in ONE_FOR_ANOTHER:
             other = ONE_FOR_ANOTHER[node.id]
-            if other in {"sin", "cos"} or self._is_known(other):
+            if other in {"sin", "cos"} or other in _local_names(self.top):
                 yield "name", ast.Name(other, ast.Load())
         elif isinstance(node, ast.Attribute) and node.attr in ONE_FOR_ANOTHER:
             yield "name", ast.Attribute(node.value, ONE_FOR_ANOTHER[node.attr], ast.Load())
         elif isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Load):
             yield from _of_subscript(node)
-
-    def _is_known(self, name: str) -> bool:
-        """Whether the function has such a local name."""
-        names = {n.arg for n in ast.walk(self.top) if isinstance(n, ast.arg)}
-        names |= {n.id for n in ast.walk(self.top) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
-        return name in names
 
     def _of_constant(self, node: ast.Constant, parent: ast.AST, name: str) -> Iterator[tuple[str, ast.AST]]:
         value = node.value

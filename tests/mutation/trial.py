@@ -409,8 +409,19 @@ class Trials:
     runs: Sequence[str]
     modules: Sequence[str] = MODULES
     recordings: list[Recording] = field(default_factory=list)
-    trees: dict[str, Any] = field(default_factory=dict)
-    mutants: list[Mutant] = field(default_factory=list)
+
+    @functools.cached_property
+    def _made(self) -> dict[str, tuple[ast.Module, list[Mutant]]]:
+        return {module: mutants_of(module) for module in self.modules}
+
+    @property
+    def trees(self) -> dict[str, ast.Module]:
+        return {module: tree for module, (tree, _) in self._made.items()}
+
+    @property
+    def mutants(self) -> list[Mutant]:
+        """Those of every module, in the order of the text."""
+        return [mutant for _, found in self._made.values() for mutant in found]
 
     def prepare(self, note: Callable[[str], None] = lambda _: None) -> None:
         for module, name in (
@@ -420,12 +431,14 @@ class Trials:
             (derive.algebra.expressions, "explicit"),
         ):
             remember(module, name)
-        for module_name in self.modules:
-            self.trees[module_name], found = mutants_of(module_name)
-            self.mutants += found
         for name in self.runs:
             note(f"solving {name}")
             self.recordings.append(recording(RUNS[name], self.modules))
+
+    def changed(self) -> set[str]:
+        """The functions in which something that is carried out can be changed: a sign, a number, a term, an order."""
+        of_laws = {"sign", "number", "dropped", "order", "plus/minus", "name", "index", "side", "mark"}
+        return {mutant.where for mutant in self.mutants if mutant.change in of_laws}
 
     def used(self) -> list[Mutant]:
         """Those that some run comes to."""
@@ -463,9 +476,3 @@ class Trials:
                     so_far[tried.id] = tried
         for name, mutant in waiting.items():
             yield so_far.get(name) or Tried(name, mutant.module, "", Verdict.UNUSED)
-
-
-def verbs_with_a_mutant() -> set[str]:
-    """The functions in which something that is carried out can be changed: a sign, a number, a term, an order."""
-    of_laws = {"sign", "number", "dropped", "order", "plus/minus", "name", "index", "side", "mark"}
-    return {m.where for module in MODULES for m in mutants_of(module)[1] if m.change in of_laws}

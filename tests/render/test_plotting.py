@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from matplotlib.figure import Figure
 from sympy import Expr, Integer, Symbol, cos, pi, symbols
 
 from derive.figures.marks import Plot
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
 from derive.render.drawing import canvas, plotting
-from derive.render.drawing.canvas import Sheet
-from derive.render.drawing.plotting import plot_sheet
+from derive.render.drawing.canvas import LINE
+from derive.render.drawing.plotting import CM, Panel, panel_of, plot_sheet
+from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT
 
@@ -40,49 +41,89 @@ def sheet(plot: Plot, *cases: int, width: float | None = None, alt: str = "") ->
     return plot_sheet(plot, curves(plot, *cases), Notation(), WORDS, width, alt)
 
 
-@pytest.fixture
-def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
-    """The figures, before they are files."""
-    figures: list[Figure] = []
-
-    def noted(figure: Figure, *of_it: Any) -> Sheet:
-        figures.append(figure)
-        return canvas.finished(figure, *of_it)
-
-    monkeypatch.setattr(plotting, "finished", noted)
-    return figures
+def panels(plot: Plot, *cases: int) -> list[Panel]:
+    found = curves(plot, *cases)
+    return [panel_of(plot, curve, found, Notation(), WORDS) for curve in found.curves]
 
 
-def test_every_curve_has_a_panel_of_the_same_width(drawn: list[Figure]) -> None:
+def test_every_curve_has_a_panel_of_the_same_width() -> None:
     one, two = sheet(plot_of(a * cos(theta)), 1), sheet(plot_of(a * cos(theta)), 1, 2)
     assert (two.width, two.height) == pytest.approx((2 * one.width, one.height))
-    assert [len(figure.axes) for figure in drawn] == [1, 2]
     assert sheet(plot_of(a * cos(theta)), 1, width=3.0).height == pytest.approx(one.height / 2)
 
 
-def test_ticks_are_a_few_round_numbers_within_the_range(drawn: list[Figure]) -> None:
-    sheet(plot_of(cos(theta)))
-    sheet(plot_of(theta**2, Integer(0), Integer(1) / 250, of="length"))
-    (angle,), (length,) = (figure.axes for figure in drawn)
-    assert list(angle.get_xticks()) == [-90, -60, -30, 0, 30, 60, 90]
-    assert [label.get_text() for label in length.get_xticklabels()] == [
-        "$0.000$", "$0.001$", "$0.002$", "$0.003$", "$0.004$"
+def test_ticks_are_a_few_round_numbers_within_the_range() -> None:
+    (angle,), (length,) = panels(plot_of(cos(theta))), panels(plot_of(theta**2, Integer(0), Integer(1) / 250, "length"))
+    assert [at for at, _ in angle.across] == [-90, -60, -30, 0, 30, 60, 90]
+    assert [text for _, text in length.across] == ["$0.000$", "$0.001$", "$0.002$", "$0.003$", "$0.004$"]
+
+
+def test_axes_are_named_with_their_units() -> None:
+    (panel,) = panels(plot_of(cos(theta)))
+    assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$V\,/\,\mathrm{J}$")
+
+
+def test_each_extremum_is_named_clear_of_the_curve() -> None:
+    (panel,) = panels(plot_of(cos(2 * theta), -3 * pi / 4, 3 * pi / 4))
+    assert [(pytest.approx(at), is_lowest) for at, is_lowest, _ in panel.turns] == [
+        ((-90, -1), True), ((0, 1), False), ((90, -1), True)
     ]  # fmt: skip
+    assert len({name for _, _, name in panel.turns}) == 2
+    assert panel.values[1] < -1.3 and panel.values[3] > 1.3, "there is room for the words"
 
 
-def test_axes_are_named_with_their_units(drawn: list[Figure]) -> None:
+def test_the_numbers_of_a_case_stand_over_its_panel() -> None:
+    one, two = panels(plot_of(a * cos(theta)), 1, 2)
+    assert (one.numbers, two.numbers) == (r"$a = 1\,\mathrm{m}$", r"$a = 2\,\mathrm{m}$")
+    assert {one.numbers, *one.names} <= set(one.texts())
+    assert panels(plot_of(cos(theta)))[0].numbers == ""
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Shape]:
+    """What is on the sheets."""
+    found: list[Shape] = []
+
+    def noted(shapes: list[Shape], extent: Extent, alt: str) -> Sheet:
+        found[:] = shapes
+        return sheet_of_shapes(shapes, extent, alt)
+
+    monkeypatch.setattr(plotting, "sheet_of_shapes", noted)
+    return found
+
+
+def box(shape: Shape) -> Extent:
+    return extent_of([spot for _, spots in shape.contour for spot in spots])
+
+
+def test_all_of_a_plot_is_on_its_sheet_and_no_text_on_another(drawn: list[Shape]) -> None:
+    found = sheet(plot_of(a * cos(theta)), 1, 2)
+    boxes = [box(shape) for shape in drawn]
+    assert min(min(each[:2]) for each in boxes) >= 0
+    assert max(each[2] for each in boxes) <= found.width and max(each[3] for each in boxes) <= found.height
+    texts = [box(shape) for shape in drawn if shape.fill == LINE]
+    assert len(texts) > 20
+    for one, other in combinations(texts, 2):
+        assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
+
+
+def test_a_curve_is_drawn_to_the_scale_of_its_axes(drawn: list[Shape]) -> None:
     sheet(plot_of(cos(theta)))
-    ((axes,),) = (figure.axes for figure in drawn)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"$\theta\,/\,{}^{\circ}$", r"$V\,/\,\mathrm{J}$")
+    frame, curve = (
+        next(s for s in drawn if s.width == canvas.PENS[pen].width and not s.fill) for pen in ("frame", "curve")
+    )
+    left, below, right, above = box(frame)
+    start, low, end, high = panels(plot_of(cos(theta)))[0].values
+    assert (box(curve)[0], box(curve)[2]) == pytest.approx((left, right)), "it goes from one end to the other"
+    assert box(curve)[1] == pytest.approx(below + (0 - low) / (high - low) * (above - below), abs=1e-6)
+    assert box(curve)[3] == pytest.approx(below + (1 - low) / (high - low) * (above - below))
+    assert (start, end) == (-90, 90)
 
 
-def test_each_extremum_is_named_clear_of_the_curve(drawn: list[Figure]) -> None:
-    sheet(plot_of(cos(2 * theta), -3 * pi / 4, 3 * pi / 4))
-    ((axes,),) = (figure.axes for figure in drawn)
-    named = [(text.get_text(), text.xy[1], text.get_va()) for text in axes.texts]
-    assert [(va, pytest.approx(y)) for _, y, va in named] == [("top", -1), ("bottom", 1), ("top", -1)]
-    assert len({text for text, *_ in named}) == 2
-    assert axes.get_ylim()[0] < -1.3 and axes.get_ylim()[1] > 1.3, "there is room for the words"
+def test_numbers_that_are_too_long_for_a_panel_are_smaller(drawn: list[Shape]) -> None:
+    sheet(plot_of(a * cos(theta)), 123456789012, width=3.0)
+    numbers = box(drawn[-1])
+    assert 0 < numbers[0] < numbers[2] < 3 * CM
 
 
 def test_a_plot_is_the_same_bytes_each_time_and_says_what_it_shows() -> None:
@@ -91,7 +132,6 @@ def test_a_plot_is_the_same_bytes_each_time_and_says_what_it_shows() -> None:
     assert b"<title>a &lt; b</title>" in one.svg
 
 
-def test_a_curve_that_is_level_has_an_axis_all_the_same(drawn: list[Figure]) -> None:
-    sheet(plot_of(theta - theta + 5 * cos(0) + 0 * theta))
-    ((axes,),) = (figure.axes for figure in drawn)
-    assert axes.get_ylim()[0] < 5 < axes.get_ylim()[1]
+def test_a_curve_that_is_level_has_an_axis_all_the_same() -> None:
+    (panel,) = panels(plot_of(theta - theta + 5 * cos(0) + 0 * theta))
+    assert panel.values[1] < 5 < panel.values[3]

@@ -44,8 +44,12 @@ def verdict_on(statement: Statement, step: Quantity, entry: Entry, pinned: Probl
         verdict = Verdict(Grade.REFUTED, "a relation against a value")
     else:
         verdict = _of_value(statement.sides[0], derived, step.step.kind, entry, pinned, meanings)
-    names = ", ".join(sorted(letter.name for letter, value in meanings.items() if str(value) != letter.name))
+    names = ", ".join(sorted(letter.name for letter, value in meanings.items() if not _is_called(value, letter.name)))
     return replace(verdict, detail=f"{verdict.detail}, for {names} as derived") if verdict and names else verdict
+
+
+def _is_called(value: Expr, name: str) -> bool:
+    return isinstance(value, Symbol) and value.name == name
 
 
 def _of_value(
@@ -121,7 +125,7 @@ def _of_relation(
     numbers = _numbers(pinned, kept, entry)
     stated = explicit(Relation(left[0], mark, right[0]).xreplace(numbers))
     ours = explicit(derived.xreplace(numbers))
-    if vanishes(ours.residual) and not vanishes(derived.residual):
+    if ours != derived and vanishes(ours.residual) and not vanishes(derived.residual):
         return Verdict(Grade.REFUTED, "with these numbers both sides are the same, whatever is stated")
     if entry.figures:
         return _bound_to_figures(stated, ours, entry)
@@ -193,11 +197,14 @@ def _meanings(
     }
     behind = list(with_ancestors(step.parents).values())
     found = {name: values for name, values in _found_before(behind).items() if name not in {*own, *given}}
-    known = {**_letters_of(behind), **{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
+    wanted = stated.letters | (times.letters if times else set())
+    known = {**{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
+    if any(letter.name not in known and len(found.get(letter.name, ())) != 1 for letter in wanted):
+        known = {**_letters_of(behind), **known}
     # A name that stands for two things among the steps before (the tensors of two bodies, say) stands for none here.
     return {
         letter: values[0] if len(values := found.get(letter.name, [])) == 1 else known.get(letter.name, letter)
-        for letter in stated.letters | (times.letters if times else set())
+        for letter in wanted
     }
 
 

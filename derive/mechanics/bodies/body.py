@@ -127,7 +127,7 @@ class Body(Placeable, OfParticles):
         """The step that says what a radius in the limits of a region stands for, where there is one."""
         return []
 
-    @property
+    @cached_property
     def middle(self) -> Point:
         """Its centre of mass, as its particles have it."""
         total = summed(self.particles(), lambda r: r)
@@ -281,6 +281,10 @@ class Hollow(Body):
 
     def __post_init__(self) -> None:
         require_order(self.name, self.inner, self.outer)
+
+    @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"inner radius": self.inner, "outer radius": self.outer}
 
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:

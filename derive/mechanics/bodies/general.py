@@ -99,6 +99,11 @@ class GeneralBody(Body):
         return super().front if self.is_uniform else self.mass / self.size
 
     @property
+    def measures(self) -> Mapping[str, Any]:
+        """Its map says how large it is."""
+        return {}
+
+    @property
     def profile(self) -> Expr:
         return self._profile
 

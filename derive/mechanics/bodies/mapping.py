@@ -125,7 +125,7 @@ def _counted_positive(size: Expr, limits: Bounds) -> Expr:
     """The size of what may be counted the wrong way round; of what has no one sign nothing can be said."""
     if size == 0:
         return size
-    signs = {bool(size.subs(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
+    signs = {bool(size.xreplace(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
     if len(signs) > 1 and not size.free_symbols & {x for x, _, _ in limits}:
         message = f"the letters leave open whether `{size}` is positive"
         raise Rejected(Complaint("unknown-sign", message, help="give sizes that settle on which side it lies"))
@@ -144,7 +144,7 @@ def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dic
         at = letters_in_order(limits, sorted(letters - names, key=str), source)
         for x, lower, upper in limits:
             part = Rational(source.randint(10, 90), 100)
-            low, high = lower.subs(at), upper.subs(at)
+            low, high = lower.xreplace(at), upper.xreplace(at)
             at[x] = (low + part * (high - low)).evalf()
         yield at
 
@@ -155,7 +155,7 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
         at: dict[Symbol, Expr] = {letter: Rational(source.randint(40, 160), 97) for letter in letters}
         known = dict(at)
         for x, lower, upper in limits:
-            low, high = (end.subs(known).evalf() for end in (lower, upper))
+            low, high = (end.xreplace(known).evalf() for end in (lower, upper))
             if not (high.is_real and low.is_real and high > low):
                 break
             known[x] = (low + high) / 2

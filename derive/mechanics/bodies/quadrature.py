@@ -7,7 +7,7 @@ Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from math import cos, isfinite, pi, sin, sqrt
 from random import Random
@@ -54,30 +54,34 @@ def metric(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
 
 
 def over_cells(
-    position: ImmutableMatrix, limits: Bounds, values: Sequence[Expr], at: dict[Symbol, Expr]
-) -> list[float]:
-    """The integrals of some functions of the variables over the body, each letter having its value."""
+    position: ImmutableMatrix, limits: Bounds, values: Sequence[Expr], letters: Sequence[Symbol]
+) -> Callable[[Mapping[Symbol, Expr]], list[float]]:
+    """The integrals of some functions of the variables over the body, as a function of what each letter is."""
     names = [x for x, _, _ in limits]
-    ends = [lambdify(names[:i], [lower.subs(at), upper.subs(at)], "math") for i, (_, lower, upper) in enumerate(limits)]
-    inside = [value.subs(at) for value in (metric(position, names), *values)]
-    integrand: Callable[..., list[float]] = lambdify(names, inside, "math", cse=True)
-    totals = [0.0] * len(values)
-    rule = _gauss(NODES[len(limits)])
+    ends = [lambdify([*letters, *names[:i]], both, "math") for i, (_, *both) in enumerate(limits)]
+    integrand: Callable[..., list[float]] = lambdify(
+        [*letters, *names], [metric(position, names), *values], "math", cse=True
+    )
+    rule = [((1 - cos(pi * t)) / 2, share * pi * sin(pi * t) / 2) for t, share in _gauss(NODES[len(limits)])]
 
-    def further(places: tuple[float, ...], weight: float) -> None:
-        if len(places) == len(names):
-            square, *found = integrand(*places)
-            size = weight * sqrt(max(square, 0.0))
-            for i, value in enumerate(found):
-                totals[i] += size * value
-            return
-        low, high = ends[len(places)](*places)
-        half = (high - low) / 2
-        for t, share in rule:
-            further((*places, low + half * (1 - cos(pi * t))), weight * share * half * pi * sin(pi * t))
+    def summed(at: Mapping[Symbol, Expr]) -> list[float]:
+        totals, known = [0.0] * len(values), [float(at[s]) for s in letters]
 
-    further((), 1.0)
-    return totals
+        def further(places: tuple[float, ...], weight: float) -> None:
+            if len(places) == len(names):
+                square, *found = integrand(*known, *places)
+                size = weight * sqrt(max(square, 0.0))
+                for i, value in enumerate(found):
+                    totals[i] += size * value
+                return
+            low, high = ends[len(places)](*known, *places)
+            for part, share in rule:
+                further((*places, low + (high - low) * part), weight * share * (high - low))
+
+        further((), 1.0)
+        return totals
+
+    return summed
 
 
 def _entries(of: Any) -> list[Any]:
@@ -93,13 +97,14 @@ def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bound
     names = {x for x, _, _ in limits}
     letters = {s for e in (*entries, *wanted, *position) for s in e.free_symbols} - names
     letters |= {s for _, *ends in limits for end in ends for s in end.free_symbols} - names
-    source = Random(len(letters))
+    source, ordered = Random(len(letters)), sorted(letters, key=str)
+    sums_at = over_cells(position, limits, [*wanted, *(abs(f) for f in wanted)], ordered)
     for _ in range(LETTERS if letters else 1):
-        at = letters_in_order(limits, sorted(letters, key=str), source)
-        sizes = [abs(f) for f in wanted]
-        sums = over_cells(position, limits, [*wanted, *sizes], at)
+        at = letters_in_order(limits, ordered, source)
+        sums = sums_at(at)
         for entry, total, size in zip(entries, sums, sums[len(wanted) :], strict=False):
-            found = complex(entry.subs(at).evalf()) if not entry.subs(at).free_symbols else complex("nan")
+            here = entry.xreplace(at)
+            found = complex(here.evalf()) if not here.free_symbols else complex("nan")
             if not isfinite(found.real) or abs(found - total) > 10**-FIGURES * max(size, 1e-30):
                 where = tuple((str(name), str(number)) for name, number in at.items())
                 return Verdict(Grade.REFUTED, f"{found.real:.6g} against {total:.6g}", where)

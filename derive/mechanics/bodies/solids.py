@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, solve, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Poly, Rational, Symbol, cos, diag, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
@@ -244,10 +244,15 @@ class ThickShell(Hollow):
     def map(self) -> Map:
         return spherical(self.letters, (self.inner, self.outer))
 
-    def particles(self) -> Particles:
-        """A ball less the ball that was taken out, their masses as the cubes of their radii."""
+    def whole_and_removed(self) -> tuple[Ball, Ball]:
+        """A ball and the ball that was taken out, their masses as the cubes of their radii."""
         between = self.outer**3 - self.inner**3
         whole, removed = (Ball(r, self.mass * r**3 / between) for r in (self.outer, self.inner))
+        return whole, removed
+
+    def particles(self) -> Particles:
+        """The one less the other."""
+        whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
 
@@ -375,8 +380,8 @@ def _edge_at(body: RoundSolid, point: Point, z: Expr) -> Expr:
     """The radius at z from a point, as the condition of the edge has it: solved for what makes its two sides equal."""
     r = Symbol("r_edge", nonnegative=True)
     left, right = body.edge_condition(point.along_body(z), r)
-    (found,) = solve(left - right, r)
-    return found
+    per_radius, rest = Poly(left - right, r).all_coeffs()
+    return -rest / per_radius
 
 
 def _by_pappus(body: Cone) -> Expr:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -27,6 +27,7 @@ __all__ = ["period_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
+MOST_VALUES = 2**12
 NOISE = 1e-9  # what the numbers may differ by near the turning points, where most figures cancel
 
 
@@ -245,16 +246,35 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
             there = {**point, amplitude: small}
-            speed = lambdify(q, sqrt(value.subs(there)), "mpmath")
+            speed = lambdify(q, sqrt(value.xreplace(there)), "mpmath")
             a = mp.mpf(int(small.p)) / int(small.q)
-            time = 2 * mp.quad(
-                lambda u, a=a, v=speed: mp.re(a * mp.cos(u) / v(a * mp.sin(u))), [-mp.pi / 2, 0, mp.pi / 2]
-            )
-            told = mp.mpf(str(found.subs(there).evalf(mp.dps)))
+            time = 2 * _over_half_a_turn(speed, a)
+            told = mp.mpf(str(found.xreplace(there).evalf(mp.dps)))
             rests.append(abs(time - told) / abs(told) / a**order)
-    if rests[1] > rests[0] * 0.6 and rests[1] > NOISE:
+    if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
         return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")
     return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, in numbers")
+
+
+def _over_half_a_turn(speed: Callable[[Any], Any], a: Any) -> Any:
+    """The integral of dq/v from -a to a, q = a sin u: the integrand has a period and is the same at u and at pi - u, so
+    that the mean of equidistant values is as good as it can be; twice as many are taken until they agree.
+
+    Source: Trefethen, Weideman, *SIAM Review* 56 (2014), section 3.
+    """
+    from mpmath import mp
+
+    def integrand(part: Any) -> Any:
+        u = mp.pi * (part - mp.mpf(1) / 2)
+        return mp.re(a * mp.cos(u) / speed(a * mp.sin(u)))
+
+    before, count = None, 8
+    while count <= MOST_VALUES:
+        now = mp.pi * sum(integrand((k + mp.mpf(1) / 2) / count) for k in range(count)) / count
+        if before is not None and abs(now - before) <= abs(now) * mp.mpf(10) ** (10 - mp.dps):
+            return now
+        before, count = now, 2 * count
+    return mp.nan
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:

@@ -34,8 +34,8 @@ def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:
         return
     letters = set().union(*(each.free_symbols for each in (a, b, c)))
     for point in _some_points(letters):
-        if (b**2 - 4 * a * c).subs(point).evalf(30) > 0:
-            yield tuple(each.subs(point).evalf(30) for each in (facts.result, other, b))
+        if (b**2 - 4 * a * c).xreplace(point).evalf(30) > 0:
+            yield tuple(each.xreplace(point).evalf(30) for each in (facts.result, other, b))
 
 
 def _roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:

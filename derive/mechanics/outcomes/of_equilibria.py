@@ -6,6 +6,7 @@ It is judged in numbers: with numbers for the letters a value is real or it is n
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 from itertools import combinations_with_replacement
 from typing import Any
 
@@ -108,15 +109,24 @@ def _letters_here(facts: Judged) -> list[Any]:
 
 def _signs_by_numbers(facts: Judged) -> list[tuple[dict[Any, Expr], int]]:
     """Some numbers for the letters, where the state exists, and how the energy changes there to second order."""
-    exists, letters, moving = facts.inputs.get("exists"), _letters_here(facts), _moving(facts)
+    exists, letters = facts.inputs.get("exists"), _letters_here(facts)
     points = [n for n in _numbers(set(letters)) if exists is None or _holds(exists, n)]
-    energy = lambdify([*letters, *moving], facts.inputs["potential_here"], "mpmath", dummify=True)
-    place = lambdify(letters, list(facts.inputs["place"]), "mpmath")
+    numbers = tuple(tuple(point[s] for s in letters) for point in points)
+    signs = _signs_at(facts.inputs["potential_here"], _moving(facts), facts.inputs["place"], tuple(letters), numbers)
+    return list(zip(points, signs, strict=True))
+
+
+@lru_cache(maxsize=16)  # the predicates of one outcome ask for the same
+def _signs_at(
+    potential: Expr, moving: tuple[Any, ...], there: tuple[Expr, ...], letters: tuple[Any, ...], numbers: Any
+) -> list[int]:
+    energy = lambdify([*letters, *moving], potential, "mpmath", dummify=True)
+    place = lambdify(letters, list(there), "mpmath")
     with mp.workdps(50):
         found = []
-        for numbers in points:
-            known = [mp.mpf(int(numbers[s].p)) / int(numbers[s].q) for s in letters]
-            found.append((numbers, _second_order(lambda *at, known=known: energy(*known, *at), place(*known))))
+        for point in numbers:
+            known = [mp.mpf(int(number.p)) / int(number.q) for number in point]
+            found.append(_second_order(lambda *at, known=known: energy(*known, *at), place(*known)))
     return found
 
 
@@ -129,11 +139,11 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
 
     Nothing is differentiated: the energy is compared a little to all sides.
     """
-    step = mp.mpf(10) ** -12
+    step, here = mp.mpf(10) ** -12, energy(*place)
 
     def gained(*ways: int) -> Any:
         moved = [x + step * way for x, way in zip(place, ways, strict=True)]
-        return (energy(*moved) - energy(*place)) / step**2
+        return (energy(*moved) - here) / step**2
 
     size, worst = len(place), 1
     for i, j in combinations_with_replacement(range(size), 2):
@@ -142,7 +152,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         both = [a + b for a, b in zip(one, other, strict=True)]
         mixed = (gained(*both) + gained(*(-w for w in both)) - first - second) / 2
         least = first if i == j else (first + second) / 2 - mp.sqrt((first - second) ** 2 / 4 + mixed**2)
-        scale = abs(first) + abs(second) + abs(mixed) + abs(energy(*place)) + mp.mpf(10) ** -6
+        scale = abs(first) + abs(second) + abs(mixed) + abs(here) + mp.mpf(10) ** -6
         worst = min(worst, 0 if abs(least) < scale * mp.mpf(10) ** -16 else 1 if least > 0 else -1)
     return worst
 

@@ -23,7 +23,7 @@ def _cell_is_positive(facts: Judged, outcome: str) -> bool:
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)
     looked = inside(limits, size.free_symbols)
-    return is_zero(squares[0] - squares[1]) and all(bool(size.subs(at).evalf() > 0) for at in looked)
+    return is_zero(squares[0] - squares[1]) and all(bool(size.xreplace(at).evalf() > 0) for at in looked)
 
 
 def _of_filling(filling: str) -> Predicate:

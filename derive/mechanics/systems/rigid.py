@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, eye, factor
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, cos, eye, factor, sin
 from sympy.matrices import ImmutableMatrix
 from sympy.simplify.fu import TR5, TR6
 
@@ -60,11 +60,9 @@ def angular_velocity(
     whole = [scaled(speed, around) for speed, around in turning]
 
     def by_rotation_matrix() -> ImmutableMatrix:
-        matrix = axes.in_space
-        turned = by_functions_of_time(matrix, moving) * matrix.T
-        frame = after(axes.turns[:count])
-        here = frame.T * turned * frame
-        return column(*(entry.expand() for entry in (here[2, 1], here[0, 2], here[1, 0])))
+        matrix, frame = axes.in_space, after(axes.turns[:count])
+        rows, columns = frame.T * by_functions_of_time(matrix, moving), matrix.T * frame
+        return column(*((rows[i, :] * columns[:, j])[0].expand() for i, j in ((2, 1), (0, 2), (1, 0))))
 
     return establish(
         "rigid.angular_velocity",
@@ -87,9 +85,14 @@ def by_squares(value: Expr) -> Expr:
     """-cos^2 a/sin a, not (sin^2 a - 1)/sin a, whichever is shorter."""
     value = tidied(value)
     above, below = value.as_numer_denom()
-    uppers, lowers = ([factor(f(part.expand()).expand()) for f in _SQUARES] for part in (above, below))
+    uppers, lowers = (_factored_by_squares(part.expand()) for part in (above, below))
     forms = [upper / lower for upper in uppers for lower in lowers]
     return min((value, *forms), key=lambda form: (int(form.count_ops()) + _minuses_below(form), len(form.atoms(Add))))
+
+
+def _factored_by_squares(value: Expr) -> list[Expr]:
+    forms = dict.fromkeys(f(value).expand() for f in _SQUARES) if value.has(sin, cos) else [value]
+    return [factor(form) for form in forms]
 
 
 def _minuses_below(value: Expr) -> int:

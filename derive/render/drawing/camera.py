@@ -11,7 +11,7 @@ from itertools import combinations, cycle
 from math import cos, hypot, isfinite, pi, radians, sin
 from typing import Any
 
-from sympy import Expr, Float, Symbol
+from sympy import Expr, Float, MatrixBase, Symbol
 from sympy.core.function import AppliedUndef
 
 from derive.algebra.expressions import TIME, explicit
@@ -56,38 +56,52 @@ def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical:
 
 
 class Numbers:
-    """The values of expressions, by the numbers of their letters; a letter of which nothing is known is an angle."""
+    """The values of expressions, by the numbers of their letters; a letter of which nothing is known is an angle.
+
+    A drawing asks for each of them again whenever it tries a scale, so they are kept.
+    """
 
     def __init__(self, values: Mapping[Symbol, float]):
         self._values = {symbol.name: value for symbol, value in values.items()}
+        self._found: dict[Any, float] = {}
+        self._runs: dict[Any, list[float]] = {}
 
     def of(self, expr: Any) -> float:
         if isinstance(expr, float):
             return expr
-        value = explicit(expr)
-        number = self._put_in(value).evalf()
-        if not number.is_real or not isfinite(float(number)):
-            raise Rejected(Complaint("drawing", f"a drawing needs the value of {value}, which is not a real number"))
-        return float(number)
+        if expr not in self._found:
+            value = explicit(expr)
+            number = self._put_in(value).evalf()
+            if not number.is_real or not isfinite(float(number)):
+                message = f"a drawing needs the value of {value}, which is not a real number"
+                raise Rejected(Complaint("drawing", message))
+            self._found[expr] = float(number)
+        return self._found[expr]
 
     def vector(self, column: Any) -> Vector:
         """The place or the direction; what has two components is in the plane of the drawing."""
-        x, y, *rest = (self.of(entry) for entry in explicit(column))
+        x, y, *rest = (self.of(entry) for entry in _entries(column))
         return x, y, rest[0] if rest else 0.0
 
     def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]:
         """The places that a formula runs through while one of its letters goes from one end to the other."""
-        lower, upper = (self.of(end) for end in ends)
-        curves = [
-            [y for _, y in values_along(self._put_in(entry, letter), letter, lower, upper, steps)]
-            for entry in explicit(column)
-        ]
+        curves = [self._along(entry, letter, *(self.of(end) for end in ends), steps) for entry in _entries(column)]
         return [(x, y, rest[0] if rest else 0.0) for x, y, *rest in zip(*curves, strict=True)]
+
+    def _along(self, *curve: Any) -> list[float]:
+        if curve not in self._runs:
+            entry, letter, *ends = curve
+            self._runs[curve] = [y for _, y in values_along(self._put_in(explicit(entry), letter), letter, *ends)]
+        return self._runs[curve]
 
     def _put_in(self, value: Expr, free: Any = None) -> Expr:
         letters = {*value.free_symbols, *value.atoms(AppliedUndef)} - {free}
         put_in = {letter: Float(self._values.get(_name(letter), ANGLE)) for letter in letters}
         return value.xreplace(put_in)
+
+
+def _entries(column: Any) -> Any:
+    return column if isinstance(column, MatrixBase) else explicit(column)
 
 
 def _name(letter: Expr) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, hypot, pi, sin
+from math import cos, hypot, inf, pi, sin
 from typing import Any, TypeAlias
 
 from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
@@ -38,10 +38,21 @@ def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
     for tag in sorted(tags, key=lambda each: (not each.on, each.way is not None)):
         width, height = measured(tag.label)
-        boxes = [(cost, box) for cost, box in _tried(tag, width, height)]
-        best = min(boxes, key=lambda entry: entry[0] + _covered(entry[1], drawn, [p.extent for p in found]))[1]
+        best = _best(_tried(tag, width, height), drawn, [p.extent for p in found])
         found.append(Placed(tag.label, (best[0], best[1]), best))
     return found
+
+
+def _best(tried: Iterable[tuple[float, Extent]], drawn: Sequence[Spot], others: Sequence[Extent]) -> Extent:
+    """The box that costs least, with what it covers; where no box is better in itself, none need be looked at."""
+    least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
+    for place, (cost, box) in sorted(enumerate(tried), key=lambda each: each[1][0]):
+        if cost > least:
+            break
+        whole = cost + _covered(box, drawn, others)
+        if (whole, place) < (least, best[0]):
+            least, best = whole, (place, box)
+    return best[1]
 
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:

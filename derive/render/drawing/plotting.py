@@ -1,23 +1,27 @@
 """A plot as files: one panel for each curve, its axes named with quantity and unit, its extrema marked.
 
-matplotlib draws the curve; numbers and names are set in the page's letters, and nothing is written over the curve.
+Numbers and names are set in the page's letters, and nothing is written over the curve.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from math import ceil, floor, log10
-from typing import Any
-
-from matplotlib.figure import Figure
+from typing import Any, TypeAlias
 
 from derive.algebra.expressions import Amount
 from derive.algebra.kinds import unit_of_kind
 from derive.figures.extrema import MINIMUM, values_along
 from derive.figures.marks import Plot
+from derive.figures.pieces import Bullet, Piece, Stroke
+from derive.figures.space import Spot
 from derive.page.plots import DEGREES, Curve, Curves
 from derive.page.wording import Phrases
-from derive.render.drawing.canvas import INK, LETTERS, LINE, QUIET, Sheet, finished, our_settings
+from derive.render.drawing.canvas import LINE, QUIET, shapes_of
+from derive.render.drawing.lettering import Lettered, Letters, letters_of
 from derive.render.drawing.mathtext import runs
+from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
 from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
@@ -26,47 +30,133 @@ MOST = 6  # intervals between ticks
 ROOM = 0.36  # above and below a curve, in terms of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 CM = 72 / 2.54
+SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # letters of the axes, of the numbers and of the words at extrema
+TICK = 3.5  # points: how long a tick is, and how far from its number
+PAD = 4.0  # between the numbers and the name of an axis, between a dot and its name
+EDGE = 3.0  # round it all
+DOT = 2.2  # the radius of an extremum
+
+Ticks: TypeAlias = tuple[tuple[float, str], ...]
 
 
-def plot_sheet(plot: Plot, curves: Curves, notation: Notation, words: Phrases, width: float | None, alt: str) -> Sheet:
+@dataclass(frozen=True)
+class Panel:
+    """What one panel shows, before it has a size.
+
+    points           the curve, by the unit of each axis
+    across, up       the ticks of both axes, with their numbers
+    names            those of both axes
+    values           what the axes run through: left, below, right, above
+    turns            the extrema: where, whether it is a minimum, and its name
+    numbers          those that were put in
+    """
+
+    points: tuple[Spot, ...]
+    across: Ticks
+    up: Ticks
+    names: tuple[str, str]
+    values: Extent
+    turns: tuple[tuple[Spot, bool, str], ...]
+    numbers: str
+
+    def texts(self) -> Iterator[str]:
+        yield from (text for _, text in (*self.across, *self.up))
+        yield from (*self.names, *(name for _, _, name in self.turns), *([self.numbers] if self.numbers else []))
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where the axes of a panel are on paper, and what they run through: left, below, right, above."""
+
+    paper: Extent
+    values: Extent
+
+    def spot(self, place: Spot) -> Spot:
+        """A place of the curve on paper."""
+        x, y = (
+            start + (at - low) / (high - low) * (end - start)
+            for at, start, end, low, high in zip(
+                place, self.paper[:2], self.paper[2:], self.values[:2], self.values[2:], strict=True
+            )
+        )
+        return x, y
+
+
+@dataclass(frozen=True)
+class Writing:
+    """Sets texts on paper."""
+
+    known: Mapping[str, Lettered]
+
+    def size(self, text: str, scale: float) -> tuple[float, float]:
+        left, below, right, above = self.known[text][1]
+        return scale * (right - left), scale * (above - below)
+
+    def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
+        """A text of which such shares of its width and height are to the left of a spot and below it."""
+        contour, extent = self.known[text]
+        if upwards:
+            contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
+        left, below = (
+            at - scale * (low + part * (high - low))
+            for at, part, low, high in zip(spot, share, extent[:2], extent[2:], strict=True)
+        )
+        return Shape(moved(contour, (left, below), scale), colour)
+
+
+def plot_sheet(
+    plot: Plot,
+    curves: Curves,
+    notation: Notation,
+    words: Phrases,
+    width: float | None,
+    alt: str,
+    letters: Letters = letters_of,
+) -> Sheet:
     """The panels side by side; `width` is that of one of them."""
-    panel, tall = (width or PANEL), (width or PANEL) * TALL / PANEL
-    settings: Any = {
-        "font.size": LETTERS - 1, "axes.linewidth": 0.5, "axes.edgecolor": QUIET, "xtick.color": QUIET,
-        "ytick.color": QUIET, "xtick.major.width": 0.4, "ytick.major.width": 0.4, "xtick.direction": "in",
-        "ytick.direction": "in", "xtick.labelcolor": LINE, "ytick.labelcolor": LINE,
-    }  # fmt: skip
-    with our_settings(**settings):
-        wide, high = panel * len(curves.curves) * CM, tall * CM
-        figure = Figure(figsize=(wide / 72, high / 72), facecolor="none", layout="constrained")
-        panels = figure.subplots(1, len(curves.curves), squeeze=False)[0]
-        for axes, curve in zip(panels, curves.curves, strict=True):
-            _panel(axes, plot, curve, curves, notation, words)
-        return finished(figure, alt, wide, high)
+    wide = (width or PANEL) * CM
+    tall = wide * TALL / PANEL
+    panels = [panel_of(plot, curve, curves, notation, words) for curve in curves.curves]
+    writing = Writing(letters({text for panel in panels for text in panel.texts()}))
+    room = _room(panels, writing)
+    shapes: list[Shape] = []
+    for i, panel in enumerate(panels):
+        paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], tall - room[3]
+        shapes += _drawn(panel, Frame(paper, panel.values), writing, (i * wide, (i + 1) * wide))
+    return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tall), alt)
 
 
-def _panel(axes: Any, plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases) -> None:
+# --- what a panel shows ----------------------------------------------------------------------------------------------
+
+
+def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases) -> Panel:
+    """One curve with its axes, which have room for the words under a minimum and over a maximum."""
     points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
-    axes.plot([x * curves.per_unit for x, _ in points], [y for _, y in points], color=INK, linewidth=1.1)
-    axes.set_xlim(curve.lower * curves.per_unit, curve.upper * curves.per_unit)
-    for extremum in curve.extrema:
-        lowest = extremum.kind == MINIMUM
-        axes.plot([extremum.at * curves.per_unit], [extremum.value], "o", color=INK, markersize=3.6,
-                  markerfacecolor=INK if lowest else "white", markeredgewidth=0.8)  # fmt: skip
-    _name_extrema(axes, curve, curves, words)
-    axes.set_xlabel(_axis_name(plot.variable, curves.unit, notation))
-    axes.set_ylabel(_axis_name(plot.label, unit_of_kind(plot.kind), notation))
-    axes.spines[["top", "right"]].set_visible(False)
     low, high = min(y for _, y in points), max(y for _, y in points)
-    room = ROOM * ((high - low) or abs(high) or 1.0)  # for the words under a minimum and over a maximum
-    axes.set_ylim(low - room, high + room)
-    _set_ticks(axes.xaxis, curve.lower * curves.per_unit, curve.upper * curves.per_unit, curves.unit == DEGREES)
-    _set_ticks(axes.yaxis, low, high, False)
-    if curve.numbers:
-        axes.set_title(_numbers(curve, notation), fontsize=LETTERS - 1.5, color=QUIET, pad=5)
+    room = ROOM * ((high - low) or abs(high) or 1.0)
+    start, end = curve.lower * curves.per_unit, curve.upper * curves.per_unit
+    return Panel(
+        points=tuple((x * curves.per_unit, y) for x, y in points),
+        values=(start, low - room, end, high + room),
+        across=_ticks(start, end, curves.unit == DEGREES),
+        up=_ticks(low, high, False),
+        names=(
+            _axis_name(plot.variable, curves.unit, notation),
+            _axis_name(plot.label, unit_of_kind(plot.kind), notation),
+        ),
+        turns=tuple(
+            (
+                (each.at * curves.per_unit, each.value),
+                each.kind == MINIMUM,
+                rf"$\mathrm{{{words.drawings[each.kind]}}}$",
+            )
+            for each in curve.extrema
+        ),
+        numbers=_numbers(curve, notation) if curve.numbers else "",
+    )
 
 
-def _set_ticks(axis: Any, low: float, high: float, in_degrees: bool) -> None:
+def _ticks(low: float, high: float, in_degrees: bool) -> Ticks:
     """A few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90."""
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
@@ -78,19 +168,7 @@ def _set_ticks(axis: Any, low: float, high: float, in_degrees: bool) -> None:
     step = next((step for step in steps if span / step <= MOST), steps[-1])
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
     decimals = max(0, -floor(log10(step) + 1e-9))
-    ticks = [step * k for k in range(first, last + 1)]
-    axis.set_ticks(ticks, [f"${tick:.{decimals}f}$" for tick in ticks])
-
-
-def _name_extrema(axes: Any, curve: Curve, curves: Curves, words: Phrases) -> None:
-    """Its kind beside each extremum: under a minimum, over a maximum."""
-    for extremum in curve.extrema:
-        lowest = extremum.kind == MINIMUM
-        axes.annotate(
-            rf"$\mathrm{{{words.drawings[extremum.kind]}}}$", (extremum.at * curves.per_unit, extremum.value),
-            xytext=(0, -6 if lowest else 5), textcoords="offset points", ha="center", va="top" if lowest else "bottom",
-            fontsize=LETTERS - 2, color=LINE,
-        )  # fmt: skip
+    return tuple((step * k, f"${step * k:.{decimals}f}$") for k in range(first, last + 1))
 
 
 def _axis_name(symbol: Any, unit: str, notation: Notation) -> str:
@@ -114,3 +192,60 @@ def _mathtext(layout: Any) -> str:
 
 def _mathtext_of_unit(unit: str) -> str:
     return r"{}^{\circ}" if unit == DEGREES else unit_latex(unit)
+
+
+# --- where it is on paper --------------------------------------------------------------------------------------------
+
+
+def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
+    """From the edges of a panel to its axes, the same for all panels: left, below, right, above."""
+    across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
+    up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
+    names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
+    numbers = [writing.size(panel.numbers, SMALLER)[1] + PAD for panel in panels if panel.numbers]
+    wide, high = max((w for w, _ in up), default=0.0), max((h for _, h in across), default=0.0)
+    return (
+        EDGE + max(names[1]) + PAD + wide + TICK,
+        EDGE + max(names[0]) + PAD + high + TICK,
+        EDGE + max((w for w, _ in across), default=0.0) / 2,
+        EDGE + max(numbers, default=0.0),
+    )
+
+
+def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot) -> Iterator[Shape]:
+    """All of a panel; `ends` are those of its whole width."""
+    left, below, right, above = frame.paper
+    yield from shapes_of(list(_pieces(panel, frame)))
+    for x, text in panel.across:
+        yield writing.at((frame.spot((x, 0.0))[0], below - TICK), text, SMALL, (0.5, 1.0))
+    for y, text in panel.up:
+        yield writing.at((left - TICK, frame.spot((0.0, y))[1]), text, SMALL, (1.0, 0.5))
+    across, up = panel.names
+    lowest = below - TICK - max((writing.size(text, SMALL)[1] for _, text in panel.across), default=0.0) - PAD
+    leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
+    yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
+    yield writing.at((leftmost, (below + above) / 2), up, SMALL, (1.0, 0.5), upwards=True)
+    for place, is_lowest, name in panel.turns:
+        x, y = frame.spot(place)
+        yield writing.at((x, y - PAD - DOT if is_lowest else y + PAD + DOT), name, SMALLEST, (0.5, float(is_lowest)))
+    if panel.numbers:
+        size = min(SMALLER, (ends[1] - ends[0] - 2 * EDGE) / writing.size(panel.numbers, 1.0)[0])
+        half = EDGE + writing.size(panel.numbers, size)[0] / 2
+        middle = max(ends[0] + half, min((left + right) / 2, ends[1] - half))
+        yield writing.at((middle, above + PAD), panel.numbers, size, (0.5, 0.0), QUIET)
+
+
+def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:
+    left, below, right, above = frame.paper
+    yield Stroke(tuple(map(frame.spot, panel.points)), "curve")
+    yield Stroke(((left, above), (left, below), (right, below)), "frame")
+    for x, _ in panel.across:
+        at = frame.spot((x, 0.0))[0]
+        yield Stroke(((at, below), (at, below + TICK)), "tick")
+    for y, _ in panel.up:
+        at = frame.spot((0.0, y))[1]
+        yield Stroke(((left, at), (left + TICK, at)), "tick")
+    for place, is_lowest, _ in panel.turns:
+        yield Bullet(frame.spot(place), DOT, "ink")
+        if not is_lowest:
+            yield Bullet(frame.spot(place), 0.64 * DOT, "blank")

@@ -39,6 +39,9 @@ class Fragments:
     checked: Tex
 
 
+NOT_TYPESET = Fragments(*[Tex("")] * 4)
+
+
 def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> Fragments:
     page, questions = _Page(document, words, notation), _Questions(document, words, notation)
 

@@ -8,7 +8,8 @@ from sympy import cos
 
 from derive.algebra.expressions import column
 from derive.figures import arc, axis_of_rotation, drawing, outline, vectors_in
-from derive.figures.marks import Mark
+from derive.figures.bodies import is_in_plane, seen_outline
+from derive.figures.marks import PLANE, SPACE, Mark
 from derive.mechanics.bodies.body import Body, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.regions import Point
@@ -17,9 +18,9 @@ from derive.stock.keys.directions import Axis
 
 
 def drawn(body: Body) -> None:
-    """Its outline, under its name."""
-    if isinstance(body, RoundBody | EdgedBody):
-        drawing(body.called.replace(" ", "_") or "body", outline(body))
+    """Its outline, under its name; of a body that lies in a plane as it is seen there."""
+    if marks := seen_outline(body):
+        drawing(body.called.replace(" ", "_") or "body", marks, view=PLANE if is_in_plane(body) else SPACE)
 
 
 def _inclination(along: Axis, at: Point) -> list[Mark]:

@@ -1,0 +1,294 @@
+"""Polynomials in letters and angles, and in roots, absolute values, exponential and other functions.
+
+A root and an absolute value are taken apart into those of irreducible factors, as far as the signs of these allow, each
+of which is a letter with the relation that it satisfies: r^q = p, |p|^2 = p^2. A power is one of each term of its
+exponent, exp(u + v) = exp u exp v. Of any other function, equal arguments give equal values, and that is all.
+
+Such letters may depend on one another, so that a form which has terms may be zero: what has none is zero, provided that
+nothing in it is divided by zero.
+
+Source: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms modulo relations).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+from sympy import (
+    Abs,
+    Derivative,
+    E,
+    Expr,
+    I,
+    Integer,
+    Mul,
+    Pow,
+    Rational,
+    S,
+    cos,
+    cosh,
+    cot,
+    csc,
+    exp,
+    factor_list,
+    factorint,
+    log,
+    pi,
+    sec,
+    sin,
+    sinh,
+    sqrt,
+    sqrtdenest,
+    tan,
+    tanh,
+    together,
+)
+from sympy.core.function import AppliedUndef
+
+from derive.algebra.expressions import PLUS_MINUS
+from derive.algebra.sparse_polynomials import ONE, Form, Outside, Terms
+from derive.algebra.trig_polynomials import ONES, TrigRing, terms_of_angle
+
+HIGHEST = 500  # power of a sum, and multiple of an angle
+PRIMES = 2**15  # up to which a number under a root is factored
+_QUOTIENTS = {tan: (sin, cos), cot: (cos, sin), tanh: (sinh, cosh)}
+_INVERSES = {sec: cos, csc: sin}
+
+__all__ = ["FunctionRing"]
+
+
+class FunctionRing(TrigRing):
+    """The polynomials in letters and in all functions that an expression may have."""
+
+    highest = HIGHEST
+
+    def __init__(self, units: dict[object, int]) -> None:
+        super().__init__(units)
+        self._dependent = 0  # the bits of the letters that may depend on one another
+        self._known: dict[type, list[tuple[Expr, Form]]] = {}
+        self._angles: dict[Expr, Expr] = {}
+
+    def is_zero(self, form: Form) -> bool:
+        """Whether it is shown to be zero, if nothing is divided by zero."""
+        terms = self.cleared(form).terms
+        return not terms or self.has_parts_of_pi(terms) and self.is_zero_by_roots_of_one(terms)
+
+    def is_nonzero(self, form: Form) -> bool:
+        """Whether it is shown to be something: there are terms, and none of their letters depend on one another."""
+        terms = self.cleared(form).terms
+        return bool(terms) and not self.letters_in(terms) & self._dependent and not self.has_parts_of_pi(terms)
+
+    def is_unsure(self, terms: Terms) -> bool:
+        return False  # what is divided by is looked at in the end
+
+    def function(self, expr: Expr) -> Form:
+        kind = type(expr)
+        if kind in _QUOTIENTS:
+            above, below = (self.form(of(*expr.args)) for of in _QUOTIENTS[kind])
+            return self.product(above, self.one_over(below))
+        if kind in _INVERSES:
+            return self.inverse(_INVERSES[kind](*expr.args))
+        if isinstance(expr, sinh | cosh):
+            return self._hyperbolic(expr)
+        if isinstance(expr, exp) or expr is E:
+            return self._exponential(expr.args[0] if expr.args else S.One)
+        if isinstance(expr, log) and len(expr.args) == 1:
+            return self._logarithm(expr.args[0])
+        if isinstance(expr, Pow):
+            return self._root(expr.base, expr.exp) if expr.exp.is_Rational else self._power_of(expr.base, expr.exp)
+        if expr == PLUS_MINUS:
+            return self._letter_of_power(expr, 2, ONE)
+        if isinstance(expr, Abs) and all(part.is_real for part in expr.args[0].as_numer_denom()):
+            return self._absolute(expr.args[0])
+        return super().function(expr) if isinstance(expr, sin | cos) or expr in {I, pi} else self._opaque(expr)
+
+    # --- letters ------------------------------------------------------------------------------------------------
+
+    def _letter_of_power(self, key: object, order: int, of: Form, n: int = 1) -> Form:
+        """A power of the letter of which that power is known."""
+        place = self.related_letter(key, order, of)
+        self._dependent |= ONES << place
+        return Form({n << place: 1}, 1, abs(n), of.cost)
+
+    def _dependent_place(self, key: object) -> int:
+        place = self.place(key)
+        self._dependent |= ONES << place
+        return place
+
+    def _opaque(self, expr: Expr) -> Form:
+        """A function of which nothing is known but that equal arguments give equal values."""
+        if expr.is_infinite or expr is S.NaN:
+            raise Outside
+        if isinstance(expr, AppliedUndef | Derivative):
+            return self.letter(expr)
+        known = self._known.setdefault(type(expr), [])
+        for other, letter in known:
+            if len(other.args) == len(expr.args) > 0 and all(map(self._agree, other.args, expr.args)):
+                return letter
+        letter = Form({1 << self._dependent_place(expr): 1}, reach=1)
+        known.append((expr, letter))
+        return letter
+
+    def _agree(self, a: Any, b: Any) -> bool:
+        """Whether two arguments are equal; what is no expression, such as a piece of a `Piecewise`, if written so."""
+        return bool(a == b) or isinstance(a, Expr) and isinstance(b, Expr) and self._are_equal(a, b)
+
+    def _are_equal(self, a: Expr, b: Expr) -> bool:
+        try:
+            return self.is_zero(self.difference(self.form(a), self.form(b)))
+        except Outside:
+            return False
+
+    def angle(self, angle: Expr) -> Expr:
+        """Of equal angles the first one that was met."""
+        try:
+            return super().angle(angle)
+        except Outside:
+            found = self._angles.get(angle)
+            if found is None:
+                alike = (known for known in list(self._angles.values()) if self._are_equal(known, angle))
+                found = self._angles[angle] = next(alike, angle)
+            return found
+
+    # --- powers -------------------------------------------------------------------------------------------------
+
+    def _exponential(self, exponent: Expr) -> Form:
+        """A product over the terms of the exponent: of an imaginary one the letter of its angle."""
+        powers = 0
+        for number, term in terms_of_angle(exponent):
+            if I in Mul.make_args(term):
+                angle = self.angle(term / I)
+                powers += self.multiple(number, angle) << self.place((angle,))
+            else:
+                powers += self._multiple_of((exp, self.angle(term)), number)
+        return Form({powers: 1}, 1, HIGHEST)
+
+    def _power_of(self, base: Expr, exponent: Expr) -> Form:
+        """b^(u + v) = b^u b^v; and (a b)^u = a^u b^u where a is not negative."""
+        powers, product = 0, ONE
+        factors = [(self._key(factor), power) for factor, power in factors_under_a_root(base, 1)]
+        for number, term in terms_of_angle(exponent):
+            if term is S.One:
+                product = self.product(product, self.form(Pow(base, number)))
+                continue
+            for key, power in factors:
+                powers += self._multiple_of((Pow, key, self.angle(term)), number * power)
+        return self.product(product, Form({powers: 1}, 1, HIGHEST))
+
+    def _multiple_of(self, key: object, number: Rational) -> int:
+        return self.multiple(number, key) << self._dependent_place(key)
+
+    def _key(self, expr: Expr) -> object:
+        form = self.form(expr)
+        return frozenset(form.terms.items()), form.below
+
+    def _hyperbolic(self, expr: Expr) -> Form:
+        grows, falls = (self._exponential(sign * expr.args[0]) for sign in (1, -1))
+        double = self.sum([grows, falls]) if isinstance(expr, cosh) else self.difference(grows, falls)
+        return double._replace(below=2 * double.below)
+
+    def _logarithm(self, of: Expr) -> Form:
+        """log(a b) = log a + log b where a is not negative."""
+        logs = [
+            Form({1 << self._dependent_place((log, self._key(factor))): power}, reach=1)
+            for factor, power in factors_under_a_root(of, 1)
+        ]
+        return self.sum(logs) if logs else Form({})
+
+    def _root(self, base: Expr, exponent: Rational) -> Form:
+        """p^(n/q) as a product of roots of irreducible factors, so that sqrt(6) is sqrt(2) sqrt(3)."""
+        q, product = int(exponent.q), ONE
+        denested = _denested(base) if q == 2 and base.is_number and base.has(Pow) else None
+        if denested is not None:
+            return self.form(denested**exponent.p)
+        for factor, power in factors_under_a_root(base, q):
+            product = self.product(product, self._root_of_factor(factor, q, power * int(exponent.p)))
+        return product
+
+    def _root_of_factor(self, factor: Expr, q: int, n: int) -> Form:
+        of = self.form(factor)
+        if not of.terms:
+            raise Outside
+        if q == 2 and factor == -1:
+            return self.power(Form({1: 1}), n % 4)
+        if of.terms.keys() == {0} and not factor.is_Rational:  # such as sin^2 + cos^2
+            return self.form(Pow(Rational(of.terms[0], of.below), Rational(n, q)))
+        key = (Pow, q, frozenset(of.terms.items()), of.below)
+        if len(of.terms) > 1:
+            return self._letter_of_power(key, q, of, n)
+        whole, rest = divmod(n, q)
+        front = self.power(of, whole) if whole >= 0 else self.power(self.one_over(of), -whole)
+        return self.product(front, self._letter_of_power(key, q, of, rest)) if rest else front
+
+    def _absolute(self, inside: Expr) -> Form:
+        """|p| as a product over irreducible factors f: f itself where its sign is known, else g with g^2 = f^2."""
+        product = ONE
+        for factor, power in _irreducible_factors(inside):
+            factor = -factor if factor.could_extract_minus_sign() else factor
+            size = self.form(factor) if factor.is_nonnegative else self._size(self.form(factor))
+            product = self.product(product, self.power(size if power > 0 else self.one_over(size), abs(power)))
+        return product
+
+    def _size(self, form: Form) -> Form:
+        if form.terms and form.terms[max(form.terms)] < 0:
+            form = self.difference(Form({}), form)
+        key = (Abs, frozenset(form.terms.items()), form.below)
+        return self._letter_of_power(key, 2, self.product(form, form))
+
+
+# --- what stands under a root ----------------------------------------------------------------------------------------
+
+
+def _denested(base: Expr) -> Expr | None:
+    """The number of square root sqrt(2) + sqrt(3) for 5 + 2 sqrt(6): its square is the base and it is not negative."""
+    found = sqrtdenest(sqrt(base))
+    if isinstance(found, Pow) or found.is_nonnegative is not True:
+        return None
+    return found if (found**2).expand() == base.expand() else None
+
+
+@lru_cache(maxsize=4096, typed=True)
+def factors_under_a_root(base: Expr, q: int) -> tuple[tuple[Expr, int], ...]:
+    """Irreducible factors of the radicand with their powers.
+
+    Only factors that are known to be non-negative may leave a common root; the others stay together.
+    """
+    found: list[tuple[Expr, int]] = []
+    unsure: Expr = Integer(1)
+    for factor, power in _irreducible_factors(base):
+        if factor.is_nonnegative:
+            found.append((factor, power))
+        elif q == 2 and factor.is_real and abs(power) > 1:
+            even = power - power % 2
+            found.append((Abs(factor), even))
+            unsure *= factor ** (power - even)
+        else:
+            unsure *= factor**power
+    if unsure != 1:
+        found.append((unsure, 1))
+    return tuple(found)
+
+
+def _irreducible_factors(expr: Expr) -> list[tuple[Expr, int]]:
+    if expr.is_Symbol:
+        return [(expr, 1)]
+    above, below = together(expr).as_numer_denom()
+    return [(factor, sign * power) for part, sign in ((above, 1), (below, -1)) for factor, power in _irreducible(part)]
+
+
+def _irreducible(part: Expr) -> list[tuple[Expr, int]]:
+    if part.is_Rational:
+        return _prime_factors(part)
+    if part.is_number:
+        return [(part, 1)]
+    content, factors = factor_list(part)
+    return [*_prime_factors(content), *((factor, int(power)) for factor, power in factors)]
+
+
+def _prime_factors(number: Expr) -> list[tuple[Expr, int]]:
+    if not number.is_Rational:
+        return [(number, 1)]
+    sign: list[tuple[Expr, int]] = [(Integer(-1), 1)] if number < 0 else []
+    primes = {**factorint(abs(number.p), limit=PRIMES), **{p: -e for p, e in factorint(number.q, limit=PRIMES).items()}}
+    return sign + [(Integer(p), e) for p, e in primes.items() if p != 1]

@@ -1,0 +1,184 @@
+"""A fraction multiplied out above and below its line, with what both have in common cancelled.
+
+And the same with the squares of sines and cosines written by one another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache, reduce
+from math import comb
+from typing import NamedTuple
+
+from sympy import ZZ, Expr, S, cos, lex, sin
+from sympy.core.exprtools import decompose_power
+from sympy.polys.polyerrors import HeuristicGCDFailed
+from sympy.polys.rings import PolyElement, PolyRing
+
+from derive.algebra.coefficients import ONES, PHASE, Expanded
+from derive.algebra.expressions import PLUS_MINUS
+from derive.algebra.factors_in_front import Product, product_of, times, written
+from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
+
+__all__ = ["Outside", "in_lowest_terms", "is_squarefree", "squares_turned"]
+
+
+def in_lowest_terms(value: Expr) -> Expr:
+    """The fraction with the common factors of its terms in front; raises `Outside` for what is too large."""
+    ring = _ring()
+    return ring.written(ring.fraction(product_of(value)))
+
+
+def squares_turned(value: Expr) -> list[Expr]:
+    """The same with sin^2 written by cos^2, with cos^2 by sin^2, and with 1 - cos^2 or 1 - sin^2 as one square."""
+    ring = _ring()
+    plain = ring.fraction(product_of(value))
+    turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]
+    if value.has(sin) and value.has(cos):
+        turns += [ring.without(sin), ring.without(cos)]
+    turned = (plain._replace(top=turn(plain.top), bottom=turn(plain.bottom)) for turn in turns)
+    return [ring.written(each) for each in turned if each != plain]
+
+
+def is_squarefree(value: Expr) -> bool:
+    """Whether no square divides a polynomial; raises `Outside` for what is too large."""
+    terms = _ring().form(value).terms
+    places = _places(terms)
+    return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
+
+
+class _Fraction(NamedTuple):
+    """Sums of terms above and below the line, and what else stands before them, as powers of letters below the line."""
+
+    top: Terms
+    bottom: Terms
+    rest: Product
+
+
+class _Fractions(Expanded):
+    """What is no sum, no product and no whole power is a letter."""
+
+    def _made(self, expr: Expr) -> Form:
+        return self.letter(expr) if expr == PLUS_MINUS else super()._made(expr)
+
+    def function(self, expr: Expr) -> Form:
+        base, power = decompose_power(expr)  # exp(2 x) is the square of exp(x)
+        return self.power(self.letter(base), power) if power > 0 else self.letter(expr)
+
+    def fraction(self, product: Product) -> _Fraction:
+        letters = {base: power for base, power in product.powers.items() if power < 0 and not base.is_Add}
+        above = self._multiplied_out({base: power for base, power in product.powers.items() if power > 0})
+        below = self._multiplied_out({b: -n for b, n in product.powers.items() if n < 0 and b.is_Add})
+        return _Fraction(above.terms, below.terms, Product(product.number * below.below / above.below, letters))
+
+    def _multiplied_out(self, powers: Mapping[Expr, int]) -> Form:
+        forms = [self.power(self.form(base), power) for base, power in powers.items()]
+        return reduce(self.product, sorted(forms, key=lambda form: len(form.terms)), ONE)
+
+    def written(self, fraction: _Fraction) -> Expr:
+        """Where no sign stands before the fraction unless it must: above the line a sum takes it, else one below."""
+        top, bottom, (number, letters) = fraction
+        if not top:
+            return S.Zero
+        if len(bottom) > 1:
+            top, bottom = _without_common(top, bottom)
+        if number < 0 if len(top) == 1 < len(bottom) else _is_negative(self.expression(bottom, 1)):
+            number, bottom = -number, _negative(bottom)
+        if number < 0:
+            number, top = -number, _negative(top)
+        parts = (Product(number, letters), self.product_in_front(top), self.product_in_front(bottom, -1))
+        return written(times(parts))
+
+    def without(self, function: type) -> Callable[[Terms], Terms]:
+        """The powers of one function of each angle written by the other, but for a single one."""
+
+        def turn(terms: Terms) -> Terms:
+            for place, other in self._turning(terms):
+                if isinstance(self.name(place), function):
+                    terms = _by_other_square(terms, place, other)
+            return terms
+
+        return turn
+
+    def in_pairs(self, terms: Terms) -> Terms:
+        """x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair, where other terms keep their squares."""
+        left = dict(terms)
+        turning = self._turning(terms)
+        for monomial in terms:
+            for place, other in turning if monomial in left else ():
+                plain = monomial - (2 << place)
+                if (monomial >> place) & ONES == 2 and left.get(plain) == -left[monomial]:
+                    squared = plain + (2 << other)
+                    left[squared] = left.get(squared, 0) + left.pop(plain)
+                    del left[monomial]
+                    break
+        return {monomial: coefficient for monomial, coefficient in left.items() if coefficient}
+
+    def _turning(self, terms: Terms) -> list[tuple[int, int]]:
+        """The places of sines and cosines that occur, each with that of the other function of its angle."""
+        found = [self.name(place) for place in _places(terms)]
+        turning = sorted((f for f in found if isinstance(f, sin | cos)), key=str)
+        return [(self.place(f), self.place((cos if isinstance(f, sin) else sin)(f.args[0]))) for f in turning]
+
+
+def _by_other_square(terms: Terms, place: int, other: int) -> Terms:
+    """Powers of s written by 1 - c^2, where s and c stand at these places."""
+    found: Terms = {}
+    for monomial, coefficient in terms.items():
+        half = ((monomial >> place) & ONES) // 2
+        plain = monomial - (2 * half << place)
+        for k in range(half + 1):
+            key = plain + (2 * k << other)
+            found[key] = found.get(key, 0) + coefficient * comb(half, k) * (-1) ** k
+    return {monomial: coefficient for monomial, coefficient in found.items() if coefficient}
+
+
+def _is_negative(below: Expr) -> bool:
+    return bool(below.is_negative if below.is_number else below.could_extract_minus_sign())
+
+
+def _negative(terms: Terms) -> Terms:
+    return {monomial: -coefficient for monomial, coefficient in terms.items()}
+
+
+def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
+    places = _places([*top, *bottom])
+    ring = _polynomials(len(places))
+    try:
+        _, *left = _polynomial(ring, top, places).cofactors(_polynomial(ring, bottom, places))
+    except HeuristicGCDFailed as failure:
+        raise Outside from failure
+    above, below = (_terms(each, places) for each in left)
+    return above, below
+
+
+def _places(monomials: Iterable[int]) -> list[int]:
+    every = reduce(int.__or__, monomials, 0)
+    return [place for place in range(PHASE, every.bit_length(), WIDTH) if (every >> place) & ONES]
+
+
+@lru_cache(maxsize=64)
+def _polynomials(letters: int) -> PolyRing:
+    return PolyRing([f"x{n}" for n in range(letters)], ZZ, lex)
+
+
+def _polynomial(ring: PolyRing, terms: Terms, places: list[int]) -> PolyElement:
+    return ring.from_dict({tuple((m >> place) & ONES for place in places): ZZ(c) for m, c in terms.items()})
+
+
+def _terms(polynomial: PolyElement, places: list[int]) -> Terms:
+    return {
+        sum(power << place for power, place in zip(powers, places, strict=True)): int(c)
+        for powers, c in polynomial.items()
+    }
+
+
+class _Kept:
+    """The ring that goes from one fraction to the next."""
+
+    ring = _Fractions()
+
+
+def _ring() -> _Fractions:
+    _Kept.ring = _Fractions() if _Kept.ring.is_full else _Kept.ring
+    return _Kept.ring

@@ -1,0 +1,150 @@
+"""Shapes on paper as files: a PDF for TeX and an SVG for other pages, always the same bytes.
+
+Lengths are in points and the sheet is as large as what is on it, so that a drawing is included at its own size and its
+letters are those of the page. Letters are shapes like all else: no font is needed where a drawing is shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import TypeAlias
+from zlib import compress
+
+from derive.figures.space import Spot
+
+Contour: TypeAlias = Sequence[tuple[str, Sequence[Spot]]]  # M, L, C and Z with their spots, as an SVG has them
+Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
+
+OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
+ROUND = 0.5522847  # of its radius: how far the handles of a quarter of a circle reach
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a contour bounds, in a colour, or the contour itself as a line; or both, where letters are bold."""
+
+    contour: Contour
+    fill: str = ""
+    line: str = ""
+    width: float = 0.0
+    dashes: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A finished figure in both formats, and how large it is in points."""
+
+    pdf: bytes
+    svg: bytes
+    width: float
+    height: float
+
+
+def contour_through(spots: Sequence[Spot], closed: bool = False) -> Contour:
+    """Straight from spot to spot."""
+    lines = [("M" if i == 0 else "L", (spot,)) for i, spot in enumerate(spots)]
+    return [*lines, ("Z", ())] if closed else lines
+
+
+def circle(middle: Spot, radius: float) -> Contour:
+    """Four quarters."""
+    x, y = middle
+    ways = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)]
+    spots = [(x + radius * u, y + radius * v) for u, v in ways]
+    handles = [(radius * ROUND * u, radius * ROUND * v) for u, v in ways]
+    found: list[tuple[str, Sequence[Spot]]] = [("M", spots[:1])]
+    for (a, b), (c, d), (p, q), (r, s) in zip(spots, spots[1:], handles, handles[1:], strict=False):
+        found.append(("C", ((a + r, b + s), (c + p, d + q), (c, d))))
+    return [*found, ("Z", ())]
+
+
+def moved(contour: Contour, to: Spot, scale: float = 1.0) -> Contour:
+    x, y = to
+    return [(letter, [(x + scale * u, y + scale * v) for u, v in spots]) for letter, spots in contour]
+
+
+def turned(contour: Contour) -> Contour:
+    """A quarter of a turn anticlockwise."""
+    return [(letter, [(-v, u) for u, v in spots]) for letter, spots in contour]
+
+
+def extent_of(spots: Collection[Spot]) -> Extent:
+    """From the leftmost and the lowest to the rightmost and the highest of the spots."""
+    xs, ys = ([spot[k] for spot in spots] for k in (0, 1))
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def sheet_of_shapes(shapes: Sequence[Shape], extent: Extent, alt: str) -> Sheet:
+    """Both files; the SVG says in words what it shows."""
+    left, below, right, above = extent
+    written = [(shape, [(at, *(map(_pair, spots))) for at, spots in shape.contour]) for shape in shapes]
+    pdf = "\n".join(["1 j", f"1 0 0 1 {_number(-left)} {_number(-below)} cm", *(_painted(*each) for each in written)])
+    svg = "\n".join(_path(*each) for each in written)
+    size = _number(right - left), _number(above - below)
+    return Sheet(_pdf(pdf, *size), _svg(svg, *size, (left, above), alt), right - left, above - below)
+
+
+Written: TypeAlias = list[tuple[str, ...]]  # the letter of each stretch of a contour and its spots in digits
+
+
+def _number(x: float) -> str:
+    return f"{x:.3f}".rstrip("0").rstrip(".")
+
+
+def _pair(spot: Spot) -> str:
+    return f"{_number(spot[0])} {_number(spot[1])}"
+
+
+# --- SVG -------------------------------------------------------------------------------------------------------------
+
+
+def _path(shape: Shape, written: Written) -> str:
+    along = "".join(letter + " ".join(spots) for letter, *spots in written)
+    line = f' stroke="{shape.line}" stroke-width="{_number(shape.width)}"' if shape.line else ""
+    dashes = f' stroke-dasharray="{" ".join(map(_number, shape.dashes))}"' if shape.dashes else ""
+    return f'<path d="{along}" fill="{shape.fill or "none"}"{line}{dashes}/>'
+
+
+def _svg(paths: str, width: str, height: str, corner: Spot, alt: str) -> bytes:
+    """The sheet begins at its upper left corner, and heights are counted downwards."""
+    x, y = (_number(at) for at in (-corner[0], corner[1]))
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt" '
+        f'viewBox="0 0 {width} {height}" role="img">\n<title>{escape(alt, quote=False)}</title>\n'
+        f'<g transform="matrix(1 0 0 -1 {x} {y})" stroke-linejoin="round">\n{paths}\n</g>\n</svg>\n'
+    ).encode()
+
+
+# --- PDF -------------------------------------------------------------------------------------------------------------
+
+
+def _painted(shape: Shape, written: Written) -> str:
+    pens = [f"{_rgb(shape.fill)} rg"] if shape.fill else []
+    if shape.line:
+        pens.append(f"{_rgb(shape.line)} RG {_number(shape.width)} w [{' '.join(map(_number, shape.dashes))}] 0 d")
+    along = [" ".join([*spots, OPERATORS[letter]]) for letter, *spots in written]
+    return "\n".join([*pens, *along, "B" if shape.fill and shape.line else "f" if shape.fill else "S"])
+
+
+def _rgb(colour: str) -> str:
+    return " ".join(_number(int(colour[i : i + 2], 16) / 255) for i in (1, 3, 5))
+
+
+def _pdf(content: str, width: str, height: str) -> bytes:
+    stream = compress(content.encode())
+    objects = [
+        b"<< /Type /Catalog /Pages 2 0 R >>",
+        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+        f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width} {height}] /Resources << >> /Contents 4 0 R >>".encode(),
+        b"<< /Length %d /Filter /FlateDecode >>\nstream\n%s\nendstream" % (len(stream), stream),
+    ]
+    file, starts = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n", []
+    for number, each in enumerate(objects, 1):
+        starts.append(len(file))
+        file += b"%d 0 obj\n%s\nendobj\n" % (number, each)
+    table = b"".join(b"%010d 00000 n \n" % start for start in starts)
+    size, start = len(objects) + 1, len(file)
+    file += b"xref\n0 %d\n0000000000 65535 f \n%s" % (size, table)
+    return file + b"trailer\n<< /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (size, start)

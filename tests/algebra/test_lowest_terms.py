@@ -1,0 +1,131 @@
+"""Fractions multiplied out and in lowest terms: as SymPy's `cancel` has them."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from sympy import Expr, Integer, Rational, cancel, cos, exp, factor_terms, pi, sin, symbols, together
+from sympy.polys.polyerrors import HeuristicGCDFailed
+from sympy.polys.rings import PolyElement
+
+from derive.algebra.equality import equal
+from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
+from tests.algebra.test_tidy import bounded, expressions
+
+a, b, c = symbols("a b c", positive=True)
+x, y, p, n = symbols("x y p n", real=True)
+
+
+def in_front(value: Expr) -> Expr:
+    numerator, denominator = together(value).as_numer_denom()
+    return factor_terms(numerator) / factor_terms(denominator)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        (x**2 - 1) / (x - 1),
+        (a**2 - b**2) / (a + b) ** 2,
+        (a + b) ** 2 - a**2,
+        a / (a + b) + b / (a + b),
+        1 / (a + b) + 1 / (a + 2 * b),
+        (sin(p) ** 2 - cos(p) ** 2) / (sin(p) - cos(p)),
+        (exp(x) ** 2 + exp(x) * y) / (exp(x) + y) / 6,
+        (pi * a + pi * b) / (a**2 + 2 * a * b + b**2),
+        -x * (a - b) / 4,
+        (2 * a * x + 2 * a * y) / (4 * b * x + 4 * b * y),
+        (x + y) * (x - y) - x**2 + y**2,
+        Rational(3, 4) * a / b,
+        cos(p / (a + b)) * (a + b) / (a**2 + a * b),
+    ],
+    ids=str,
+)
+def test_lowest_terms_are_those_of_sympy(value: Expr) -> None:
+    assert in_lowest_terms(value) == in_front(cancel(value))
+
+
+@bounded
+@given(expressions)
+def test_no_value_changes(value: Expr) -> None:
+    try:
+        found = in_lowest_terms(value)
+    except Outside:
+        return
+    assert equal(found, value)
+
+
+@pytest.mark.parametrize("value", [a / (2 - cos(p)), a / (cos(p) - 2), -a / (cos(p) - 2), -a / (2 - cos(p))], ids=str)
+def test_a_sum_below_the_line_takes_the_sign(value: Expr) -> None:
+    found = in_lowest_terms(value)
+    assert equal(found, value)
+    assert found in (a / (2 - cos(p)), a / (cos(p) - 2))
+
+
+def test_a_sum_above_the_line_takes_the_sign_before_one_below_it() -> None:
+    one, other = ((x - a) / (y - b), (a - x) / (b - y))
+    assert in_lowest_terms(one) == in_lowest_terms(other)
+    assert in_lowest_terms(a * (9 * pi**2 - 64) / (9 * pi**2 - 32)) == a * (9 * pi**2 - 64) / (9 * pi**2 - 32)
+    assert in_lowest_terms(-a * (x - y)) == a * (y - x)
+
+
+def test_what_is_too_large_is_left_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(Outside):
+        in_lowest_terms((a + b + c) ** 100)
+
+    def failing(_one: PolyElement, _other: PolyElement) -> None:
+        raise HeuristicGCDFailed
+
+    monkeypatch.setattr(PolyElement, "cofactors", failing)
+    with pytest.raises(Outside):
+        in_lowest_terms((x**2 - Integer(1)) / (x + 2))
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (a * sin(p) ** 2 + a * cos(p) ** 2, [a]),
+        (x * cos(p) ** 2 - x + y * sin(p), [-x * sin(p) ** 2 + y * sin(p)]),
+        (x / (1 - cos(p) ** 2), [x / sin(p) ** 2]),
+        (sin(p) ** 3 * cos(p), [sin(p) * cos(p) * (1 - cos(p) ** 2)]),
+        (sin(p) / x + cos(p), []),
+    ],
+    ids=str,
+)
+def test_squares_are_written_by_one_another(value: Expr, expected: list[Expr]) -> None:
+    found = squares_turned(value)
+    assert all(equal(each, value) for each in found)
+    assert {in_front(each) for each in expected} <= set(found)
+    assert bool(found) == bool(expected)
+
+
+@bounded
+@given(expressions)
+def test_turned_squares_change_no_value(value: Expr) -> None:
+    try:
+        assert all(equal(each, value) for each in squares_turned(value))
+    except Outside:
+        return
+
+
+def test_pairs_do_not_depend_on_what_was_asked_before() -> None:
+    one = cos(p) ** 2 * sin(x) ** 2 - cos(p) ** 2 - sin(x) ** 2 + 1
+    found = squares_turned(one)
+    in_lowest_terms(sum(symbols("k_0:400")))  # begins the table anew
+    in_lowest_terms(sin(x) + cos(p))
+    assert squares_turned(one) == found
+
+
+@pytest.mark.parametrize(
+    ("value", "is_one"),
+    [
+        (a**2 + b**2, True),
+        (a**2 - b**2, True),
+        (a**2 + 2 * a * b + b**2, False),
+        (a**2 * b - a**2, False),
+        (x**2 * sin(p) + sin(p), True),
+        (a * (x + 1) ** 2 * (x - 2), False),
+    ],
+    ids=str,
+)
+def test_what_is_divided_by_no_square(value: Expr, is_one: bool) -> None:
+    assert is_squarefree(value) is is_one
