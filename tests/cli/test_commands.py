@@ -226,6 +226,20 @@ def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: py
     assert second.split(maxsplit=1) == ["hw1/two", "(does not read: `mass` must be a mass)"]
 
 
+def test_a_problem_that_ends_its_reader_costs_the_list_nothing_else(
+    course: Course, capfd: pytest.CaptureFixture[str]
+) -> None:
+    for name, said in {"one": "A block", "two": "die", "three": "A cone"}.items():
+        course.problem(name, said)
+    assert main(["list"]) == 0
+    lines = capfd.readouterr().out.splitlines()[1:]
+    assert [line.split(maxsplit=1)[1] for line in lines] == [
+        "3  A block",
+        "3  A cone",
+        "(does not read: `hw1/two` ended without a word: signal 9)",
+    ]
+
+
 def test_a_list_may_be_of_one_topic(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     course.problem("one", "A block")
     rotation = course.root / "problems" / "hw1" / "rotation"
