@@ -18,7 +18,8 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
 from derive import FOLDER
-from derive.building.files import cannot_write, of_system, writing
+from derive.building.files import cannot_write, of_system
+from derive.cli.output import check_output, deliver
 from derive.cli.terminal import complain, table, tell
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, did_you_mean
 from derive.render.formats import TYPESET
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from derive.render.rendered import Files, Rendered
 
 _REPORT = "   = help: this is a fault of derive: report it with the traceback and the files of the problem"
-_WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 _UNWRITTEN = {errno.EBADF, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 _GRADES = ("proved", "sampled", "definition", "approximation")
 
@@ -188,7 +188,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     from derive.course.problem_set import problem_set
 
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
-    _check_output(arguments.output, root)
+    check_output(arguments.output, root)
     with _waiting(f"deriving {problem_id}"):
         form = arguments.format
         work = partial(rendered, root, problem_id, arguments.detail, draws=form == "pdf", only=(form,))
@@ -201,7 +201,7 @@ def _solve(arguments: argparse.Namespace) -> int:
         text = problem_document(root, solved, heading)
     if arguments.format == "pdf":
         return _solve_pdf(arguments, root, problem_id, text, solved.files)
-    _deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
+    deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
     return 0
 
 
@@ -235,53 +235,10 @@ def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: 
         done(Job(f"the pages of `{problem_id}`", work, limit + 10))
         pdf = target.read_bytes()
     output = arguments.output or str(outputs / f"{name}{suffix}.pdf")
-    _deliver(pdf, output)
+    deliver(pdf, output)
     if output != "-":
         print(f"wrote {shown_path(Path(output))}", file=sys.stderr)
     return 0
-
-
-def _check_output(output: str | None, root: Path) -> None:
-    """Refuse before any work what `-o` should not write to: what somebody wrote by hand, and what a link stands for."""
-    if output in (None, "-"):
-        return
-    path = Path(output or "")
-    if not output or "\0" in output:
-        message = "`-o` needs the name of a file"
-    else:
-        with writing(path):
-            message = _kept_from(path, root)
-    if message:
-        raise Misused(Complaint("output", message, help="name a file such as `block.txt`; `-` is standard output"))
-
-
-def _kept_from(path: Path, root: Path) -> str:
-    """Why nothing may be written to that path; empty if it may."""
-    if os.path.islink(path):
-        return f"`{path}` is a link, and what it leads to is not replaced"
-    written = os.path.isfile(path) and (path.suffix in _WRITTEN_BY_HAND or _belongs_to(path, root))
-    return f"`{path}` is a file that somebody wrote, and is not replaced" if written else ""
-
-
-def _belongs_to(path: Path, root: Path) -> bool:
-    """Whether a file is part of the course, or of derive."""
-    folders = (root / "problems", root / "templates", FOLDER)
-    return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
-
-
-def _deliver(content: bytes, output: str | None) -> None:
-    from derive.building.files import write
-
-    path = Path(output or "-")
-    if output in (None, "-"):
-        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and say nothing.
-        with open(1, "wb", closefd=False) as out:
-            out.write(content)
-    elif os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
-        with writing(path):  # a device or a pipe cannot be replaced
-            path.write_bytes(content)
-    else:
-        write(path, content)
 
 
 @contextmanager

@@ -1,0 +1,56 @@
+"""Where the answer of a command goes: to standard output or into a file, never over what somebody wrote."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from derive import FOLDER
+from derive.building.files import writing
+from derive.errors import Complaint, Misused
+
+_WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
+
+
+def check_output(output: str | None, root: Path) -> None:
+    """Refuse before any work what `-o` should not write to: what somebody wrote by hand, and what a link stands for."""
+    if output in (None, "-"):
+        return
+    path = Path(output or "")
+    if not output or "\0" in output:
+        message = "`-o` needs the name of a file"
+    else:
+        with writing(path):
+            message = _kept_from(path, root)
+    if message:
+        raise Misused(Complaint("output", message, help="name a file such as `block.txt`; `-` is standard output"))
+
+
+def _kept_from(path: Path, root: Path) -> str:
+    """Why nothing may be written to that path; empty if it may."""
+    if os.path.islink(path):
+        return f"`{path}` is a link, and what it leads to is not replaced"
+    written = os.path.isfile(path) and (path.suffix in _WRITTEN_BY_HAND or _belongs_to(path, root))
+    return f"`{path}` is a file that somebody wrote, and is not replaced" if written else ""
+
+
+def _belongs_to(path: Path, root: Path) -> bool:
+    """Whether a file is part of the course, or of derive."""
+    folders = (root / "problems", root / "templates", FOLDER)
+    return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
+
+
+def deliver(content: bytes, output: str | None) -> None:
+    """Write what was asked for, whole or not at all where it is a file."""
+    from derive.building.files import write
+
+    path = Path(output or "-")
+    if output in (None, "-"):
+        # Not sys.stdout.buffer, which under PYTHONUNBUFFERED may write a part and say nothing.
+        with open(1, "wb", closefd=False) as out:
+            out.write(content)
+    elif os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+        with writing(path):  # a device or a pipe cannot be replaced
+            path.write_bytes(content)
+    else:
+        write(path, content)

@@ -1,0 +1,48 @@
+"""Where the answer of a command goes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from derive.cli.output import check_output, deliver
+from derive.errors import DeriveError, Misused
+
+
+@pytest.mark.parametrize("output", [None, "-", "new.txt", "old.txt"])
+def test_an_answer_may_go_where_nobody_wrote(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, output: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "old.txt").write_text("an answer of before")
+    check_output(output, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("output", "why"),
+    [
+        ("", "`-o` needs the name of a file"),
+        ("a\0b", "`-o` needs the name of a file"),
+        ("notes.md", "`notes.md` is a file that somebody wrote, and is not replaced"),
+        ("problems/one.txt", "`problems/one.txt` is a file that somebody wrote, and is not replaced"),
+        ("linked.txt", "`linked.txt` is a link, and what it leads to is not replaced"),
+    ],
+)
+def test_what_somebody_wrote_is_not_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, output: str, why: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "problems").mkdir()
+    for name in ("notes.md", "problems/one.txt"):
+        (tmp_path / name).write_text("mine")
+    (tmp_path / "linked.txt").symlink_to("notes.md")
+    with pytest.raises(Misused, match=re.escape(why)):
+        check_output(output, tmp_path)
+
+
+def test_a_file_is_written_and_a_folder_is_not(tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    deliver(b"answer", str(tmp_path / "new.txt"))
+    deliver(b"answer", "-")
+    assert (tmp_path / "new.txt").read_bytes() == capfdbinary.readouterr().out == b"answer"
+    with pytest.raises(DeriveError):
+        deliver(b"answer", str(tmp_path))
