@@ -59,7 +59,7 @@ def test_a_pendulum_is_told_in_words() -> None:
     theta = coordinate("theta")
     bob = hung(l, theta)
     found = drawing("one", pivot(ORIGIN), rod(ORIGIN, bob, l), angle_mark(ORIGIN, "down", bob, theta), particle(bob, m))
-    assert told(found) == ("A drawing in a vertical plane of a pivot, a rod of length l, the angle θ and a particle m.")
+    assert told(found) == ("A plane drawing of a pivot, a rod of length l, the angle θ and a particle m.")
 
 
 def test_every_element_is_told_in_words_and_kept_as_data() -> None:
@@ -71,7 +71,7 @@ def test_every_element_is_told_in_words_and_kept_as_data() -> None:
         gravity_mark(), length_mark(ORIGIN, TOP, a),
     )  # fmt: skip
     assert told(found) == (
-        "A drawing in a vertical plane of a cart M, a block m, a spring k, a string l, a wheel, a wedge, hatched "
+        "A plane drawing of a cart M, a block m, a spring k, a string l, a wheel, a wedge, hatched "
         "ground, a wall, a ceiling, a fixed end, a dashed curve, an arrow g downwards and "
         "the length a."
     )
