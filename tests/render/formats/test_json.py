@@ -151,7 +151,9 @@ def number_of_roots(step: dict[str, Any]) -> int:
 def json_of(name: str) -> str:
     problem, (edits, detail) = name.partition("-")[0], PAGES[name]
     with TemporaryDirectory() as folder:
-        return rendered_once(course_in(Path(folder), edits, problem=problem), f"hw9/{problem}", detail).texts["json"]
+        return rendered_once(
+            course_in(Path(folder), edits, problem=problem), f"hw9/{problem}", detail, only={"json"}
+        ).texts["json"]
 
 
 @pytest.mark.parametrize("name", PAIRS)
