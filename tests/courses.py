@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from derive.building.cache import Cache
@@ -46,14 +46,20 @@ def kept() -> Cache:
     return Cache(Path(os.environ["XDG_STATE_HOME"]) / "derivations")
 
 
-def rendered_once(root: Path, problem_id: str, detail: str | None = None, draws: bool = False) -> Rendered:
-    """The problem in every format, like `rendered`; a derivation that some test has made already is not made again."""
-    return rendered(root, problem_id, detail, kept(), draws)
+def rendered_once(
+    root: Path,
+    problem_id: str,
+    detail: str | None = None,
+    draws: bool = False,
+    only: Collection[str] | None = None,
+) -> Rendered:
+    """The problem like `rendered`; a derivation that some test has made already is not made again."""
+    return rendered(root, problem_id, detail, kept(), draws, only)
 
 
 def solved_once(root: Path, problem_id: str) -> tuple[Problem, Solved]:
     """The problem and its steps, as they were before they became a page."""
-    rendered_once(root, problem_id)
+    rendered_once(root, problem_id, only=())
     problem = load_problem(root, problem_id)
     solved = Solved.from_data(kept().recalled_data(steps_key(problem)))
     assert solved is not None

@@ -35,7 +35,7 @@ def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @cache
 def page(folder: Path, name: str) -> str:
-    return rendered(folder, f"defects/{name}").texts["text"]
+    return rendered(folder, f"defects/{name}", only={"text"}).texts["text"]
 
 
 @cache

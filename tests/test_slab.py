@@ -19,7 +19,9 @@ NUMBERS = {
 
 
 def text_of(folder: Path, edits: dict[str, str]) -> str:
-    return " ".join(rendered_once(course_in(folder, edits, problem="slab"), "hw9/slab").texts["text"].split())
+    return " ".join(
+        rendered_once(course_in(folder, edits, problem="slab"), "hw9/slab", only={"text"}).texts["text"].split()
+    )
 
 
 @pytest.mark.parametrize(
@@ -74,7 +76,7 @@ def test_a_part_alone_shows_the_steps_that_it_rests_on(tmp_path: Path) -> None:
     last = parts.index("  - ask: >-\n      Treat")
     head = head.replace("points: 15\n", "points: 3\n")
     file.write_text(head + "parts:\n" + parts[last:].split("\nwording:")[0] + "\n", encoding="utf-8")
-    text = " ".join(rendered_once(root, "hw9/slab").texts["text"].split())
+    text = " ".join(rendered_once(root, "hw9/slab", only={"text"}).texts["text"].split())
     assert text.index("Lagrange's equation is then") < text.index("once more, (I")
 
 

@@ -130,5 +130,5 @@ parts:
     answer: moment_of_inertia_z
 """
     assert "through the centre of mass" in " ".join(
-        rendered(course_with(tmp_path, text), "trial/one").texts["text"].split()
+        rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"].split()
     )
