@@ -288,8 +288,8 @@ class _Build:
         if self.anew:  # TeX takes in what documents begin with while this process loads what derives them
             self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
-        if len(names) > 1:
-            load(draws=self.anew)
+        if len(names) > 1 or self.edits:
+            load(self.root, draws=self.anew or self.edits is not None)
         self.anew = False
         from derive.building.solution import rendered
 
