@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
+
+from derive.errors import DeriveError
 
 __all__ = ["load"]
 
@@ -21,10 +25,17 @@ DERIVING = (
 DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
-def load(draws: bool) -> None:
-    """The modules that derive a problem and print it; and those that draw."""
+def load(root: Path, draws: bool) -> None:
+    """The modules that derive a problem and print it, its phrases and templates; and the modules that draw."""
     for name in (*DERIVING, *(DRAWING if draws else ())):
         import_module(name)
+    from derive.page.template import template_folder
+    from derive.page.wording import phrases
+    from derive.render.printing.templates import compile_templates
+
+    with suppress(DeriveError):  # each problem has its complaint of them
+        phrases(template_folder(root))
+        compile_templates(template_folder(root))
     if draws:
         from derive.render.drawing.lettering import letters_of
 

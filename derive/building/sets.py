@@ -22,7 +22,7 @@ from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, 
 from derive.building.files import folder, shown_path, write, writing
 from derive.building.loaded import load
 from derive.building.manifest import Manifest, outputs_of
-from derive.building.preamble import beginning
+from derive.building.preamble import at_hand, beginning
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
@@ -220,6 +220,7 @@ class _Build:
         from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
+        at_hand()  # that all workers have the same
         reading = partial(problem_set, self.root, self.set_id)
         heading = self.heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
@@ -289,8 +290,8 @@ class _Build:
         if self.anew:  # TeX takes in what documents begin with while this process loads what derives them
             self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
-        if len(names) > 1:
-            load(draws=self.anew)
+        if len(names) > 1 or self.edits:
+            load(self.root, draws=self.anew or self.edits is not None)
         self.anew = False
         from derive.building.solution import rendered
 

@@ -22,7 +22,7 @@ from pathlib import Path
 from derive.building import preamble
 from derive.building.cache import NO_CACHE, Cache, Kept
 from derive.building.files import cannot_write, folder, shown_path, write, writing
-from derive.building.preamble import shared_by_all
+from derive.building.preamble import without_preamble
 from derive.errors import BuildFailed, Complaint, Misused, Place
 
 WHEEL = "tinytex"
@@ -166,7 +166,7 @@ def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
     if engine.dumps:
         with tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True) as name:
             place, environment = Path(name), _environment(engine)
-            shared_by_all(beginning, str(engine.path), engine.identity, _SAFE, formats, place, environment)
+            without_preamble(beginning, str(engine.path), engine.identity, _SAFE, formats, place, environment)
 
 
 def _is_whole(content: bytes, log: Path) -> bool:
@@ -186,17 +186,14 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
     if not engine.dumps:
         return failed
     place = source.parent
-    shared = shared_by_all(tex, str(engine.path), engine.identity, _SAFE, formats, place, _environment(engine))
-    if shared is None:
+    without = without_preamble(tex, str(engine.path), engine.identity, _SAFE, formats, place, _environment(engine))
+    if without is None:
         return failed
-    dumped = place / f"{preamble.NAME}.fmt"
-    dumped.write_bytes(shared.format)
-    write(source, shared.source)
+    write(source, without)
     by_format = f"-fmt={preamble.NAME}"
     if unnumbered:
         _passes(engine, source, timeout, by_format, "-draftmode", most=1)
     output = _passes(engine, source, timeout, by_format)
-    dumped.unlink(missing_ok=True)
     write(source, tex)
     return output if source.with_suffix(".pdf").is_file() else failed
 

@@ -18,7 +18,6 @@ from derive.building.cache import folder_digest
 from derive.building.loaded import load
 from derive.building.sets import Edits, Options, Report, Superseded, built_set, check_asked
 from derive.errors import BuildFailed, Complaint, DeriveError
-from derive.page.wording import phrases
 
 __all__ = ["Shown", "watch"]
 
@@ -61,14 +60,13 @@ class _Watch:
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
         self.folders = [root / "problems", *(each / "templates" for each in (root, FOLDER, FOLDER.parent))]
         self.loaded, self.engine = folder_digest(FOLDER, "*.py"), seen_in([FOLDER])
-        load(draws=True)
+        load(root, draws=True)
         self.files: Seen = {}
 
     def build(self) -> None:
         """All that is asked, in order, until nothing is edited meanwhile."""
         while self._edited():
             self.files, begun = seen_in(self.folders), time.monotonic()
-            phrases.cache_clear()
             try:
                 for set_id, names in self.asked.items():
                     self._build(set_id, replace(self.options, only=names), begun)

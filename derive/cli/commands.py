@@ -261,7 +261,7 @@ def _check(arguments: argparse.Namespace) -> int:
     _warn_of_names(root)
     ids = _selected([_problem_id(name) for name in arguments.ids], problem_ids(root), set_names(root))
     if len(ids) > 1:
-        load(draws=False)
+        load(root, draws=False)
     jobs = {
         job_of(root, problem, partial(rendered, root, problem, only=()), arguments.time_limit): problem
         for problem in ids

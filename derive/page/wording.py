@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -129,8 +129,14 @@ class Phrases:
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
 
-@cache
 def phrases(folder: Path) -> Phrases:
+    """Those of a folder of templates, as its files are now."""
+    files = sorted((folder / "phrases" / "en").glob("*.yaml"))
+    return _phrases(folder, tuple((file.name, file.stat().st_mtime_ns) for file in files))
+
+
+@lru_cache(maxsize=4)
+def _phrases(folder: Path, written: tuple[tuple[str, int], ...]) -> Phrases:
     return Phrases(**read_phrases(folder / "phrases" / "en"))
 
 

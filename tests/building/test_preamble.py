@@ -31,6 +31,7 @@ A block \own{two}: $\mass a^2$ %s
 @pytest.fixture
 def target(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
+    preamble.at_hand().cleanup(), preamble.at_hand.cache_clear()
     monkeypatch.delenv("DERIVE_ENGINE", raising=False)
     return tmp_path / "block.pdf"
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, TemplateNotFound, TemplateSyntaxError, Undefined
+from jinja2 import Environment, FileSystemLoader, TemplateError, TemplateNotFound, TemplateSyntaxError, Undefined
 
 from derive import FOLDER
 from derive.errors import Complaint, DeriveError, Place, Rejected
@@ -37,6 +38,14 @@ def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Te
         if place is None:
             raise
         raise Rejected(Complaint("template", f"the template fails: {_said(error)}", place)) from error
+
+
+def compile_templates(folder: Path) -> None:
+    """Have them compiled, for the processes that fill them; what is wrong with one is told where it is filled."""
+    loaded = _environment(folder)
+    for name in loaded.list_templates(["j2"]):
+        with suppress(TemplateError, OSError, UnicodeError):
+            loaded.get_template(name)
 
 
 def _failing_line(error: Exception, folder: Path) -> Place | None:
