@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from enum import Enum
+from functools import lru_cache
 from typing import Any
 
 import sympy
@@ -55,6 +56,7 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
     return [kind, *(encoded(arg, name) for arg in expr.args)]
 
 
+@lru_cache(maxsize=4096)  # a derivation has a few letters, and each of its lines has most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
     """The fewest assumptions that make an equal symbol: SymPy does not tell apart how they were first written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})

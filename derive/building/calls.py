@@ -14,6 +14,7 @@ from functools import cached_property
 from derive.building.cache import Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
+BETWEEN = "\n\n"  # calls, no line of which is empty
 ROOM = 2 * 1024 * 1024  # characters of what was not used last
 
 
@@ -29,7 +30,8 @@ class Calls:
     @cached_property
     def earlier(self) -> dict[str, str]:
         """What was used last comes first."""
-        return dict(self.cache.recalled_data(self.key) or {})
+        blocks = (self.cache.recalled(self.key) or b"").decode().split(BETWEEN)
+        return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 
     def recalled(self, key: str) -> str | None:
         text = self.earlier.get(key)
@@ -50,7 +52,7 @@ class Calls:
             if room < 0:
                 break
             kept.setdefault(key, text)
-        self.cache.keep_data(self.key, kept)
+        self.cache.keep(self.key, BETWEEN.join(f"{key}\n{text}" for key, text in kept.items()).encode())
 
 
 @contextmanager

@@ -105,7 +105,8 @@ class Memory:
         found = tuple(each for each in now if self._data(each) not in asked.found)
         data_found, objects_found = self.objects.described(found)
         made = [each for each in self.objects.below([*objects, *objects_found]) if each not in known]
-        return json.dumps([self.objects.texts(made), data, data_found])
+        lines = [f"{name}\t{text}" for name, text in self.objects.texts(made)]
+        return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
         """What a call left, read; nothing if it was not made, or if the record now says otherwise what it asked."""
@@ -113,12 +114,12 @@ class Memory:
         if kept is None:
             return None
         try:
-            texts, *data = json.loads(kept)
-            for name, text in texts:
-                self.objects.enter(name, text)
-            (questions, *left), found = map(self.objects.read, data)
+            *lines, last = kept.split("\n")
+            for line in lines:
+                self.objects.enter(*line.split("\t"))
+            (questions, *left), found = map(self.objects.read, json.loads(last))
             same = all(self._data(QUESTIONS[name](*about)) == self._data(answer) for name, about, answer in questions)
-        except (NoDescription, ValueError, RecursionError):
+        except (NoDescription, TypeError, ValueError, RecursionError):
             return None
         return (*left, found) if same else None
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from enum import Enum
 from functools import cache, cached_property
 from hashlib import sha256
@@ -43,6 +43,7 @@ class Objects:
         self._told: list[str] = []  # what stands in the description that is being made
         self._expressions: dict[Any, tuple[Any, list[str]]] = {}
         self._letters: dict[Dummy, str] = {}
+        self._seekers: set[str] = set()  # objects that may find steps when they are asked first
         self._met: list[Any] = []  # so that none of them leaves its identity to another
 
     def described(self, value: Any) -> tuple[Any, list[str]]:
@@ -133,6 +134,8 @@ class Objects:
         self._objects.setdefault(name, value)
         self._texts[name] = text
         self._parts[name] = parts
+        if _lazy(_class_of(value)):
+            self._seekers.add(name)
 
     def below(self, names: Iterable[str]) -> dict[str, None]:
         """These objects and letters, and all that they are made of, parts first."""
@@ -191,12 +194,12 @@ class Objects:
 
     def found_once(self, names: Iterable[str]) -> list[tuple[str, str, Any]]:
         """The steps that these objects have found when they were asked first: of which object, as what, and which."""
-        objects = ((name, self._objects[name]) for name in names if name in self._texts)
+        objects = ((name, self._objects[name]) for name in names if name in self._seekers)
         return [
             (name, key, vars(each)[key])
             for name, each in objects
-            for key in sorted(_lazy(_class_of(each)) & vars(each).keys())
-            if _holds_steps(vars(each)[key])
+            for key in _lazy(_class_of(each))
+            if key in vars(each) and _holds_steps(vars(each)[key])
         ]
 
     def has_found(self, name: str, key: str, value: Any) -> None:
@@ -218,9 +221,10 @@ def _is_its_content(kind: Any) -> bool:
 
 
 @cache
-def _lazy(kind: Any) -> frozenset[str]:
+def _lazy(kind: Hashable) -> dict[str, None]:
     """What an object of the class computes when it is asked for it first."""
-    return frozenset(n for each in kind.__mro__ for n, v in vars(each).items() if isinstance(v, cached_property))
+    classes = kind.__mro__ if isinstance(kind, type) else ()
+    return {n: None for each in classes for n, v in vars(each).items() if isinstance(v, cached_property)}
 
 
 @cache

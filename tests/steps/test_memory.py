@@ -250,7 +250,7 @@ def test_what_fails_is_not_kept_and_fails_again(texts: Texts) -> None:
     assert not texts
 
 
-@pytest.mark.parametrize("damage", ["", "[", "[]", '[[["n", "[]"]], [], []]', '[[], [[], 3], {"#": "x"}]'])
+@pytest.mark.parametrize("damage", ["", "[", "[]", "3", "n\\t[]\\n[[], []]", '[[[], 3], {"#": "x"}]'])
 def test_a_text_that_says_something_else_is_as_good_as_none(texts: Texts, damage: str) -> None:
     with texts.run():
         texts.called(square, a)
