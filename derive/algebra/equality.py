@@ -37,6 +37,7 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import is_identity, vanishes
 from derive.algebra.ranges import has_meaning, never_vanishes_within, settled, strict_sign_within
@@ -355,7 +356,7 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
     """That of the slopes by a letter, if it is that of the whole: where sin(2 x) or a fractional power stands in one of
     them, common factors do not show."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
-        slopes = above.diff(letter), below.diff(letter)
+        slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:
             found = cancel(slopes[0] / slopes[1])
             if not found.has(letter) and _never_vanishes(found) and _is_nothing(above - found * below):
