@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import reduce
 from itertools import islice
 from typing import Any
 
@@ -53,6 +54,7 @@ from derive.algebra.samples import (
     shown,
     value_at,
 )
+from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # times as many points are drawn where nothing has a meaning at most of them
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
@@ -242,16 +244,17 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         if left.mark != right.mark:
             return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
         return _equal_scalars(left.residual, right.residual)
-    for sign in (1, -1):
-        if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
-            if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
-                return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
-            return Verdict(Grade.PROVED, "polynomial normal form")
+    whole = _seen_ratio(left, right)
+    if whole is not None and _is_borne(left.mark, right.mark, _without_factors(whole, nonzero)):
+        if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
+            return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
+        return Verdict(
+            Grade.PROVED, f"multiples of each other by {whole}" if whole**2 != 1 else "polynomial normal form"
+        )
     if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
-    whole = factor = _ratio(left.residual, right.residual)
-    for known in nonzero:
-        factor = _without_factor(factor, known)
+    whole = _ratio(left.residual, right.residual) if whole is None else whole
+    factor = _without_factors(whole, nonzero)
     known_sign = _known_sign(factor)
     if known_sign is None and (cleared := _cleared(left, right)) is not None:
         return _equivalent(*cleared, nonzero)
@@ -264,6 +267,21 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
     verdict = _equal_scalars(left.residual, whole * right.residual)
     return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
+
+
+def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
+    """By what the sides of the one are those of the other, where that is a number and powers of letters."""
+    found = monomial_ratio(left.residual, right.residual)
+    if found is None:
+        signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.mark, right.mark, sign))
+        found = next((sign for sign in signs if vanishes(left.residual - sign * right.residual)), None)
+    return found
+
+
+def _is_borne(left: str, right: str, factor: Expr) -> bool:
+    """Whether a relation with the one mark says the same as its multiple with the other."""
+    sign = _known_sign(factor)
+    return _same_mark(left, right, sign or 0) and (sign is not None or _never_vanishes(factor))
 
 
 def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
@@ -371,6 +389,10 @@ def _is_nothing(difference: Expr) -> bool:
 def _by_cosines(expr: Expr) -> Expr:
     """Multiplied out, with the squares of sines written by those of cosines, so that common factors show."""
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
+
+
+def _without_factors(expr: Expr, known: Sequence[Expr]) -> Expr:
+    return reduce(_without_factor, known, expr)
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:
