@@ -61,11 +61,11 @@ def monomial_ratio(left: Expr, right: Expr) -> Expr | None:
 
 def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answer:
     """What the ring of that kind that is kept says of the expressions; raises `Outside` where it says nothing."""
-    ring: Any = _KEPT.get(kind)
+    ring: Any = KEPT.get(kind)
     ring = kind({}) if ring is None or ring.is_full else ring
     begun_anew = False
     while True:
-        _KEPT[kind] = ring
+        KEPT[kind] = ring
         if any(expr in ring.outside for expr in exprs):
             raise Outside
         try:
@@ -333,4 +333,4 @@ def _irreducible_at(order: int) -> tuple[int, ...]:
     return tuple(int(c) for c in reversed(cyclotomic_poly(order, polys=True).all_coeffs()))
 
 
-_KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that go from one question to the next
+KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that go from one question to the next
