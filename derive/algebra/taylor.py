@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, together, zoo
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, tan, together, zoo
 
 from derive.algebra.expressions import stand_in
 from derive.algebra.normal_form import vanishes
@@ -121,6 +121,9 @@ class _Arithmetic:
             return self._exponential(self.of(expr.args[0]))
         if isinstance(expr, sin | cos):
             return self._turning(self.of(expr.args[0]))[isinstance(expr, cos)]
+        if isinstance(expr, tan):
+            sine, cosine = self._turning(self.of(expr.args[0]))
+            return self._product(sine, self._one_over(cosine))
         if not expr.free_symbols & self._letters.keys():
             return self._constant(expr)
         raise NoSeries
