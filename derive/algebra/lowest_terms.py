@@ -10,17 +10,17 @@ from functools import lru_cache, reduce
 from math import comb
 from typing import NamedTuple
 
-from sympy import ZZ, Expr, S, cos, lex, sin
+from sympy import ZZ, Expr, Rational, S, cos, lex, sin
 from sympy.core.exprtools import decompose_power
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.rings import PolyElement, PolyRing
 
-from derive.algebra.coefficients import ONES, PHASE, Expanded
+from derive.algebra.coefficients import ONES, PHASE, Expanded, is_linear_in_some_letter
 from derive.algebra.expressions import PLUS_MINUS
-from derive.algebra.factors_in_front import Product, product_of, times, written
+from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-__all__ = ["Outside", "in_lowest_terms", "is_squarefree", "squares_turned"]
+__all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "squares_turned"]
 
 
 def in_lowest_terms(value: Expr) -> Expr:
@@ -45,6 +45,14 @@ def is_squarefree(value: Expr) -> bool:
     terms = _ring().form(value).terms
     places = _places(terms)
     return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
+
+
+def factored(value: Expr) -> Expr:
+    """One fraction with each sum factored over the rational numbers, functions and roots standing as letters."""
+    ring = _ring()
+    number, powers = product_of(value)
+    factors = (ring.factors(base, power) for base, power in powers.items())
+    return as_product(times((Product(number, {}), *factors)))
 
 
 class _Fraction(NamedTuple):
@@ -88,6 +96,19 @@ class _Fractions(Expanded):
             number, top = -number, _negative(top)
         parts = (Product(number, letters), self.product_in_front(top), self.product_in_front(bottom, -1))
         return written(times(parts))
+
+    def factors(self, base: Expr, power: int) -> Product:
+        """Of a power of what is no product; itself where it is no sum, has no others or is too large."""
+        try:
+            terms = self.form(base).terms if base.is_Add else {}
+        except Outside:
+            terms = {}
+        if not terms or is_linear_in_some_letter(terms):
+            return Product(S.One, {base: power})
+        places = _places(terms)
+        content, found = _polynomial(_polynomials(len(places)), terms, places).factor_list()
+        inner = (self.product_in_front(_terms(factor, places), n * power) for factor, n in found)
+        return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
         """The powers of one function of each angle written by the other, but for a single one."""
