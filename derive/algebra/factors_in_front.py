@@ -53,8 +53,12 @@ def fraction_of(product: Product) -> tuple[Expr, Expr]:
 
 
 def as_product(product: Product) -> Expr:
-    """The product with a number before a sum as it stands: (u + v)/2, not u/2 + v/2."""
-    return _with_number(product.number, [_power(*each) for each in product.powers.items()])
+    """The product with a number before a sum as it stands, (u + v)/2, not u/2 + v/2; each letter in one power."""
+    exponents: dict[Expr, Expr] = {}
+    for factor, power in product.powers.items():
+        base, exponent = factor.as_base_exp()
+        exponents[base] = exponents.get(base, S.Zero) + exponent * power
+    return _with_number(product.number, [Pow(*each) for each in exponents.items()])
 
 
 def _with_number(number: Rational, factors: list[Expr]) -> Expr:

@@ -5,9 +5,9 @@ And the same with the squares of sines and cosines written by one another.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache, reduce
-from math import comb
+from math import comb, gcd, lcm
 from typing import NamedTuple
 
 from sympy import ZZ, Expr, Rational, S, cos, lex, sin
@@ -20,7 +20,7 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-__all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "squares_turned"]
+__all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 
 
 def in_lowest_terms(value: Expr) -> Expr:
@@ -49,10 +49,42 @@ def is_squarefree(value: Expr) -> bool:
 
 def factored(value: Expr) -> Expr:
     """One fraction with each sum factored over the rational numbers, functions and roots standing as letters."""
+    product = _with_plus_first(_factors(value))
+    odd = [base for base, power in product.powers.items() if power % 2 and base.is_Add]
+    mixed = [base for base in odd if any(term.could_extract_minus_sign() for term in base.args)]
+    if product.number < 0 and mixed:
+        turned = min(mixed, key=str)
+        product = times((product, _turned(turned, product.powers[turned])))
+    return as_product(product)
+
+
+def shared_factor(values: Sequence[Expr]) -> Product:
+    """What divides all of them, over all by which any of them is divided; its number is positive."""
+    parts = [part for value in values if (part := _with_plus_first(_factors(value))).number]
+    if not parts:
+        return Product(S.One, {})
+    bases = {base: None for part in parts for base in part.powers}
+    powers = {base: min(part.powers.get(base, 0) for part in parts) for base in bases}
+    numbers = [part.number for part in parts]
+    number = Rational(gcd(*(n.p for n in numbers)), lcm(*(n.q for n in numbers)))
+    return Product(number, {base: power for base, power in powers.items() if power})
+
+
+def _factors(value: Expr) -> Product:
     ring = _ring()
     number, powers = product_of(value)
-    factors = (ring.factors(base, power) for base, power in powers.items())
-    return as_product(times((Product(number, {}), *factors)))
+    return times((Product(number, {}), *(ring.factors(base, power) for base, power in powers.items())))
+
+
+def _with_plus_first(product: Product) -> Product:
+    """With a - b for b - a as well, so that both are seen to be one factor."""
+    turned = [(b, n) for b, n in product.powers.items() if b.is_Add and b.could_extract_minus_sign()]
+    return times((product, *(_turned(base, power) for base, power in turned)))
+
+
+def _turned(base: Expr, power: int) -> Product:
+    """What puts -b for b in that power."""
+    return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 
 class _Fraction(NamedTuple):
@@ -90,6 +122,9 @@ class _Fractions(Expanded):
             return S.Zero
         if len(bottom) > 1:
             top, bottom = _without_common(top, bottom)
+        for terms in (top, bottom):
+            if len(terms) == 1 and min(terms.values()) < 0:
+                number, top, bottom = -number, *(_negative(t) if t is terms else t for t in (top, bottom))
         if number < 0 if len(top) == 1 < len(bottom) else _is_negative(self.expression(bottom, 1)):
             number, bottom = -number, _negative(bottom)
         if number < 0:
