@@ -59,6 +59,7 @@ check: .venv/.runtime
 bench: .venv/.runtime
 	@$(PYTHON) bench/ratios.py
 	@$(PYTHON) bench/systems.py
+	@$(PYTHON) bench/equality.py
 	@$(PYTHON) bench/scale.py
 
 test: .venv/.tests

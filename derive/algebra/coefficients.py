@@ -15,7 +15,7 @@ from sympy import Add, Expr, Integer, Mul, Pow, Rational, S, Symbol, cos, sin
 from derive.algebra.factors_in_front import Product
 from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
 
-__all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_multiplied_out"]
+__all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_linear_in_some_letter", "is_multiplied_out"]
 
 ONES = (1 << WIDTH) - 1
 PHASE = 2  # bits below those of the letters
@@ -141,7 +141,7 @@ class Expanded(Ring):
         if whole != 1:
             inner = Mul(whole, inner, evaluate=False) if inner.is_Add else whole * inner
         found = Mul(inner, Pow(below, -1))
-        is_prime = len(terms) == 1 or (below == 1 or found.is_Mul) and _is_linear_in_some_letter(rest)
+        is_prime = len(terms) == 1 or (below == 1 or found.is_Mul) and is_linear_in_some_letter(rest)
         return Factored(found, is_prime)
 
     def product_in_front(self, terms: Terms, power: int = 1) -> Product:
@@ -193,7 +193,7 @@ def _common(one: int, other: int) -> int:
     return shared
 
 
-def _is_linear_in_some_letter(terms: Terms) -> bool:
+def is_linear_in_some_letter(terms: Terms) -> bool:
     """Whether a letter stands in one term alone, in its first power: then only common factors divide the sum."""
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:

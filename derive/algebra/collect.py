@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from functools import lru_cache, partial
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, factor, igcd, ilcm, sin
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, igcd, ilcm, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
 from derive.algebra.expressions import TIME, rate
 from derive.algebra.length import length
+from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 
 
@@ -210,7 +211,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 
 def _shorter_as_product(value: Expr) -> Expr:
     """(l + x)^2, not l^2 + 2 l x + x^2."""
-    return min((value, factor(value)), key=length)
+    return min((value, factored(value)), key=length)
 
 
 def spread(value: Expr) -> Expr:
@@ -239,7 +240,7 @@ def by_terms(value: Expr) -> Expr:
 
 def _shorter(term: Expr) -> Expr:
     numerator, denominator = term.as_numer_denom()
-    return min((term, numerator / factor(denominator)), key=length)
+    return min((term, numerator / factored(denominator)), key=length)
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:

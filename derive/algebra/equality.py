@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import reduce
 from itertools import islice
 from typing import Any
 
@@ -37,6 +38,7 @@ from sympy import (
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR5
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import is_identity, vanishes
 from derive.algebra.ranges import has_meaning, never_vanishes_within, settled, strict_sign_within
@@ -52,6 +54,7 @@ from derive.algebra.samples import (
     shown,
     value_at,
 )
+from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # times as many points are drawn where nothing has a meaning at most of them
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
@@ -241,16 +244,17 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         if left.mark != right.mark:
             return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}")
         return _equal_scalars(left.residual, right.residual)
-    for sign in (1, -1):
-        if _same_mark(left.mark, right.mark, sign) and vanishes(left.residual - sign * right.residual):
-            if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
-                return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
-            return Verdict(Grade.PROVED, "polynomial normal form")
+    whole = _seen_ratio(left, right)
+    if whole is not None and _is_borne(left.mark, right.mark, _without_factors(whole, nonzero)):
+        if left.mark != right.mark and vanishes(left.residual):  # 0 > 0 and 0 < 0 say nothing
+            return Verdict(Grade.REFUTED, f"{left.mark} against {right.mark}, both sides being the same")
+        return Verdict(
+            Grade.PROVED, f"multiples of each other by {whole}" if whole**2 != 1 else "polynomial normal form"
+        )
     if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
-    whole = factor = _ratio(left.residual, right.residual)
-    for known in nonzero:
-        factor = _without_factor(factor, known)
+    whole = _ratio(left.residual, right.residual) if whole is None else whole
+    factor = _without_factors(whole, nonzero)
     known_sign = _known_sign(factor)
     if known_sign is None and (cleared := _cleared(left, right)) is not None:
         return _equivalent(*cleared, nonzero)
@@ -263,6 +267,21 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return Verdict(Grade.REFUTED, f"their sides differ by {_short(factor)}, which may be zero")
     verdict = _equal_scalars(left.residual, whole * right.residual)
     return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"multiples of each other by {whole}")
+
+
+def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
+    """By what the sides of the one are those of the other, where that is a number and powers of letters."""
+    found = monomial_ratio(left.residual, right.residual)
+    if found is None:
+        signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.mark, right.mark, sign))
+        found = next((sign for sign in signs if vanishes(left.residual - sign * right.residual)), None)
+    return found
+
+
+def _is_borne(left: str, right: str, factor: Expr) -> bool:
+    """Whether a relation with the one mark says the same as its multiple with the other."""
+    sign = _known_sign(factor)
+    return _same_mark(left, right, sign or 0) and (sign is not None or _never_vanishes(factor))
 
 
 def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
@@ -355,7 +374,7 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
     """That of the slopes by a letter, if it is that of the whole: where sin(2 x) or a fractional power stands in one of
     them, common factors do not show."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
-        slopes = above.diff(letter), below.diff(letter)
+        slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:
             found = cancel(slopes[0] / slopes[1])
             if not found.has(letter) and _never_vanishes(found) and _is_nothing(above - found * below):
@@ -370,6 +389,10 @@ def _is_nothing(difference: Expr) -> bool:
 def _by_cosines(expr: Expr) -> Expr:
     """Multiplied out, with the squares of sines written by those of cosines, so that common factors show."""
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
+
+
+def _without_factors(expr: Expr, known: Sequence[Expr]) -> Expr:
+    return reduce(_without_factor, known, expr)
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from sympy import Add, Expr, Function, Integer, Mul, Pow, Rational, S
 from sympy.core.exprtools import decompose_power
 
-__all__ = ["Product", "fraction_of", "in_front", "product_of", "times", "written"]
+__all__ = ["Product", "as_product", "fraction_of", "in_front", "product_of", "times", "written"]
 
 Powers = dict[Expr, int]
 Terms = dict[frozenset[tuple[Expr, int]], Rational]
@@ -52,7 +52,16 @@ def fraction_of(product: Product) -> tuple[Expr, Expr]:
     return _with_number(Integer(number.p), above), _with_number(Integer(number.q), below)
 
 
-def _with_number(number: Integer, factors: list[Expr]) -> Expr:
+def as_product(product: Product) -> Expr:
+    """The product with a number before a sum as it stands, (u + v)/2, not u/2 + v/2; each letter in one power."""
+    exponents: dict[Expr, Expr] = {}
+    for factor, power in product.powers.items():
+        base, exponent = factor.as_base_exp()
+        exponents[base] = exponents.get(base, S.Zero) + exponent * power
+    return _with_number(product.number, [Pow(*each) for each in exponents.items()])
+
+
+def _with_number(number: Rational, factors: list[Expr]) -> Expr:
     found = Mul(*factors)
     if not found.is_Add or number == 1:
         return Mul(number, found)

@@ -5,22 +5,22 @@ And the same with the squares of sines and cosines written by one another.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache, reduce
-from math import comb
+from math import comb, gcd, lcm
 from typing import NamedTuple
 
-from sympy import ZZ, Expr, S, cos, lex, sin
+from sympy import ZZ, Expr, Rational, S, cos, lex, sin
 from sympy.core.exprtools import decompose_power
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.rings import PolyElement, PolyRing
 
-from derive.algebra.coefficients import ONES, PHASE, Expanded
+from derive.algebra.coefficients import ONES, PHASE, Expanded, is_linear_in_some_letter
 from derive.algebra.expressions import PLUS_MINUS
-from derive.algebra.factors_in_front import Product, product_of, times, written
+from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-__all__ = ["Outside", "in_lowest_terms", "is_squarefree", "squares_turned"]
+__all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 
 
 def in_lowest_terms(value: Expr) -> Expr:
@@ -45,6 +45,46 @@ def is_squarefree(value: Expr) -> bool:
     terms = _ring().form(value).terms
     places = _places(terms)
     return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
+
+
+def factored(value: Expr) -> Expr:
+    """One fraction with each sum factored over the rational numbers, functions and roots standing as letters."""
+    product = _with_plus_first(_factors(value))
+    odd = [base for base, power in product.powers.items() if power % 2 and base.is_Add]
+    mixed = [base for base in odd if any(term.could_extract_minus_sign() for term in base.args)]
+    if product.number < 0 and mixed:
+        turned = min(mixed, key=str)
+        product = times((product, _turned(turned, product.powers[turned])))
+    return as_product(product)
+
+
+def shared_factor(values: Sequence[Expr]) -> Product:
+    """What divides all of them, over all by which any of them is divided; its number is positive."""
+    parts = [part for value in values if (part := _with_plus_first(_factors(value))).number]
+    if not parts:
+        return Product(S.One, {})
+    bases = {base: None for part in parts for base in part.powers}
+    powers = {base: min(part.powers.get(base, 0) for part in parts) for base in bases}
+    numbers = [part.number for part in parts]
+    number = Rational(gcd(*(n.p for n in numbers)), lcm(*(n.q for n in numbers)))
+    return Product(number, {base: power for base, power in powers.items() if power})
+
+
+def _factors(value: Expr) -> Product:
+    ring = _ring()
+    number, powers = product_of(value)
+    return times((Product(number, {}), *(ring.factors(base, power) for base, power in powers.items())))
+
+
+def _with_plus_first(product: Product) -> Product:
+    """With a - b for b - a as well, so that both are seen to be one factor."""
+    turned = [(b, n) for b, n in product.powers.items() if b.is_Add and b.could_extract_minus_sign()]
+    return times((product, *(_turned(base, power) for base, power in turned)))
+
+
+def _turned(base: Expr, power: int) -> Product:
+    """What puts -b for b in that power."""
+    return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 
 class _Fraction(NamedTuple):
@@ -82,12 +122,28 @@ class _Fractions(Expanded):
             return S.Zero
         if len(bottom) > 1:
             top, bottom = _without_common(top, bottom)
+        for terms in (top, bottom):
+            if len(terms) == 1 and min(terms.values()) < 0:
+                number, top, bottom = -number, *(_negative(t) if t is terms else t for t in (top, bottom))
         if number < 0 if len(top) == 1 < len(bottom) else _is_negative(self.expression(bottom, 1)):
             number, bottom = -number, _negative(bottom)
         if number < 0:
             number, top = -number, _negative(top)
         parts = (Product(number, letters), self.product_in_front(top), self.product_in_front(bottom, -1))
         return written(times(parts))
+
+    def factors(self, base: Expr, power: int) -> Product:
+        """Of a power of what is no product; itself where it is no sum, has no others or is too large."""
+        try:
+            terms = self.form(base).terms if base.is_Add else {}
+        except Outside:
+            terms = {}
+        if not terms or is_linear_in_some_letter(terms):
+            return Product(S.One, {base: power})
+        places = _places(terms)
+        content, found = _polynomial(_polynomials(len(places)), terms, places).factor_list()
+        inner = (self.product_in_front(_terms(factor, places), n * power) for factor, n in found)
+        return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
         """The powers of one function of each angle written by the other, but for a single one."""

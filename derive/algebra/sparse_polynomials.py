@@ -23,7 +23,7 @@ PARTS = 64  # into which a letter that stands for an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # power that a letter may have
 HIGHEST = 60  # power of a sum, and multiple of an angle
 WORK = 200_000  # products of two terms that one expression may take
-LETTERS = 300  # and forms that are kept; with more the table is begun anew
+LETTERS = 120  # and forms that are kept; with more the table is begun anew
 FORMS = 20_000
 
 Terms = dict[int, int]

@@ -9,10 +9,10 @@ Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, together, zoo
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, tan, together, zoo
 
 from derive.algebra.expressions import stand_in
 from derive.algebra.normal_form import vanishes
@@ -68,8 +68,7 @@ def series_along(
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
     """The same where what is divided by vanishes at the place, and what is divided too."""
     above, below = together(expr).as_numer_denom()
-    under = taylor(below, paths, order + DEEPEST)
-    lowest = next((n for n, part in enumerate(under[: DEEPEST + 1]) if not vanishes(part)), None)
+    lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:
         raise NoSeries
     over = taylor(above, paths, order + lowest)
@@ -80,6 +79,13 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
         carried = Add(*(under[lowest + k - j] * found[j] for j in range(k)))
         found.append((over[lowest + k] - carried) / under[lowest])
     return found
+
+
+def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
+    """The power with which a denominator begins, and its coefficients to so many beyond: few are tried first."""
+    for deep in (DEEPEST // 4, DEEPEST):
+        under = taylor(below, paths, order + deep)
+        yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))
 
 
 class _Arithmetic:
@@ -115,6 +121,9 @@ class _Arithmetic:
             return self._exponential(self.of(expr.args[0]))
         if isinstance(expr, sin | cos):
             return self._turning(self.of(expr.args[0]))[isinstance(expr, cos)]
+        if isinstance(expr, tan):
+            sine, cosine = self._turning(self.of(expr.args[0]))
+            return self._product(sine, self._one_over(cosine))
         if not expr.free_symbols & self._letters.keys():
             return self._constant(expr)
         raise NoSeries

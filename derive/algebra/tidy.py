@@ -6,7 +6,7 @@ How the result then stands on paper is decided by `derive.render.notation.notati
 
 from __future__ import annotations
 
-from functools import lru_cache, reduce
+from functools import lru_cache
 from typing import Any
 
 from sympy import (
@@ -22,16 +22,12 @@ from sympy import (
     Symbol,
     cos,
     expand,
-    factor,
     factor_list,
-    gcd,
-    lcm,
     radsimp,
     sin,
     sqrt,
     sqrtdenest,
     tan,
-    together,
 )
 from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR10i
@@ -40,7 +36,7 @@ from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
 from derive.algebra.factors_in_front import fraction_of, in_front, product_of
 from derive.algebra.length import shortest
-from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
+from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, shared_factor, squares_turned
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import settled
 from derive.algebra.samples import is_zero_everywhere
@@ -237,21 +233,11 @@ def common_factor(entries: list[Expr]) -> Expr:
     present = [entry for entry in entries if entry != 0]
     if not present:
         return Integer(1)
-    parts = [together(entry).as_numer_denom() for entry in present]
-    try:
-        top = reduce(gcd, (n for n, _ in parts))
-        bottom = reduce(lcm, (d for _, d in parts))
-    except PolynomialError:
-        return Integer(1)
-    top = differences_of_squares(factor(top))
-    if all(_leads_negative(entry) for entry in present):
-        top = -top
-    roots = set.intersection(*(_numeric_roots(n) for n, _ in parts))
-    return top * Mul(*roots) / bottom if not top.has(*roots) else top / bottom
-
-
-def _numeric_roots(expr: Expr) -> set[Expr]:
-    return {f for f in Mul.make_args(expr) if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer}
+    number, powers = shared_factor(present)
+    if len(present) > 1 and all(map(_leads_negative, present)):
+        number = -number
+    top = differences_of_squares(Mul(*(base**power for base, power in powers.items() if power > 0)))
+    return number * top * Mul(*(base**power for base, power in powers.items() if power < 0))
 
 
 def _leads_negative(entry: Expr) -> bool:

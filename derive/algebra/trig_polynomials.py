@@ -22,7 +22,7 @@ from functools import lru_cache
 from math import gcd, lcm
 from typing import Any, TypeVar
 
-from sympy import Add, Expr, I, Mul, Pow, Rational, S, cos, cyclotomic_poly, pi, sin, tan
+from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_poly, pi, sin, tan
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
@@ -30,8 +30,9 @@ LONGEST, STEEPEST = 60, 8  # operations that an angle is written with, and power
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
 R = TypeVar("R", bound="TrigRing")
+Answer = TypeVar("Answer")
 
-__all__ = ["Finer", "Outside", "TrigRing", "are_equal", "asked", "is_zero"]
+__all__ = ["Finer", "Outside", "TrigRing", "are_equal", "asked", "is_zero", "monomial_ratio"]
 
 
 def is_zero(expr: Expr) -> bool:
@@ -48,13 +49,23 @@ def are_equal(left: Expr, right: Expr) -> bool:
     return asked(TrigRing, lambda ring: ring.is_zero(ring.difference(ring.form(left), ring.form(right))), left, right)
 
 
-def asked(kind: type[R], question: Callable[[R], bool], *exprs: Expr) -> bool:
+def monomial_ratio(left: Expr, right: Expr) -> Expr | None:
+    """The number, and powers of letters, by which the second is multiplied in the first; None where it is not seen."""
+    if _has_nested_roots(left) or _has_nested_roots(right):
+        return None
+    try:
+        return asked(TrigRing, lambda ring: ring.ratio(ring.form(left), ring.form(right)), left, right)
+    except Outside:
+        return None
+
+
+def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answer:
     """What the ring of that kind that is kept says of the expressions; raises `Outside` where it says nothing."""
-    ring: Any = _KEPT.get(kind)
+    ring: Any = KEPT.get(kind)
     ring = kind({}) if ring is None or ring.is_full else ring
     begun_anew = False
     while True:
-        _KEPT[kind] = ring
+        KEPT[kind] = ring
         if any(expr in ring.outside for expr in exprs):
             raise Outside
         try:
@@ -225,6 +236,22 @@ class TrigRing(Ring):
             self._related |= ONES << place
         return place
 
+    def ratio(self, a: Form, b: Form) -> Expr | None:
+        """The number, and powers of letters, by which all terms of the second are multiplied in the first."""
+        if not a.terms or len(a.terms) != len(b.terms):
+            return None
+        first, second = max(a.terms), max(b.terms)
+        c, d, between = a.terms[first], b.terms[second], first - second
+        if between & 3 or any(a.terms.get(m + between, 0) * d != n * c for m, n in b.terms.items()):
+            return None
+        factors: list[Expr] = [Rational(c * b.below, d * a.below)]
+        for letter, place in self.letters.items():
+            power = self._power_in(between, place)
+            if power and not isinstance(letter, Symbol):
+                return None
+            factors += [Pow(letter, power)] if power else []
+        return Mul(*factors)
+
     def is_unsure(self, terms: Terms) -> bool:
         """Whether a sum may vanish although it has terms."""
         return self.has_parts_of_pi(terms) or self._has_roots(terms)
@@ -306,4 +333,4 @@ def _irreducible_at(order: int) -> tuple[int, ...]:
     return tuple(int(c) for c in reversed(cyclotomic_poly(order, polys=True).all_coeffs()))
 
 
-_KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that go from one question to the next
+KEPT: dict[type[TrigRing], TrigRing] = {}  # the rings that go from one question to the next

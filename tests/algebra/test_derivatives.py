@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Symbol, cos, diff, exp, log, sin, sqrt, symbols
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, diff, exp, log, sin, sqrt, symbols
 
 from derive.algebra.derivatives import derivative
 
@@ -33,3 +33,16 @@ VALUES = [
 @pytest.mark.parametrize("letter", [q, p])
 def test_the_derivative_is_that_of_sympy(value: Expr, letter: Symbol) -> None:
     assert derivative(value, letter) == diff(value, letter)
+
+
+@pytest.mark.parametrize("value", VALUES, ids=str)
+@pytest.mark.parametrize("by", [(q, 2), (q, p), (q, 0), (p, 2, q)], ids=str)
+def test_a_number_says_how_often_one_differentiates_by_the_letter_before_it(
+    value: Expr, by: tuple[Symbol | int]
+) -> None:
+    assert (derivative(value, *by) - diff(value, *by)).equals(0)
+
+
+def test_a_matrix_is_differentiated_entry_by_entry() -> None:
+    matrix = ImmutableDenseMatrix([[q**2, sin(q)], [p, a]])
+    assert derivative(matrix, q) == ImmutableDenseMatrix([[2 * q, cos(q)], [0, 0]])

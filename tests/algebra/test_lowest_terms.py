@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pytest
 from hypothesis import given
-from sympy import Expr, Integer, Rational, cancel, cos, exp, factor_terms, pi, sin, symbols, together
+from sympy import Expr, Integer, Mul, Rational, cancel, cos, exp, factor_terms, pi, sin, symbols, together
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.rings import PolyElement
 
+from derive.algebra import lowest_terms
 from derive.algebra.equality import equal
-from derive.algebra.lowest_terms import Outside, in_lowest_terms, is_squarefree, squares_turned
+from derive.algebra.lowest_terms import Outside, factored, in_lowest_terms, is_squarefree, shared_factor, squares_turned
 from tests.algebra.test_tidy import bounded, expressions
 
 a, b, c = symbols("a b c", positive=True)
@@ -129,3 +130,54 @@ def test_pairs_do_not_depend_on_what_was_asked_before() -> None:
 )
 def test_what_is_divided_by_no_square(value: Expr, is_one: bool) -> None:
     assert is_squarefree(value) is is_one
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (x**2 + 2 * x * y + y**2, (x + y) ** 2),
+        (a**3 - b**3, (a - b) * (a**2 + a * b + b**2)),
+        (-a * x + b * x, x * (b - a)),
+        ((a**2 - b**2) / (a + b), a - b),
+        (a / 2 + b / 2, Mul(Rational(1, 2), a + b, evaluate=False)),
+        (a**n / a**2 * (x + y), a ** (n - 2) * (x + y)),
+        (sin(p) ** 2 - cos(p) ** 2, (sin(p) - cos(p)) * (sin(p) + cos(p))),
+        (1 / (a**2 - 2 * a * b + b**2), (a - b) ** -2),
+        ((a + b + c) ** 100, (a + b + c) ** 100),
+    ],
+    ids=str,
+)
+def test_sums_are_factored(value: Expr, expected: Expr) -> None:
+    assert factored(value) == expected
+
+
+@bounded
+@given(expressions)
+def test_factoring_changes_no_value(value: Expr) -> None:
+    assert equal(factored(value), value)
+
+
+def test_what_divides_all_is_found_with_either_sign() -> None:
+    shared = shared_factor([(a**2 - b**2) * x / 2, (b - a) * y / 3, Integer(5) * (a - b) / c])
+    assert shared.number == Rational(1, 6)
+    assert shared.powers in ({a - b: 1, c: -1}, {b - a: 1, c: -1})
+    assert shared_factor([2 * (a + b) * x - 2 * a * x - 2 * b * x]) == (1, {})
+
+
+SIGNED = [
+    (sin(p) ** 2 - cos(p) ** 2) / (x - y),
+    (a - b) / (b**2 - a**2) / (x - y) * c,
+    -(x**2) + 2 * x * y - y**2,
+    (b**3 - a**3) * (x - y),
+]
+
+
+@pytest.mark.parametrize("value", SIGNED, ids=str)
+def test_signs_do_not_depend_on_what_was_asked_before(value: Expr, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = []
+    for letters in ((a, b, c, x, y, sin(p), cos(p)), (cos(p), sin(p), y, x, c, b, a)):
+        monkeypatch.setattr(lowest_terms._Kept, "ring", lowest_terms._Fractions())
+        for letter in letters:
+            in_lowest_terms(letter)
+        found.append((in_lowest_terms(value), factored(value), squares_turned(value)))
+    assert found[0] == found[1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Rational, Symbol, cos, diff, exp, factorial, log, sin, sqrt, symbols
+from sympy import Expr, Integer, Rational, Symbol, cos, diff, exp, factorial, log, sin, sqrt, symbols, tan
 
 from derive.algebra.normal_form import vanishes
 from derive.algebra.taylor import NoSeries, coefficient_along, slope, taylor
@@ -29,6 +29,7 @@ VALUES = [
     (a + q**2) ** b,
     (a + q) ** Rational(-3, 2),
     exp(-a * q) / (a + q),
+    tan(a * q) ** 2,
 ]
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 from algebra.test_corpus import PROVED, SLIPS
-from sympy import Expr, I, Rational, S, cos, diff, exp, pi, sin, sqrt, symbols, tan
+from sympy import Expr, I, Rational, S, cbrt, cos, diff, exp, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.normal_form import _vanishes_by_relations, is_identity, vanishes
 from derive.algebra.sparse_polynomials import HIGHEST
-from derive.algebra.trig_polynomials import Outside, TrigRing, are_equal, is_zero
+from derive.algebra.trig_polynomials import Outside, TrigRing, are_equal, is_zero, monomial_ratio
 
 a, b, m = symbols("a b m", positive=True)
 x, y, z, t = symbols("x y z t", real=True)
@@ -207,3 +207,25 @@ def test_a_divisor_keeps_its_letter_in_one_ring() -> None:
     count = len(ring.letters)
     ring.form(3 / (2 * a + 2 * b) ** 2)
     assert len(ring.letters) == count
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "ratio"),
+    [
+        (2 * a * x + 2 * a * sin(x) ** 2, x + 1 - cos(x) ** 2, 2 * a),
+        (x / (a * m) - sqrt(x + y) / m**2, 3 * m * x / a - 3 * sqrt(x + y), 1 / (3 * m**2)),
+        (sin(2 * x) - x, 2 * x - 4 * sin(x) * cos(x), -Rational(1, 2)),
+        (x - y, x + y, None),
+        (x**2 + x, a * x**2 + b * x, None),
+        (sin(x) * x, x, None),
+        (I * x + I, x + 1, None),
+        (x - x * (sin(y) ** 2 + cos(y) ** 2), x, None),
+        (cbrt(x + y), 2 * cbrt(x + y), None),
+    ],
+    ids=str,
+)
+def test_the_ratio_of_two_sums_is_seen_where_it_is_a_product_of_letters(
+    left: Expr, right: Expr, ratio: Expr | None
+) -> None:
+    assert monomial_ratio(left, right) == ratio
+    assert monomial_ratio(right, left) == (None if ratio is None else 1 / ratio)

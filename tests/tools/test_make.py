@@ -151,7 +151,8 @@ def test_clean_empties_build_and_keeps_the_folder(built: Tree) -> None:
 def test_check_and_bench_run_in_the_environment(tree: Tree) -> None:
     tree.make("check")
     tree.make("bench")
-    assert tree.calls() == ["-m derive check", "bench/ratios.py", "bench/scale.py", "bench/systems.py"]
+    benches = ["bench/equality.py", "bench/ratios.py", "bench/scale.py", "bench/systems.py"]
+    assert tree.calls() == ["-m derive check", *benches]
 
 
 def test_the_tests_run_last_so_that_their_closing_line_is_the_last(tree: Tree) -> None:

@@ -32,6 +32,7 @@ OTHERS = {  # what a coordinate may be called besides
 }
 
 COORDINATES = ("cartesian", "cylindrical")
+ALONG = ImmutableDenseMatrix(eye(3))  # the body's own axes
 
 
 @dataclass(frozen=True)
@@ -43,11 +44,12 @@ class Point:
 
     name: str
     position: ImmutableMatrix
-    axes: ImmutableMatrix = field(default=ImmutableDenseMatrix(eye(3)))
+    axes: ImmutableMatrix = ALONG
 
     def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
         """Where a place of the body is, from here and along these axes."""
-        return ImmutableDenseMatrix((self.axes.T * (place - self.position)).expand())
+        way = place - self.position
+        return ImmutableDenseMatrix((way if self.axes == ALONG else self.axes.T * way).expand())
 
     def interval(self, lower: Expr, upper: Expr) -> tuple[Expr, Expr]:
         """Bounds along the body's z as limits of z from here."""

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Symbol, resultant, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 
 from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relation, Root, Terms, bound, scalar
 from derive.algebra.tidy import tidied
@@ -285,8 +285,15 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
 
 def _by_resultant(of: Roots) -> Expr:
     """The discriminant by the resultant of the polynomial and its derivative, which is -a Delta."""
-    here, x = of.quadratic, of.unknown
-    return tidied(-resultant(here.at(x), 2 * here.a * x + here.b, x) / here.a)
+    return tidied(-_resultant(of.quadratic) / of.quadratic.a)
+
+
+def _resultant(here: Quadratic) -> Expr:
+    """That of the polynomial, by its values at three places, and its derivative: Sylvester's determinant."""
+    at_none, at_one, at_other = (here.at(Integer(n)) for n in (0, 1, -1))
+    second, first = (at_one + at_other) / 2 - at_none, (at_one - at_other) / 2
+    slope = [2 * here.a, here.b]
+    return ImmutableDenseMatrix([[second, first, at_none], [*slope, ZERO], [ZERO, *slope]]).det(method="laplace")
 
 
 def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
@@ -298,12 +305,12 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = roots.needed(Roots)
-    here, x = of.quadratic, of.unknown
+    here = of.quadratic
 
     def otherwise(found: Expr) -> tuple[Expr, Expr]:
         if here.is_linear:
             return found, (here.at(Integer(1)) - here.at(ZERO)) ** 2
-        return -here.a * found, resultant(here.at(x), 2 * here.a * x + here.b, x)
+        return -here.a * found, _resultant(here)
 
     return establish(
         "roots.discriminant",

@@ -25,17 +25,16 @@ from sympy import (
     atan,
     cancel,
     cos,
-    factor,
     sin,
     tan,
 )
-from sympy.polys.polyerrors import PolynomialError
 from sympy.simplify.fu import TR8
 
 from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import RATES, Relation, explicit, rate, scalar
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
+from derive.algebra.lowest_terms import factored
 from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -180,7 +179,7 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
     """Of sin(theta)(a cos(theta) - b) the bracket, for the unknown cos(theta); and what it is multiplied by."""
-    for form in (left, _factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
+    for form in (left, factored(left)) if left.is_Add and left.count_ops() <= LARGEST else (left,):
         factors = Mul.make_args(form)
         beside = [f for f in factors if left_over(f, unknown) and not f.has(mark)]
         rest = Mul(*(f for f in factors if f not in beside))
@@ -220,7 +219,7 @@ def lecture_form(value: Expr, *, in_sums: bool = True) -> Expr:
     value = explicit(value)
     forms = [tidied(value)]
     if forms[0].count_ops() <= LARGEST:
-        forms.append(_factored(forms[0]))
+        forms.append(factored(forms[0]))
         forms.append(spread(forms[0]))
         below = forms[0].as_numer_denom()[1]
         if not any(f.is_Add for f in Mul.make_args(below)):
@@ -234,7 +233,7 @@ def lecture_form(value: Expr, *, in_sums: bool = True) -> Expr:
 
 def without_sine_below(value: Expr) -> Expr:
     """(1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a; sin a/(1 + cos a), not (1 - cos a)/sin a."""
-    above, below = factor(value).as_numer_denom()
+    above, below = factored(value).as_numer_denom()
     for sine in sorted(below.atoms(sin), key=str):
         c, mark = cos(sine.args[0]), Dummy("c", real=True)
         odd = sine if below.as_powers_dict()[sine] % 2 else Integer(1)
@@ -244,7 +243,7 @@ def without_sine_below(value: Expr) -> Expr:
         )
         if not downs.has(sine):
             above, below = (part.xreplace({mark: c}) for part in cancel(ups / downs).as_numer_denom())
-    return _factored(above) / _factored(below)
+    return factored(above) / factored(below)
 
 
 def _is_power_of(sine: Expr, e: Expr) -> bool:
@@ -262,16 +261,9 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-def _factored(value: Expr) -> Expr:
-    try:
-        return factor(value)
-    except PolynomialError:
-        return value
-
-
 def may_vanish(value: Expr) -> Relation | None:
     """What must not vanish where one divides by a value: those of its factors that nothing decides."""
-    factors = [f.as_base_exp()[0] for f in Mul.make_args(_factored(tidied(value)))]
+    factors = [f.as_base_exp()[0] for f in Mul.make_args(factored(tidied(value)))]
     unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 

@@ -58,12 +58,13 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
 
 def _alike(first: Layout, second: Layout) -> bool:
     """Whether they read the same, or have the same terms in another order."""
-    return first == second or _terms_as_read(first) == _terms_as_read(second)
+    terms, others = terms_of(first), terms_of(second)
+    return first == second or len(terms) == len(others) and _as_read(terms) == _as_read(others)
 
 
-def _terms_as_read(layout: Layout) -> list[str]:
+def _as_read(terms: list[Layout]) -> list[str]:
     """In some order, and without spaces: M/(2 pi a) as it was put together, and with its numbers side by side."""
-    return sorted("".join(plain(term).split()) for term in terms_of(layout))
+    return sorted("".join(plain(term).split()) for term in terms)
 
 
 def answer_lines(answer: Answer, notation: Notation, limit: float = ANSWER_WIDTH) -> list[Printed]:
