@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import pytest
 from sympy import Integer, Symbol, pi, symbols
 
+from derive import steps
 from derive.algebra.expressions import Relation, rate
 from derive.algebra.ranges import Range, take_as_positive, taken_as_positive, within
 from derive.errors import Rejected
@@ -278,3 +280,15 @@ def test_verbs_of_derive_are_called_once(texts: Texts, monkeypatch: pytest.Monke
     assert [q.key for q in first.established] == [q.key for q in second.established]
     assert other[-1].coordinates == {Symbol("y", real=True): "length"}
     assert rate(Symbol("y", real=True)) in other[-1].value.free_symbols
+
+
+def test_verbs_read_the_record_by_its_questions_and_by_what_every_call_is_told_by() -> None:
+    """Else a call could be recalled that would give something else now."""
+    engine = Path(steps.__file__).parents[1]
+    readers = {
+        str(file.relative_to(engine))
+        for room in ("algebra", "steps", "mechanics")
+        for file in (engine / room).rglob("*.py")
+        if "current_run" in file.read_text()
+    }
+    assert readers == {"steps/record.py", "steps/known_numbers.py", "mechanics/arguments.py"}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from derive.algebra.ranges import POSITIVE
 from derive.mechanics import Cuboid, Particle, System, coordinate, equation_of_motion, lagrangian, point, weight
 from derive.steps.objects import NoDescription, Objects
 from derive.steps.record import recorded
-from derive.steps.step import Level, Quantity
+from derive.steps.step import Fact, Level, Quantity
 from tests.steps.test_establish import sum_of_squares
 
 g, length, m = symbols("g l m", positive=True)
@@ -151,3 +152,15 @@ def test_parts_come_before_what_is_made_of_them_however_long_the_chain_is() -> N
     found = list(objects.below(names))
     assert found[-1] == names[0]
     assert len(found) > 3000
+
+
+def test_what_a_quantity_hands_on_is_data_and_no_function() -> None:
+    def below(kind: type) -> Iterator[type]:
+        for each in kind.__subclasses__():
+            yield each
+            yield from below(each)
+
+    facts = [each for each in below(Fact) if each.__module__.startswith("derive.") and is_dataclass(each)]
+    assert len(facts) > 30
+    for each in facts:
+        assert not [f.name for f in fields(each) if "Callable" in str(f.type)], each  # type: ignore[arg-type]
