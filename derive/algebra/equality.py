@@ -253,6 +253,10 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         )
     if _same_mark(left.mark, right.mark, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")
+    if left.mark == right.mark == "=" and not nonzero:  # a point tells sooner than what their sides have in common
+        apart = _counterexample(left.residual, right.residual)
+        if apart is not None:  # a refutation is false as a truth value
+            return apart
     whole = _ratio(left.residual, right.residual) if whole is None else whole
     factor = _without_factors(whole, nonzero)
     known_sign = _known_sign(factor)

@@ -220,7 +220,7 @@ class _Build:
         from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
-        at_hand()  # that all workers have the same
+        self.prepares = not os.listdir(at_hand().name)  # which all workers have from here
         reading = partial(problem_set, self.root, self.set_id)
         heading = self.heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
@@ -287,12 +287,12 @@ class _Build:
     def _derive(self, names: Sequence[str]) -> None:
         if not names:
             return
-        if self.anew:  # TeX takes in what documents begin with while this process loads what derives them
+        if self.prepares:  # TeX takes in what documents begin with while this process loads what derives them
             self._put(Job("what documents begin with", self._prepared, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
+            self.prepares = False
         if len(names) > 1 or self.edits:
             load(self.root, draws=self.anew or self.edits is not None)
-        self.anew = False
         from derive.building.solution import rendered
 
         for name in names:
