@@ -34,6 +34,7 @@ from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import RATES, Relation, explicit, rate, scalar
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
+from derive.algebra.length import length
 from derive.algebra.lowest_terms import factored
 from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.tidy import tidied
@@ -217,18 +218,20 @@ def lecture_form(value: Expr, *, in_sums: bool = True) -> Expr:
     in_sums     products of sines and cosines may become sums of them; not under a root, out of which squares are drawn
     """
     value = explicit(value)
-    forms = [tidied(value)]
-    if forms[0].count_ops() <= LARGEST:
-        forms.append(factored(forms[0]))
-        forms.append(spread(forms[0]))
-        below = forms[0].as_numer_denom()[1]
+    tidy = tidied(value)
+    forms, size = [tidy], length(tidy)
+    if size <= LARGEST:
+        forms.append(spread(tidy))
+        below = tidy.as_numer_denom()[1]
         if not any(f.is_Add for f in Mul.make_args(below)):
-            forms.append(by_terms(forms[0].expand()))
-        if in_sums and forms[0].count_ops() <= SHORT and not below.has(sin, cos) and not _turns_under_root(forms[0]):
-            forms.append(tidied(TR8(forms[0].expand())))
+            forms.append(by_terms(tidy.expand()))
+        if in_sums and size <= SHORT and not below.has(sin, cos) and not _turns_under_root(tidy):
+            forms.append(tidied(TR8(tidy.expand())))
         if below.has(sin):
             forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
-    return min(forms, key=lambda form: (int(form.count_ops()), str(form)))
+    apart = min(forms, key=lambda form: (length(form), str(form)))
+    product = factored(tidy) if size <= LARGEST else tidy
+    return product if length(product) < length(apart) else apart  # a^2 - b^2 stays
 
 
 def without_sine_below(value: Expr) -> Expr:
