@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from sympy import Add, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
@@ -139,22 +139,25 @@ class _Scene:
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
         """What turns about the vertical at a given rate is drawn when its plane is that of the paper."""
-        if self.rows != 3:
+        if (rate := self._rate_round()) is None:
             return {}
-        components = [c for place in self.system.places for c in place.components]
-        angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
-        rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
         level = len(self.system.coordinates) > 1 and not moving_in(
             self.system, *(p.components[-1] for p in self.system.places)
         )
         angle = ON_A_TABLE if level else BROADSIDE
-        return {TIME: angle / rates[0]} if len(rates) == 1 and not rates[0].has(TIME) else {}
+        return {TIME: angle / rate}
+
+    def _rate_round(self) -> Expr | None:
+        """At which constant rate all that is carried round in space is."""
+        components = [c for place in self.system.places for c in place.components]
+        angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
+        rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
+        return rates[0] if self.rows == 3 and len(rates) == 1 and not rates[0].has(TIME) else None
 
     def _axis_of_table(self) -> list[Mark]:
         """The vertical about which something is carried round at a given rate, where nothing else shows it."""
-        if not self._carried_round():
+        if (rate := self._rate_round()) is None:
             return []
-        (rate,) = {diff(f.args[0], TIME) for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
 
     def _two_bodies(self) -> Iterable[Mark]:

@@ -129,6 +129,16 @@ def on_a_turning_table() -> Any:
     return System(Particle(m, at), spring(k, point(0, 0, 0), at))
 
 
+def test_a_place_by_an_angle_on_a_turning_table_leaves_its_axis() -> None:
+    with recorded():
+        angle = coordinate("phi")
+        table = space.turned(Z, omega * TIME)
+        system = System(Particle(m, table.place(a * cos(angle), a * sin(angle), 0)), weight(G))
+        found = sketch("system", system)
+        assert found is not None
+        assert [mark.rate for mark in of(found, AxisOfRotation)] == [omega]
+
+
 def test_a_table_turns_about_the_vertical_at_its_rate() -> None:
     with recorded():
         found = sketch("system", on_a_turning_table())

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Expr, ImmutableDenseMatrix, sqrt, symbols
+from sympy import Expr, ImmutableDenseMatrix, Integer, sqrt, symbols
 
 import derive.mechanics.outcomes  # noqa: F401  which says what must hold
 from derive.algebra.ranges import POSITIVE, Range, within
 from derive.mechanics.equations.quadratics import Quadratic
 from derive.mechanics.outcomes.signs import turned
 from derive.steps.outcomes import Judged, holds
+from derive.steps.record import Run, recorded
 
 m, k = symbols("m k", positive=True)
 alpha, beta = symbols("alpha beta", real=True)
@@ -40,6 +41,15 @@ def test_a_frequency_is_not_negative_for_any_sign_of_a_letter() -> None:
     assert not frequency("conditional", m * alpha**2, alpha)
     with within({alpha: POSITIVE}):
         assert frequency("oscillating", m * alpha**2, alpha)
+
+
+def test_which_root_is_smaller_is_told_by_the_numbers_of_a_problem() -> None:
+    """They may both be positive for these, of which another letter has no number, and not for all."""
+    with recorded(Run(numbers={alpha: Integer(3)})):
+        assert root("smaller", -m * alpha, 2 * m**2 * alpha / 3, -1)
+        assert not root("larger", -m * alpha, 2 * m**2 * alpha / 3, -1)
+    with recorded(Run(numbers={alpha: Integer(-3)})):
+        assert not root("smaller", -m * alpha, 2 * m**2 * alpha / 3, -1)
 
 
 def test_which_root_is_smaller_depends_on_the_sign_of_a_letter() -> None:

@@ -24,18 +24,15 @@ def _some_points(letters: Iterable[Symbol]) -> Iterable[dict[Symbol, Expr]]:
 
 
 def _two_roots(facts: Judged) -> Iterable[tuple[Expr, Expr, Expr]]:
-    """This root, the other and the factor b, in numbers: those that are given, or some for which the roots are real."""
+    """This root, the other and the factor b, in numbers for which the roots are real: those that are given, and some
+    for each letter that has none."""
     quadratic = facts.inputs["quadratic"]
-    a, b, c = quadratic.a, quadratic.b, quadratic.c
-    other = -b / a - facts.result
-    given = [with_numbers(each) for each in (facts.result, other, b)]
-    if not any(value.free_symbols for value in given):
-        yield tuple(value.evalf(30) for value in given)
-        return
-    letters = set().union(*(each.free_symbols for each in (a, b, c)))
-    for point in _some_points(letters):
-        if (b**2 - 4 * a * c).xreplace(point).evalf(30) > 0:
-            yield tuple(each.xreplace(point).evalf(30) for each in (facts.result, other, b))
+    other = -quadratic.b / quadratic.a - facts.result
+    this, other, b, discriminant = map(with_numbers, (facts.result, other, quadratic.b, quadratic.discriminant))
+    letters = set().union(*(each.free_symbols for each in (this, other, b, discriminant)))
+    for point in _some_points(letters) if letters else ({},):
+        if discriminant.xreplace(point).evalf(30) > 0 or not letters:
+            yield tuple(each.xreplace(point).evalf(30) for each in (this, other, b))
 
 
 def _roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
