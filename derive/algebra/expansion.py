@@ -13,6 +13,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import Factors, Terms
+from derive.algebra.length import length
 from derive.algebra.node import DimensionOf, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
@@ -92,7 +93,7 @@ def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
     inside = Terms(Integer(1), *(tidied(c / leading) * small ** (n - first) for n, c in rest))
     lead = leading * small**first
     forms = [plain] if lead == 1 else [Factors(lead, inside), plain]
-    return min(forms, key=lambda form: sum(int(part.count_ops()) for part in form.args))
+    return min(forms, key=lambda form: sum(length(part) for part in form.args))
 
 
 def _quotient(f: Expr, power: Rational | None) -> Series:

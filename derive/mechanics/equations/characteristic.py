@@ -45,6 +45,7 @@ from derive.algebra.amplitudes import determinant_of
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import Relation
 from derive.algebra.expressions import Root as RootSign
+from derive.algebra.length import length
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
@@ -161,7 +162,7 @@ def _by_powers(value: Expr, unknown: Expr) -> Expr:
     if polynomial is None:
         return value
     terms = [factor(c) * Mul(*(s**n for s, n in zip(polynomial.gens, ns, strict=True))) for ns, c in polynomial.terms()]
-    return min((Add(*terms), value), key=lambda form: int(form.count_ops()))
+    return min((Add(*terms), value), key=length)
 
 
 def _roots_of(part: Poly) -> list[Expr]:
@@ -196,14 +197,14 @@ def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
     """b^2 - 4 a c, tidy or with its two terms in factors, whichever is shorter."""
     common = gcd(b**2, a * c)
     apart = factor(common) * (factor(b**2 / common) - 4 * factor(a * c / common))
-    return min((tidied(b**2 - 4 * a * c), apart), key=lambda form: int(form.count_ops()))
+    return min((tidied(b**2 - 4 * a * c), apart), key=length)
 
 
 def _sum_with_root(plain: Expr, before: Expr, root: Expr) -> Expr:
     """u + v sqrt(D), u and v in factors where that is shorter, over one denominator."""
     below = lcm(*(fraction(together(part))[1] for part in (plain, before)))
     apart = (factor(plain * below) + factor(before * below) * root) / factor(below)
-    return min((tidied(plain + before * root), apart), key=lambda form: int(form.count_ops()))
+    return min((tidied(plain + before * root), apart), key=length)
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:

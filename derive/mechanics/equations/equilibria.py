@@ -19,6 +19,7 @@ from derive.algebra.collect import by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar, stand_in
+from derive.algebra.length import length
 from derive.algebra.ranges import range_of
 from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
@@ -173,7 +174,7 @@ class State:
 
 def _factored(force: Expr) -> Expr:
     try:
-        return min((factor(force), force), key=lambda form: int(form.count_ops()))
+        return min((factor(force), force), key=length)
     except PolynomialError:
         return force
 
@@ -349,7 +350,7 @@ def _by_terms_if_shorter(value: Expr) -> Expr:
     """l + m g/k, not (m g + k l)/k, where nothing but a product is divided by."""
     if not value.as_numer_denom()[0].is_Add or value.as_numer_denom()[1].atoms(Add, sin, cos):
         return value
-    return min((value, by_terms(value.expand())), key=lambda form: int(form.count_ops()))
+    return min((value, by_terms(value.expand())), key=length)
 
 
 def _rest(

@@ -36,6 +36,7 @@ from sympy.simplify.fu import TR8
 from derive.algebra.collect import by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
+from derive.algebra.length import length, shortest
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
@@ -290,7 +291,7 @@ def _basis(linear: Linear, sort: str) -> list[Expr]:
 def _root_over(inside: Expr, below: Expr) -> Expr:
     """sqrt(k/m - b^2/(4 m^2)), or sqrt(D)/(2 a) where that is shorter."""
     forms = [tidied(sqrt(inside) / below), sqrt(tidied(inside / below**2)), sqrt(expand(inside / below**2))]
-    return min(forms, key=lambda form: (int(form.count_ops()), str(form)))
+    return shortest(forms)
 
 
 # --- what drives it ---
@@ -425,7 +426,7 @@ def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: Linear, sort: s
     """e^(-b t/2a) (C cos + D sin): the exponential that both have in common in front."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(lecture_form(C) * (e / common) for C, e in zip(values, basis, strict=True)))
-    inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=lambda form: int(form.count_ops()))
+    inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)
     return Mul(common, inside, evaluate=False) if common != 1 and inside.is_Add else common * inside
 
 
@@ -440,4 +441,4 @@ def _joined(free: Expr, particular: Expr) -> Expr:
     back = {mark: f for f, mark in marks.items()}
     factored = lecture_form(whole.xreplace(marks)).xreplace(back)
     forms = (whole, factor_terms(whole.expand()), factor_terms(whole), factored)
-    return min(forms, key=lambda form: int(form.count_ops()))
+    return min(forms, key=length)

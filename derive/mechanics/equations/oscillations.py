@@ -8,6 +8,7 @@ from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, cos, diff, exp, pri
 
 from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
+from derive.algebra.length import length
 from derive.algebra.ranges import rational_in_range, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -96,7 +97,7 @@ def _quotient(stiffness: Expr, mass: Expr) -> Expr:
 def _squared_form(value: Expr) -> Expr:
     """g/l - omega^2, not (g - l omega^2)/l, where that is shorter."""
     forms = [tidied(value), spread_or_by_terms(tidied(value))]
-    return min(forms, key=lambda form: int(form.count_ops()))
+    return min(forms, key=length)
 
 
 def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:

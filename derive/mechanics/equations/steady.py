@@ -16,6 +16,7 @@ from sympy.simplify.fu import TR5, TR6
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, bound, explicit, rate, scalar
+from derive.algebra.length import length
 from derive.algebra.ranges import never_vanishes_within, strict_sign_within
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
@@ -315,10 +316,10 @@ def _of_plain_sign(value: Expr) -> Expr:
     def shown(part: Expr) -> Expr:
         base, power = part.as_base_exp()
         forms = [base, *(way(base).expand() for way in (TR5, TR6))] if base.has(sin, cos) else [base]
-        return min(forms, key=lambda f: (sign_by_factors(f) is None, int(f.count_ops()), str(f))) ** power
+        return min(forms, key=lambda f: (sign_by_factors(f) is None, length(f), str(f))) ** power
 
     forms = [Mul(*map(shown, Mul.make_args(form))) for form in (value, factor(value))]
-    return min(forms, key=lambda f: (sign_known(f) is None, int(f.count_ops()), str(f)))
+    return min(forms, key=lambda f: (sign_known(f) is None, length(f), str(f)))
 
 
 def _sort(value: Expr, exists: Relation | None) -> str:

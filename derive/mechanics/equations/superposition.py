@@ -14,6 +14,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, cos, cosh, diff, fac
 from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import TIME, Relation, Terms, explicit
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations import linear_motion
@@ -154,7 +155,7 @@ def _part(swing: Swing, i: int) -> Expr:
 
 def tidied_motion(motion: Expr) -> Expr:
     forms = (motion, factor_terms(motion.expand()), factor_terms(motion))
-    return min(forms, key=lambda form: int(form.count_ops()))
+    return min(forms, key=length)
 
 
 def _motion(

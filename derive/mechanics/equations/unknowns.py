@@ -34,7 +34,7 @@ from derive.algebra.collect import by_terms, spread
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import RATES, Relation, explicit, rate, scalar
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
-from derive.algebra.length import length
+from derive.algebra.length import length, shortest
 from derive.algebra.lowest_terms import factored
 from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.tidy import tidied
@@ -229,7 +229,7 @@ def lecture_form(value: Expr, *, in_sums: bool = True) -> Expr:
             forms.append(tidied(TR8(tidy.expand())))
         if below.has(sin):
             forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
-    apart = min(forms, key=lambda form: (length(form), str(form)))
+    apart = shortest(forms)
     product = factored(tidy) if size <= LARGEST else tidy
     return product if length(product) < length(apart) else apart  # a^2 - b^2 stays
 

@@ -25,6 +25,7 @@ from derive.algebra.expressions import (
     tensor,
     vector,
 )
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
@@ -247,7 +248,7 @@ def _without_angles(weight: Expr) -> Expr:
     )
     plain = plain.expand()
     term_by_term = tidied(weight).replace(lambda e: e.is_Add, tidied)
-    weight = min((weight, term_by_term), key=lambda form: form.count_ops())
+    weight = min((weight, term_by_term), key=length)
     return weight if plain.atoms(sin, cos) else plain
 
 

@@ -27,6 +27,7 @@ from derive.algebra.expressions import (
     tensor,
     vector,
 )
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.equimomental import squared_distance, summed, tensor_at
@@ -251,7 +252,7 @@ def _shorter_sums(matrix: Any) -> ImmutableMatrix:
 
 def _shorter(entry: Expr) -> Expr:
     plain = explicit(entry).expand()
-    return min((tidied(form) for form in (plain, TR8(plain).expand())), key=lambda f: (f.count_ops(), str(f)))
+    return min((tidied(form) for form in (plain, TR8(plain).expand())), key=lambda f: (length(f), str(f)))
 
 
 def perpendicular_axes(

@@ -9,6 +9,7 @@ from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, sin
 
 from derive.algebra.collect import by_terms
 from derive.algebra.expressions import TIME, Factors, Partial, PoissonBracket, Terms, bound, explicit, rate
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
@@ -133,7 +134,7 @@ def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, 
 def _written(value: Expr) -> Expr:
     value = explicit(value)
     forms = [tidied(value), by_terms(value.expand())]
-    return min(forms, key=lambda form: int(form.count_ops()))
+    return min(forms, key=length)
 
 
 def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:

@@ -24,6 +24,7 @@ from derive.algebra.expressions import (
     scalar,
     stand_in,
 )
+from derive.algebra.length import length
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
@@ -159,7 +160,7 @@ def weights_of(system: System) -> set[Symbol]:
 
 
 def _factored(component: Expr) -> Expr:
-    return min((component, factor(component)), key=lambda form: int(form.count_ops()))
+    return min((component, factor(component)), key=length)
 
 
 def _turnings(system: System) -> list[Turning]:
@@ -227,7 +228,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
         moved_on = [HALF * mover.mass * square.value for mover, square in zip(moved, speeds, strict=True)]
         turned = [turning.written_out() for turning in turnings]
         whole = Add(*(term for term in (*moved_on, *turned) if term != 0), evaluate=False)
-        return min((gathered, whole), key=lambda form: int(form.count_ops()))
+        return min((gathered, whole), key=length)
 
     return establish(
         "systems.kinetic_energy",
@@ -252,7 +253,7 @@ def _behind(system: System) -> list[Quantity]:
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Term by term, or multiplied out where terms of several bodies then come together, -(M + m) g l cos(theta)."""
     forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
-    shortest = min(forms, key=lambda form: int(form.count_ops()))
+    shortest = min(forms, key=length)
     return Add(*(spread(term) for term in Add.make_args(shortest)))
 
 

@@ -13,6 +13,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, factor
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.mechanics.systems.constraint import Kept
 from derive.mechanics.systems.coordinates import by_functions_of_time
@@ -73,7 +74,7 @@ def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[s
     kinetic = of.needed(Energies).kinetic.value
     by_parts = part_of_degree(kinetic, rates, 1) + 2 * part_of_degree(kinetic, rates, 0)
     forms = [excess, by_parts, *(factor(each) for each in (excess, by_parts) if not each.has(*rates))]
-    return {"excess": (min(forms, key=lambda form: int(form.count_ops())), by_parts if excess != by_parts else excess)}
+    return {"excess": (min(forms, key=length), by_parts if excess != by_parts else excess)}
 
 
 def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_function") -> Quantity:

@@ -14,6 +14,7 @@ from sympy import Dummy, Expr, Matrix, Pow, Symbol, cancel, diff, factor, solve,
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import bound, explicit
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 
 MOST_OPERATIONS = 300  # of the one equation that is solved
@@ -72,12 +73,12 @@ def roots_together(value: Expr) -> Expr:
 
     def in_one(base: Expr, exponent: Expr) -> Expr:
         whole = together(roots_together(base))
-        above, below = min((whole, cancel(whole)), key=lambda form: int(form.count_ops())).as_numer_denom()
-        above, below = (min((part, factor(part)), key=lambda form: int(form.count_ops())) for part in (above, below))
+        above, below = min((whole, cancel(whole)), key=length).as_numer_denom()
+        above, below = (min((part, factor(part)), key=length) for part in (above, below))
         return Pow(above, exponent) / Pow(below, exponent)
 
     is_root = lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer  # noqa: E731
     if not value.has(Pow):
         return value
     rooted = value.replace(is_root, lambda e: in_one(e.base, e.exp))
-    return min((tidied(rooted), rooted, value), key=lambda form: int(form.count_ops()))
+    return min((tidied(rooted), rooted, value), key=length)

@@ -13,6 +13,7 @@ from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.length import length
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
@@ -164,7 +165,7 @@ def equation_of_motion(
     )
     if found and of.fact(Varied) is not None:
         terms = explicit(found[2].value) - explicit(found[0].value)
-        gathered = min((gathered, terms), key=lambda form: int(form.count_ops()))
+        gathered = min((gathered, terms), key=length)
     alone = len(coordinates_of(of)) == 1  # of several, what is divided out would spoil the symmetry of the whole
     left = _without_common_factor(gathered, moving) if alone else gathered
 
@@ -205,7 +206,7 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     common = Mul(*(f for f in constant if not f.is_number))
     divided = [part for term in terms for part in Add.make_args(_divided(term, common))]
     forms = [Add(*each, evaluate=False) for each in (_in_whole_numbers(divided), divided)]
-    return min((*forms, left), key=lambda form: int(form.count_ops()))
+    return min((*forms, left), key=length)
 
 
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:

@@ -35,6 +35,7 @@ from derive.algebra.collect import by_rates, spread, with_weights_in_front
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Partial, Terms, bound, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, coordinate, required
@@ -343,7 +344,7 @@ def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
 
 
 def _shortest(forms: Sequence[Expr]) -> Expr:
-    return min(forms, key=lambda form: int(form.count_ops()))
+    return min(forms, key=length)
 
 
 def beside_potential(

@@ -9,6 +9,7 @@ from sympy.matrices import ImmutableMatrix
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.expressions import TimeRate, column, explicit, scaled, vector
+from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import XYZ, PlacedBody, after
@@ -87,7 +88,7 @@ def by_squares(value: Expr) -> Expr:
     above, below = value.as_numer_denom()
     uppers, lowers = (_factored_by_squares(part.expand()) for part in (above, below))
     forms = [upper / lower for upper in uppers for lower in lowers]
-    return min((value, *forms), key=lambda form: (int(form.count_ops()) + _minuses_below(form), len(form.atoms(Add))))
+    return min((value, *forms), key=lambda form: (length(form) + _minuses_below(form), len(form.atoms(Add))))
 
 
 def _factored_by_squares(value: Expr) -> list[Expr]:
