@@ -58,6 +58,8 @@ from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # times as many points are drawn where nothing has a meaning at most of them
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
+FEWEST = 8  # points at which both sides have values, or nothing is believed
+UNTOLD = "undefined wherever it was tried"
 LETTERS = 6  # by which slopes are compared
 UNDEFINED = (nan, zoo, oo, -oo)
 
@@ -165,8 +167,8 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
         if not sample.agree:
             return _refutation(sample)
         seen += 1
-    if seen == 0:
-        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    if seen < FEWEST and letters_of(difference) or not seen:
+        return Verdict(Grade.REFUTED, f"of all points that were tried {seen} tell" if seen else UNTOLD)
     if not letters_of(difference):
         # No letters to vary: one number, computed to many digits, is still only a sample.
         return Verdict(Grade.SAMPLED, f"to {DIGITS} digits")
