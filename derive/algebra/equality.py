@@ -20,6 +20,7 @@ from itertools import islice
 from typing import Any
 
 from sympy import (
+    Abs,
     Basic,
     Expr,
     Float,
@@ -31,6 +32,7 @@ from sympy import (
     cancel,
     nan,
     oo,
+    sign,
     sin,
     together,
     zoo,
@@ -46,6 +48,7 @@ from derive.algebra.samples import (
     DIGITS,
     NoNumber,
     Sample,
+    SamplePoint,
     Undefined,
     compared_at,
     letters_of,
@@ -58,6 +61,7 @@ from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # times as many points are drawn where nothing has a meaning at most of them
 FIRST, POINTS = 2, 26  # points before an exact decision is tried, and where none was found
+TURNS = 400  # points among which a side is sought that none has been on
 FEWEST = 8  # points at which both sides have values, or nothing is believed
 UNTOLD = "undefined wherever it was tried"
 LETTERS = 6  # by which slopes are compared
@@ -162,17 +166,20 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
     difference = left - right
     if vanishes(difference):
         return Verdict(Grade.PROVED, "polynomial normal form")
-    seen = 0
+    seen: list[SamplePoint] = []
     for sample in _samples(left, right, POINTS, thoroughly=True):
         if not sample.agree:
             return _refutation(sample)
-        seen += 1
-    if seen < FEWEST and letters_of(difference) or not seen:
-        return Verdict(Grade.REFUTED, f"of all points that were tried {seen} tell" if seen else UNTOLD)
+        seen.append(sample.point)
+    apart = _apart_where_signs_turn(left, right, seen)
+    if apart is not None:
+        return _refutation(apart)
+    if len(seen) < FEWEST and letters_of(difference) or not seen:
+        return Verdict(Grade.REFUTED, f"of all points that were tried {len(seen)} tell" if seen else UNTOLD)
     if not letters_of(difference):
         # No letters to vary: one number, computed to many digits, is still only a sample.
         return Verdict(Grade.SAMPLED, f"to {DIGITS} digits")
-    return Verdict(Grade.SAMPLED, f"{seen} points to {DIGITS} digits")
+    return Verdict(Grade.SAMPLED, f"{len(seen)} points to {DIGITS} digits")
 
 
 def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
@@ -214,6 +221,33 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
             return
     if not found:
         yield from beside[:count]
+
+
+def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
+    """A point at which they differ, on the side of an absolute value or a sign on which none of the others was."""
+    letters = letters_of(left) | letters_of(right)
+    for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
+        sides = {side for point in seen if (side := _side(inside, point)) is not None}
+        drawn = points(letters, seed_of(left, right, inside)) if len(sides) == 1 else iter(())
+        for point in islice(drawn, TURNS):
+            if _side(inside, point) in {None, *sides} or not has_meaning(point):
+                continue
+            try:
+                sample = compared_at(left, right, point)
+            except (Undefined, NoNumber):
+                continue
+            if not sample.agree and not _is_imaginary(sample):
+                return sample
+    return None
+
+
+def _side(inside: Expr, point: SamplePoint) -> bool | None:
+    """Whether it is positive there; nothing where it is neither that nor negative."""
+    try:
+        value = value_at(inside, point)
+    except (Undefined, NoNumber):
+        return None
+    return bool(value > 0) if value.is_real and value != 0 else None
 
 
 def _is_imaginary(sample: Sample) -> bool:

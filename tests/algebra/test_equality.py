@@ -556,3 +556,16 @@ def test_what_is_imaginary_everywhere_is_compared_there() -> None:
     g, l = symbols("g l", positive=True)
     assert equal(sqrt(-g / l), I * sqrt(g) / sqrt(l))
     assert not equal(sqrt(-g / l), -I * sqrt(g / l))
+
+
+def test_a_size_is_sampled_on_both_sides_of_its_zero() -> None:
+    """Where y is positive and k below -3, few points are."""
+    y, k = symbols("y k", real=True)
+    power = symbols("a", positive=True)
+    assert equal(y**power / Abs(k + 3), y**power / (k + 3)).grade is Grade.REFUTED
+
+
+def test_what_has_values_at_hardly_any_point_is_not_sampled() -> None:
+    w = symbols("w", negative=True)
+    k, p = symbols("k p", real=True)
+    assert equal(w**k * Abs(p), w**k * p).grade is Grade.REFUTED
