@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping as Table
 from collections.abc import Sequence as List
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from derive.course.prose import PROSE, Prose
 from derive.course.schema import (
     FIGURES,
     TEXT,
+    YES_OR_NO,
     Reader,
     Record,
     key,
@@ -109,6 +110,9 @@ class Question(Record):
         required=True,
     )
     points: Fraction | None = key("points of this part", POINTS)
+    extra: bool = key(
+        "`true` where the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
+    )
     forms: Table[str | None, AnswerForm] = key(
         "unit and figures of its numbers, for all answers or by the answer's key",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
@@ -128,6 +132,10 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
         if part and isinstance(answer, Word) and answer not in part.answers:
             help_line = did_you_mean(answer, part.answers)
             faults.error("unknown-key", f"this part has no answer `{answer}`", answer.place, help=help_line)
+    if part and part.extra and part.points is not None:
+        message = "a part that is `extra` carries no points"
+        faults.error("points", message, part.places["points"], help="leave `points` out, or `extra`")
+        part = replace(part, points=None)
     return part if part and part.ask else None
 
 
@@ -142,7 +150,7 @@ def points_in_all(
     total = sum(counted, Fraction(0))
     if stated is None or not parts:
         return total if counted else None
-    complete = len(counted) == len(parts)
+    complete = len(counted) == sum(not part.extra for part in parts)
     if total > stated or (complete and total < stated):
         added = f"those of the parts {'' if complete else 'already '}add up to {points_text(total)}"
         faults.error("points", f"`points` is {points_text(stated)}, but {added}", place)

@@ -63,6 +63,7 @@ class Problem:
     script_path: str
     places: Table[str, Place] = field(repr=False)
     described: Described | None = None
+    strategy: Prose | None = None
     note: Prose | None = None
     reference: str = ""
 
@@ -111,8 +112,8 @@ class Problem:
         """All prose that is printed."""
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
         captions = (placement.caption for placement in self.drawings if placement.caption)
-        note = (self.note,) if self.note else ()
-        return (self.title, self.statement, *(part.ask for part in self.parts), *note, *wording, *captions)
+        around = (prose for prose in (self.strategy, self.note) if prose)
+        return (self.title, self.statement, *(part.ask for part in self.parts), *around, *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
         """Where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
@@ -149,6 +150,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         script=script,
         script_path=script_path,
         places=written.places,
+        strategy=written.strategy,
         note=written.note,
         reference=as_text(written.reference),
     )

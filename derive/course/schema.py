@@ -117,7 +117,15 @@ def _figures(node: Tree, name: str, faults: Faults) -> int | None:
     return None
 
 
+def _yes_or_no(node: Tree, name: str, faults: Faults) -> bool | None:
+    if isinstance(node, Scalar) and node.text in ("true", "false"):
+        return node.text == "true"
+    wrong_type(faults, f"`{name}`", "true or false", node)
+    return None
+
+
 TEXT = Reader({"type": "string"}, _text)
+YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)
 FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _figures)
 
 

@@ -141,6 +141,7 @@ class ProblemKeys(Record):
     )
     values: dict[Word, Tree] = key("numbers for declared letters, put in at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
+    strategy: Prose | None = key("one or two sentences at the head of the solution: what it rests on, and why", PROSE)
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",

@@ -145,6 +145,7 @@ class PartPage:
     ask: tuple[Inline, ...]
     points: Fraction | None
     blocks: tuple[Block, ...]
+    extra: bool = False
 
 
 @dataclass(frozen=True)
@@ -165,6 +166,7 @@ class Document:
     shown_in: Mapping[str, str]  # step -> label of the part that shows it
     dimensions: Mapping[Any, Dimension | None] = field(repr=False)
     warnings: tuple[Complaint, ...] = ()
+    strategy: tuple[Inline, ...] = ()
 
 
 def document_of(
@@ -226,7 +228,7 @@ class _Writer:
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
-        note = self._told(problem.note.pieces) if problem.note else ()
+        strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
         checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
         self.faults += unknown_keys(problem, self.derivation, self.words)
@@ -235,6 +237,7 @@ class _Writer:
             title=title,
             points=problem.points,
             statement=statement,
+            strategy=strategy,
             illustrations=tuple(illustrations),
             parts=parts,
             note=note,
@@ -304,9 +307,8 @@ class _Writer:
             self._append(blocks, value, goes_on=i > 0)
         blocks.append(Answers(tuple(self._answer(step) for step in answers)))
         own = [illustration for illustration in illustrations if illustration.at == label]
-        return PartPage(
-            label, self._told(part.ask.pieces), part.points, _illustrated(_punctuated(blocks), own, ends, steps)
-        )
+        placed = _illustrated(_punctuated(blocks), own, ends, steps)
+        return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
 
     def _found_before(self, part: Question) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""

@@ -119,8 +119,10 @@ class Phrases:
     def route(self, step: Step, claim: str) -> str:
         return self.routes.get(step.rule, {}).get(claim, "")
 
-    def worth(self, points: Any) -> str:
-        """`1 point`, `2.5 points`; nothing if there are none."""
+    def worth(self, points: Any, extra: bool = False) -> str:
+        """`1 point`, `2.5 points`; nothing if there are none, but a word for what is asked beyond the homework."""
+        if extra:
+            return str(self.labels["extra"])
         one, many = self.labels["points"]
         return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
 

@@ -63,7 +63,7 @@ def test_points_are_told_as_they_are_written(points: Fraction, text: str) -> Non
 
 def test_points_of_some_parts_may_be_less_than_the_total_and_not_more() -> None:
     faults = Faults()
-    some: list[Any] = [SimpleNamespace(points=Fraction(4)), SimpleNamespace(points=None)]
+    some: list[Any] = [SimpleNamespace(points=points, extra=False) for points in (Fraction(4), None)]
     assert points_in_all(Fraction(10), None, some, faults) == 10
     assert points_in_all(None, None, some, faults) == 4
     assert points_in_all(None, None, some[1:], faults) is None
@@ -71,3 +71,20 @@ def test_points_of_some_parts_may_be_less_than_the_total_and_not_more() -> None:
     points_in_all(Fraction(3), None, some, faults)
     with pytest.raises(Rejected, match="those of the parts already add up to 4"):
         faults.stop()
+
+
+def test_what_is_asked_beyond_the_homework_carries_no_points(tmp_path: Path) -> None:
+    more = edited(
+        ("    form: {unit: degree, figures: 4}", "    extra: true"), ("answer: [", "points: 7\n    answer: [")
+    )
+    problem = load_problem(at(tmp_path, more), "hw9/block")
+    assert [part.extra for part in problem.parts] == [False, True, False]
+    assert problem.points == 10, "the points of the other parts are all there are"
+    assert faults(tmp_path, more.replace("points: 7", "points: 6")) == ["3 points"]
+
+
+@pytest.mark.parametrize(
+    ("instead", "told"), [("extra: true\n    points: 2", "23 points"), ("extra: often", "22 wrong-type")]
+)
+def test_an_extra_part_with_points_is_refused_at_the_points(instead: str, told: str, tmp_path: Path) -> None:
+    assert faults(tmp_path, edited(("form: {unit: degree, figures: 4}", instead))) == [told]

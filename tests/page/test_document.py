@@ -13,7 +13,7 @@ from derive.building.solved import Solved
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint
 from derive.page.document import Answers, Display, Document, Equations, Illustration, Paragraph, document_of
-from derive.page.wording import Text, phrases
+from derive.page.wording import Math, Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, solved_once
 
@@ -113,6 +113,14 @@ def test_a_name_that_nothing_has_is_told_with_the_nearest_and_the_rest_is_writte
         ("undefined-name", "did you mean `spin`?"),
     ]
     assert document.numbers == page(block).numbers
+
+
+def test_the_strategy_stands_before_the_parts_and_may_mention_what_comes(block: Block, tmp_path: Path) -> None:
+    document = page(in_other_words(block, tmp_path, "strategy: Without <<torque>> the axle would wobble."))
+    before, torque, after = document.strategy
+    assert (before, after) == (Text("Without "), Text(" the axle would wobble."))
+    assert isinstance(torque, Math)
+    assert page(block).strategy == ()
 
 
 def test_a_drawing_stands_behind_the_step_that_completes_it(block: Block, tmp_path: Path) -> None:

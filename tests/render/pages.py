@@ -48,6 +48,7 @@ def page(*blocks: Any, **changed: Any) -> Document:
     """A page with one part, of these blocks."""
     part = PartPage("a", (Text("Find "), Math(T), Text(" as in "), Ref("energy")), Fraction(5, 2), blocks)
     known: dict[str, Any] = {
+        "strategy": (),
         "id": "hw9/one",
         "title": (Text("A block & its "), Math(T)),
         "points": Fraction(3),
@@ -70,5 +71,6 @@ WHOLE = page(
     display("mass", "energy", routes=("by halves",)),
     VECTORS,
     Answers((Answer("energy", T, 2 * M * a**2, numbers=(("approx", Integer(7)),), note=(Text("for both"),)),)),
+    strategy=(Text("Mind every step."),),
     note=(Text("Mind the gap."),),
 )

@@ -51,7 +51,19 @@ def test_every_number_is_an_anchor_and_every_reference_leads_to_one() -> None:
 def test_the_sheet_has_the_questions_and_nothing_that_is_derived() -> None:
     sheet = str(fragments(WHOLE).sheet)
     assert "Find $T$ as in part (a)" in sheet, "an equation is referred to by the part that asks for it"
-    assert not re.search(r"hyperlink|align|answer|halves|gap", sheet)
+    assert not re.search(r"hyperlink|align|answer|halves|gap|every step", sheet)
+
+
+def test_the_strategy_stands_between_the_statement_and_the_first_part() -> None:
+    tex = solution(WHOLE)
+    assert tex.index(r"\end{statement}") < tex.index(r"\strategy{Strategy.}{Mind every step.}") < tex.index(r"\ask{a}")
+    assert r"\strategy" not in solution(page())
+
+
+def test_a_part_beyond_the_homework_is_marked_on_the_page_and_on_the_sheet() -> None:
+    extra = replace(page(), parts=(replace(page().parts[0], points=None, extra=True),))
+    assert r"}{extra}" in solution(extra) and r"}{extra}" in str(fragments(extra).sheet)
+    assert "extra" not in solution(page())
 
 
 def test_a_page_does_not_end_within_a_step() -> None:

@@ -22,7 +22,8 @@ def test_everything_on_a_page_stands_in_its_order() -> None:
     text = page_text(WHOLE, WORDS, NOTATION)
     at = 0
     for piece in (
-        "A block & its T", "See Problem 2 first.", "[figure: Some axes 50% of a]", "(a) Find T as in (2)", "\nSo\n",
+        "A block & its T", "See Problem 2 first.", "[figure: Some axes 50% of a]", "\nStrategy. Mind every step.\n",
+        "(a) Find T as in (2)", "\nSo\n",
         "(1)", "[from (1)]", "[tidied]", "(2)", "[figure: Two vectors]", "Figure 1. Both & true.",
         "│ T = 2M a² ≈ 7   for both │", "Mind the gap.", "Nothing.",
     ):  # fmt: skip
@@ -63,6 +64,12 @@ def test_a_box_is_as_wide_as_its_widest_line() -> None:
 def test_points_are_told_only_where_there_are_any(points: Fraction | None) -> None:
     title = shown(page(points=points))[0]
     assert title.endswith("]") is (points is not None)
+
+
+def test_a_part_beyond_the_homework_is_marked_where_points_stand() -> None:
+    extra = replace(page(), parts=(replace(page().parts[0], points=None, extra=True),))
+    heading = next(line for line in shown(extra) if line.startswith("(a)"))
+    assert heading.endswith("[extra]") and columns(heading) == PAGE_COLUMNS
 
 
 def test_a_drawing_without_a_number_has_no_caption() -> None:

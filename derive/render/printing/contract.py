@@ -47,9 +47,15 @@ def contract(solution: Solution) -> str:
         "problem": problem.id,
         "title": inline_text(document.title, notation),
         "points": _points(problem.points),
+        "strategy": inline_text(document.strategy, notation, document.numbers),
         "given": {given.name: _given(given) for given in problem.givens},
         "parts": [
-            {"label": page.label, "points": _points(page.points), "answers": [step.key for step in steps]}
+            {
+                "label": page.label,
+                "points": _points(page.points),
+                "extra": page.extra,
+                "answers": [step.key for step in steps],
+            }
             for page, steps in zip(document.parts, answered, strict=True)
         ],
         "assumed": [sympy_text(condition) for condition in derivation.assumed],

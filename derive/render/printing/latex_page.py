@@ -77,8 +77,8 @@ class _Page:
     def statement(self) -> Tex:
         return self.inline(self.document.statement)
 
-    def points(self, points: Any) -> Tex:
-        return Tex(escaped(self.words.worth(points)))
+    def worth(self, part: PartPage) -> Tex:
+        return Tex(escaped(self.words.worth(part.points, part.extra)))
 
     def parts(self) -> Sequence[PartPage]:
         return self.document.parts

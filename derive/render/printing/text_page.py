@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from derive.algebra.dimensions import exponents
 from derive.course.placement import STATEMENT
@@ -50,9 +49,12 @@ class _Page:
         self.document, self.words, self.notation = document, words, notation
 
     def text(self) -> str:
-        title = self._with_points(self._inline(self.document.title), self.document.points)
+        title = self._with_worth(self._inline(self.document.title), self.words.worth(self.document.points))
         blocks = [title, "=" * PAGE_COLUMNS, self._wrapped(self.document.statement)]
         blocks += [line for i in self.document.illustrations if i.at == STATEMENT for line in ("", self._drawing(i))]
+        if self.document.strategy:
+            heading = Text(self.words.labels["strategy"] + " ")
+            blocks += ["", self._wrapped((heading, *self.document.strategy))]
         for part in self.document.parts:
             blocks += ["", self._part(part)]
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
@@ -61,7 +63,9 @@ class _Page:
         return "\n".join(blocks) + "\n"
 
     def _part(self, part: PartPage) -> str:
-        heading = self._with_points(f"({part.label}) {self._inline(part.ask)}", part.points)
+        heading = self._with_worth(
+            f"({part.label}) {self._inline(part.ask)}", self.words.worth(part.points, part.extra)
+        )
         blocks = [heading, "-" * min(columns(heading), PAGE_COLUMNS)]
         for block in part.blocks:
             match block:
@@ -83,10 +87,10 @@ class _Page:
             return shown
         return shown + "\n" + self._wrapped((Text(f"{figure} {illustration.number}. "), *illustration.caption))
 
-    def _with_points(self, text: str, points: Any) -> str:
-        if points is None:
+    def _with_worth(self, text: str, worth: str) -> str:
+        if not worth:
             return text
-        worth = f"[{self.words.worth(points)}]"
+        worth = f"[{worth}]"
         if columns(text) + len(worth) + 2 > PAGE_COLUMNS:
             return textwrap.fill(text, PAGE_COLUMNS) + "\n" + worth.rjust(PAGE_COLUMNS)
         return text + " " * (PAGE_COLUMNS - columns(text) - len(worth)) + worth
