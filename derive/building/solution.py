@@ -147,7 +147,7 @@ def derived(
     steps = [quantity.step for quantity in known.values()]
     asked = [answering(part.answers, steps, groups) for part in problem.parts]
     _check_answers(known, asked)
-    if clashes := letter_clashes(problem, known):
+    if clashes := letter_clashes(problem, known, run.coordinates):
         raise Rejected(clashes)
     derivation = derivation_of(asked, known, run, groups)
     values: dict[str, Step] = {}

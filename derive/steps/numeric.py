@@ -143,16 +143,20 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
 
 
 def _under_one_root(value: Expr) -> Expr:
-    """sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), into which numbers go once."""
+    """sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), into which numbers go once; 2^(1/4) as sqrt(2) under the root."""
     roots = [f.as_base_exp() for f in Mul.make_args(value)]
-    above = [base for base, power in roots if power == HALF]
+    above = [base ** (2 * power) for base, power in roots if power == HALF or _is_fourth_root(base, power)]
     below = [base for base, power in roots if power == -HALF]
     if len(above) + len(below) < 2:
         return value
-    others = [base**power for base, power in roots if abs(power) != HALF]
+    others = [base**power for base, power in roots if abs(power) != HALF and not _is_fourth_root(base, power)]
     over = Factors(*above) if above else Integer(1)
     inside = Ratio(over, Factors(*below)) if below else over
     return Factors(*others, Root(inside)) if others else Root(inside)
+
+
+def _is_fourth_root(base: Expr, power: Expr) -> bool:
+    return bool(base.is_Integer and power == HALF / 2)
 
 
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:

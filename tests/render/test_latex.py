@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from sympy import Symbol
 
 from derive.errors import Rejected
 from derive.render.notation.latex import TEX_FUNCTIONS, TEX_OPERATORS, escaped, latex, unit_latex, unprintable
@@ -20,6 +21,7 @@ from derive.render.notation.layout import (
     RootSign,
     Row,
 )
+from derive.render.notation.notation import Notation
 
 
 @pytest.mark.parametrize(
@@ -91,3 +93,9 @@ def test_what_the_fonts_do_not_have_is_told_by_its_place() -> None:
     assert unprintable("Ж") == 0
     with pytest.raises(Rejected, match="has a character that cannot be printed"):
         escaped("\u4e2d")
+
+
+def test_a_prime_stands_close_to_its_letter_and_can_be_squared() -> None:
+    moment = Symbol("J'_xx")
+    assert latex(Notation().layout(moment)) == "J'_{xx}"
+    assert latex(Notation().layout(moment**2)) == "{J'_{xx}}^{2}"

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 from sympy import Symbol
 
+from derive.building.solution import derived
 from derive.course.problem import load_problem, run_solve
-from derive.errors import Complaint
+from derive.errors import Complaint, Rejected
 from derive.render.notation.letters import as_printed, letter_clashes, letters_in_use
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.step import Quantity
@@ -122,3 +123,12 @@ def test_letters_of_the_problem_that_look_alike_are_told(block: Known, tmp_path:
 def test_what_is_compared_is_what_is_printed() -> None:
     assert as_printed(Symbol("r_Cz")) == as_printed(Symbol("r_C_z"))
     assert as_printed(Symbol("omega_x")) != as_printed(Symbol("omega_y"))
+
+
+def test_a_coordinate_is_no_variable_of_integration(tmp_path: Path) -> None:
+    """A body that is described before the coordinates are named may take one of their letters."""
+    named = "    phi, theta, psi = euler_angles()\n"
+    late = {named: "", "    axes = space": f"{named}    axes = space"}
+    problem = load_problem(course_in(tmp_path, problem="top", script=late), "hw9/top")
+    with pytest.raises(Rejected, match="`theta` is a coordinate, but the step `disc_moment_z` integrates over"):
+        derived(problem)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Integer, Matrix, Mul, Rational, pi, sqrt, symbols
+from sympy import Expr, Integer, Matrix, Mul, Rational, Symbol, pi, sin, sqrt, symbols
 
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import Root, explicit
@@ -22,6 +22,7 @@ from derive.render.notation.products import (
     root_cancelled,
     roots_together,
     side_by_side,
+    under_one_root,
     with_content_apart,
 )
 from derive.render.notation.text import plain
@@ -93,6 +94,41 @@ def test_a_common_factor_stands_before_a_vector_and_changes_nothing() -> None:
 )
 def test_a_root_is_cancelled_where_that_is_shorter(above: list, below: list, shown: tuple) -> None:
     assert root_cancelled(above, below) == shown
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (7 * sqrt(2779) / 397, "7√(7/397)"),
+        (2 * sqrt(30) / 15, "2√(2/15)"),
+        (-sqrt(6) / 3, "-√(2/3)"),
+        (sqrt(42) / 28, "√42/28"),
+        (sqrt(10) / 4, "√10/4"),
+        (sqrt(3) / 2, "√3/2"),
+        (sqrt(2) / 2, "1/√2"),
+        (5 * sqrt(3) / 6, "5/(2√3)"),
+        (sqrt(6), "√6"),
+    ],
+)
+def test_a_root_of_a_fraction_is_written_where_it_is_shorter(number: Expr, text: str) -> None:
+    assert plain(Notation().layout(number)) == text
+    factors = under_one_root(number)
+    assert not factors or explicit(Mul(*factors)) == abs(number)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (a / 2, "a/2"),
+        (a * sin(b) / 2, "a/2 sin b"),
+        (M * a / 2, "1/2 M a"),
+        (a**2 / 2, "1/2 a²"),
+        (3 * a / 2, "3/2 a"),
+        (Symbol("x_dot") / 2, "1/2 x\u0307"),
+    ],
+)
+def test_a_letter_that_is_halved_is_a_fraction(value: Expr, text: str) -> None:
+    assert plain(Notation().layout(value)) == text
 
 
 def test_numbers_are_one_fraction_and_roots_behind_it() -> None:

@@ -83,9 +83,9 @@ class _Printer:
             case Fraction(above, below):
                 return self._fraction(above, below)
             case Raised(base, Fraction(Digits(above), Digits(below))):
-                return f"{self.show(base)}^{{{above}/{below}}}"
+                return f"{self._raised(base)}^{{{above}/{below}}}"
             case Raised(base, power):
-                return f"{self.show(base)}^{{{self.show(power)}}}"
+                return f"{self._raised(base)}^{{{self.show(power)}}}"
             case Lowered(base, word):
                 subscript = word if len(word) == 1 else rf"\mathrm{{{word}}}"
                 return f"{self.show(base)}_{{{subscript}}}"
@@ -112,6 +112,11 @@ class _Printer:
             case Array(rows):
                 return rf"{{\begin{{pmatrix}} {self._rows(rows)} \end{{pmatrix}}}}"
         raise TypeError(f"no LaTeX for {type(layout).__name__}")
+
+    def _raised(self, base: Layout) -> str:
+        """A name with a prime in braces: TeX takes the prime itself for an exponent."""
+        shown = self.show(base)
+        return f"{{{shown}}}" if isinstance(base, Name) and base.primes else shown
 
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
         """Fractions are small in a matrix and have their full size in a column."""
@@ -192,7 +197,7 @@ def _name(name: Name) -> str:
         letter = rf"\mathbf{{{letter}}}"
     if name.dots:
         letter = rf"\{'d' * name.dots}ot{{{letter}}}"
-    letter = f"{{{letter}{name.primes}}}" if name.primes else letter  # in braces, so that it can be squared
+    letter = f"{letter}{name.primes}"
     return f"{letter}_{{{_subscript(name)}}}" if name.subscript else letter
 
 

@@ -6,7 +6,7 @@ integration. What counts is what is printed: `r_Cz` looks just like the componen
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 from sympy import Basic, Integral, MatrixBase, MatrixSymbol, Symbol
@@ -22,8 +22,13 @@ ANOTHER = "use another letter"
 _NOTATION = Notation()
 
 
-def letter_clashes(problem: Problem, known: Mapping[str, Quantity]) -> list[Complaint]:
-    """A complaint for each letter in use that stands, as printed, for something else too; one for each letter."""
+def letter_clashes(
+    problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol] = ()
+) -> list[Complaint]:
+    """A complaint for each letter in use that stands, as printed, for something else too; one for each letter.
+
+    `coordinates` are those that the script has named: a body that was there before may have taken such a letter.
+    """
     used = letters_in_use(problem)
     looks = {as_printed(letter): letter for letter in used}
     faults: dict[Symbol, Complaint] = {}
@@ -37,7 +42,27 @@ def letter_clashes(problem: Problem, known: Mapping[str, Quantity]) -> list[Comp
             mine = looks.get(as_printed(name))
             if mine is not None and mine not in faults:
                 faults[mine] = _clash(problem, mine, name, what)
-    return list(faults.values())
+    return [*faults.values(), *_integrated_coordinates(problem, known, coordinates)]
+
+
+def _integrated_coordinates(
+    problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol]
+) -> list[Complaint]:
+    """Coordinates over which a step integrates as over a variable of its own."""
+    named = {as_printed(q): q for q in coordinates}
+    own = [
+        (q, quantity.key)
+        for quantity in known.values()
+        for form in quantity.step.chain
+        for variable in _integrated(form.expr)
+        if (q := named.get(as_printed(variable))) is not None and not quantity.coordinates
+    ]
+    message = "`{}` is a coordinate, but the step `{}` integrates over a variable of that name"
+    place = problem.script.returns if problem.script else None
+    help_line = "name the coordinates before the bodies, which then take other letters"
+    return [
+        Complaint("letter-clash", message.format(q.name, key), place, help=help_line) for q, key in dict(own).items()
+    ]
 
 
 def letters_in_use(problem: Problem) -> list[Symbol]:

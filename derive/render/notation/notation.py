@@ -82,6 +82,7 @@ from derive.render.notation.products import (
     side_by_side,
     sign_and_size,
     times_ten_to,
+    under_one_root,
 )
 
 PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
@@ -156,6 +157,8 @@ class Notation:
 
     def _product(self, expr: Expr) -> Layout:
         above, below = fraction(gathered(expr), exact=expr.has(exp))  # e^(-t) stays above
+        if expr.is_number and (rooted := under_one_root(expr)):
+            return self._factors(rooted)
         number_above, letters_above = number_and_letters(above)
         number_below, letters_below = number_and_letters(below)
         number_above, number_below = root_cancelled(number_above, number_below)
@@ -171,10 +174,21 @@ class Notation:
             return self._factors([*number_above, *letters])
         if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
+        if not number_above and self._is_letter_before_functions(letters):
+            return self._factors_behind(Fraction(self.layout(letters[0]), self._factors(number_below)), letters[1:])
         number = Fraction(self._factors(number_above), self._factors(number_below))
         if len(letters) == 1:
             return row(number, self._as_factor(letters[0]))
         return row(number, within(self._factors(letters), Binding.OPEN)) if letters else number
+
+    def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
+        """a/2 and a/2 sin x, where a letter is alone or stands before functions; but 1/2 M a^2, and 1/2 x_dot."""
+        first, *others = (self.layout(letter) for letter in letters)
+        is_function = all(isinstance(other, Applied) for other in others)
+        return isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
+
+    def _factors_behind(self, first: Layout, others: list[Expr]) -> Layout:
+        return side_by_side([first, *(self._as_factor(other) for other in others)]) if others else first
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
         return sorted(factors, key=lambda f: rank_of_factor(f, self.known_dimensions.get))

@@ -136,6 +136,26 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
     return [*([Rational(left.p)] if left.p != 1 else []), *others], [*([Rational(left.q)] if left.q != 1 else []), root]
 
 
+def under_one_root(number: Expr) -> list[Expr]:
+    """Of 7 sqrt(2779)/397 the factors 7 and sqrt(7/397); none where the root of a fraction is no shorter."""
+    square = number**2
+    if number.is_Rational or not square.is_Rational or square.q == 1:
+        return []
+    times = Rational(*(Mul(*(Integer(p) ** (n // 2) for p, n in factorint(n).items())) for n in (square.p, square.q)))
+    inside = square / times**2
+    above, below = root_cancelled(*(number_and_letters(part)[0] for part in fraction(number)))
+    saved = _digits(*above, *below) - _digits(times, inside)
+    if 1 in (inside.p, inside.q) or saved < 0 or saved == 0 and times.q > 1:
+        return []
+    return [*([times] if times != 1 else []), ex.Root(inside)]
+
+
+def _digits(*numbers: Expr) -> int:
+    """How many digits rational numbers and their roots are written with; a 1 is left out."""
+    fractions = [number**2 if number.is_Pow else number for number in numbers]
+    return sum(len(str(n)) for number in fractions for n in (number.p, number.q) if n != 1)
+
+
 def with_content_apart(factor: Expr) -> tuple[Expr, ...]:
     """12 a^2 + 12 b^2 as 12 and a^2 + b^2; a sum with fractions in it was meant so."""
     if not isinstance(factor, Add):
