@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
-from sympy import preorder_traversal
+from sympy import Integral, preorder_traversal
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import LEAST_SURE_FIRST, Grade
@@ -381,7 +381,7 @@ class _Writer:
     def _line(self, step: Step, form: Form, before: str | None) -> ChainLine:
         stands_alone = before is None and not isinstance(form.expr, Relation)
         template = "" if stands_alone else self.words.reason(step, form.because, before or "")
-        reason = self._reason(step, template)
+        reason = self._reason(step, form, template)
         if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
             return ChainLine(None, _sign_before(form), form.expr.right, reason)
         if isinstance(form.expr, Relation):
@@ -394,7 +394,7 @@ class _Writer:
             presented=form.because == "result",
         )
 
-    def _reason(self, step: Step, template: str) -> tuple[Inline, ...]:
+    def _reason(self, step: Step, form: Form, template: str) -> tuple[Inline, ...]:
         if not template:
             return ()
         direct = [symbol for _, symbol in step.roles]
@@ -404,6 +404,8 @@ class _Writer:
         if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        inner = (whole for whole in form.expr.atoms(Integral) if not whole.function.has(Integral))
+        own |= {"variable": Math(whole.variables[0]) for whole in inner}
         references = {name: joined([Ref(key) for key in keys], self._and) for name, keys in found.items()}
         return filled(template, {**self.page_names, **own, **references})
 
