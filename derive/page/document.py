@@ -404,8 +404,8 @@ class _Writer:
         if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
-        inner = (whole for whole in form.expr.atoms(Integral) if not whole.function.has(Integral))
-        own |= {"variable": Math(whole.variables[0]) for whole in inner}
+        inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
+        own |= {"variable": Math(inner[0])} if inner else {}
         references = {name: joined([Ref(key) for key in keys], self._and) for name, keys in found.items()}
         return filled(template, {**self.page_names, **own, **references})
 
