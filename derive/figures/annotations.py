@@ -17,6 +17,8 @@ from derive.figures.space import NOUGHT, Spot, Vector, across, angle_of, directi
 PAST = 0.3  # how far axes go past a body, in terms of its size
 ASIDE = 12.0  # points between a body and its dimension line
 SHORT = 3  # operations in the words for a place
+ROUND = 10.0  # points: the least radius of an arrow round a direction
+STAND, CLEARANCE = 16.0, 8.0  # points: how high a stand is at least, and between a body and the ground under it
 
 
 @dataclass(frozen=True)
@@ -105,11 +107,13 @@ class AxisOfRotation(Mark):
 @dataclass(frozen=True)
 class LengthMark(_Between):
     """A dimension line between two points, moved aside in a direction, or to the left on paper where there is none, by
-    the length `clear` and a little more: by the same distance on paper whatever the scale. None for a length of zero.
+    the length `clear` and a little more: by the same distance on paper whatever the scale, and as many points `beyond`
+    it as the lines within take. None for a length of zero.
     """
 
     aside: Position | None
     clear: Any = 0
+    beyond: float = 0.0
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, end = (paper.numbers.vector(each) for each in self.ends)
@@ -118,14 +122,16 @@ class LengthMark(_Between):
         away = self._away(paper)
         clear = paper.numbers.of(self.clear) * paper.scale
 
-        def set_off(spot: Spot, share: float) -> Spot:
-            far = clear + share * ASIDE
-            return spot[0] + away[0] * far, spot[1] + away[1] * far
+        def set_off(spot: Spot, far: float) -> Spot:
+            return spot[0] + away[0] * (clear + far), spot[1] + away[1] * (clear + far)
 
-        spots = paper.spots(start, end)
-        extensions = [Stroke((set_off(spot, 0.2), set_off(spot, 1.25)), "thin") for spot in spots]
-        line = (set_off(spots[0], 1), set_off(spots[1], 1))
-        return [*extensions, Stroke(line, "measure", head=True, tail=True), Tag(self.label, midway(*line), away)]
+        spots, off = paper.spots(start, end), ASIDE + self.beyond
+        extensions = [Stroke((set_off(spot, 0.2 * ASIDE), set_off(spot, off + 0.25 * ASIDE)), "thin") for spot in spots]
+        line = (set_off(spots[0], off), set_off(spots[1], off))
+        (x, y), (u, v) = line
+        half = 0.4 * (u - x), 0.4 * (v - y)
+        tag = Tag(self.label, midway(*line), away, way=half)
+        return [*extensions, Stroke(line, "measure", head=True, tail=True), tag]
 
     def _away(self, paper: Paper) -> Spot:
         if self.aside is None:
@@ -173,6 +179,15 @@ class Arrow(Mark):
         if _vanishes(self.value):
             return "no_arrow", names
         return "arrow" if names["direction"] else "arrow_of_letters", names
+
+
+@dataclass(frozen=True)
+class Weight(Arrow):
+    """A weight where it acts: it is seen from everywhere, so that nothing needs to be turned for it."""
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
 
 
 @dataclass(frozen=True)
@@ -228,7 +243,8 @@ class Turn(Mark):
         centre, along = paper.numbers.vector(self.centre), unit(paper.numbers.vector(self.along))
         if not size_of(along):
             return []
-        return _circling(centre, along, paper.numbers.of(self.size) * paper.reach, self.label, paper)
+        radius = max(paper.numbers.of(self.size) * paper.reach, ROUND / paper.scale)
+        return _circling(centre, along, radius, self.label, paper)
 
     def in_words(self) -> InWords | None:
         return self._if_named("turn")
@@ -269,11 +285,12 @@ class PointMark(_Single):
 
 @dataclass(frozen=True)
 class Support(_Single):
-    """The fixed ground under a pivot: a pointed stand on hatched ground, as large as it must be to be seen."""
+    """The fixed ground under a pivot: a pointed stand on hatched ground, high enough that what turns about the pivot
+    clears the ground."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))
-        foot = y - 16
+        foot = min(y - STAND, *(low - CLEARANCE for _, low in paper.spots(*paper.fixed)), y)
         stand = Stroke(((x - 5, foot), (x, y), (x + 5, foot)), "edge")
         ground = Stroke(((x - 13, foot), (x + 13, foot)), "edge")
         hatches = [Stroke(((x + k, foot), (x + k - 4, foot - 4)), "thin") for k in range(-9, 14, 4)]

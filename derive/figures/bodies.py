@@ -24,7 +24,7 @@ __all__ = ["outline"]
 
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
-THIN = Rational(1, 20)  # half the thickness with which a disc is drawn, in terms of its radius
+THIN = Rational(1, 40)  # half the thickness with which a disc is drawn, in terms of its radius
 EDGE = 32  # steps along each side of the edge of a flat body
 CURVED = 48  # circles by which a curved side is drawn, close together where it may come to a tip
 
@@ -140,6 +140,11 @@ def _measures(body: RoundBody, point: Point) -> list[Mark]:
     return marks
 
 
+def widest_of(body: RoundBody) -> tuple[Expr, Expr]:
+    """The height at which it is widest, and the radius there."""
+    return max(_profile(body), key=lambda ring: in_units(ring[1]))
+
+
 def _is_told(length: Expr, body: Body) -> bool:
     """Whether it is one of the lengths that say how large a body is."""
     return length != 0 and any(is_zero(length - measure) for measure in body.measures.values())
@@ -189,9 +194,8 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool) -> list[Mark
 def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
     """The radius where it is widest, and the length, of a body that lies in any way."""
     along, origin = point.axes.T * Z, point.seen(ORIGIN)
-    profile = _profile(body)
-    low, high = profile[0][0], profile[-1][0]
-    wide, radius = max(profile, key=lambda ring: in_units(ring[1]))
+    low, high = body.ends
+    wide, radius = widest_of(body)
     marks: list[Mark] = []
     if _is_told(radius, body):
         middle = origin + wide * along

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from sympy import Add, Expr, Float, Integer, Rational, cos, pi, sqrt
 
 from derive.algebra.expressions import column
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Line, PointMark, Turn
-from derive.figures.marks import Mark, Position
+from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, link_from_fixed, moving_in
 from derive.figures.surfaces import Circle
-from derive.figures.surroundings import AngleBetween, WayMark
+from derive.figures.surroundings import UprightAngle, WayMark
 from derive.figures.turning import angle_marks
 from derive.mechanics.systems.no_slip import Rolling
 from derive.mechanics.systems.places import Location
@@ -25,15 +24,6 @@ from derive.steps.step import is_zero
 ACROSS = column(0, 0, 1)
 # Where a turn about an axis is drawn, and how long the axis is, in terms of the way to the centre of mass.
 ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
-
-
-@dataclass(frozen=True)
-class UprightAngle(AngleBetween):
-    """An angle in an upright plane that is drawn from its front: nothing needs to be turned for it to be seen."""
-
-    @property
-    def directions(self) -> tuple[Position, ...]:
-        return ()
 
 
 def contact_marks(system: System) -> Iterable[Mark]:

@@ -22,7 +22,8 @@ from derive.figures.rollers import roller_of, rolling_marks, way_marks
 from derive.figures.space import Spot, Vector, hull
 from derive.figures.surfaces import Circle, Polyhedron, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
-from derive.figures.turning import angle_marks, downwards, turns_about_axes
+from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, turns_about_axes
+from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.placed import PlacedBody
@@ -81,9 +82,11 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield PointMark(column_of(placed.at)) if in_space and _rolls(system, placed) else _holder(system, placed)
     pivoted = pivot_of(system, placed) if square == 0 and not in_space else None
     if square != 0 and not moving_in(system, square):
-        yield from angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+        angles = angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+        yield from (seen_upright(each) for each in angles) if follows_nodes(placed) else angles
         if in_space and not _rolls(system, placed):
-            yield from turns_about_axes(system, placed.turned, placed.at, _far_end(placed))
+            yield from turns_about_axes(system, placed, _far_end(placed))
+            yield from sizes_of_top(placed)
     elif pivoted is not None:
         yield from _pivoted(system, pivoted, outline)
     elif not in_space and roller is None and any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):

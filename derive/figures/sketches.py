@@ -16,7 +16,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, Axis, AxisOfRotation, PointMark
+from derive.figures.annotations import Axis, AxisOfRotation, PointMark, Weight
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -40,8 +40,9 @@ from derive.figures.rollers import carrying_marks, roller_with
 from derive.figures.scenes import drawing
 from derive.figures.sliding import Sliding
 from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
+from derive.figures.tops import stance_values
 from derive.figures.touching import Touching
-from derive.figures.turning import angle_marks, downwards, leaning_to_the_right, turning_marks
+from derive.figures.turning import angle_marks, downwards, turning_marks
 from derive.figures.velocities import Moment, blow_marks, is_of_the_moment, launch_marks, moment_drawn
 from derive.figures.wholeness import is_whole
 from derive.mechanics.systems.places import Location
@@ -126,7 +127,7 @@ class _Scene:
 
     @property
     def values(self) -> Mapping[Symbol, Any]:
-        found = dict(self.sliding.values) if self.sliding else leaning_to_the_right(self.system)
+        found = dict(self.sliding.values) if self.sliding else stance_values(self.system)
         found.update(self.pulley.values)
         for link in self.links.values():
             if (radius := kept_length(self.system, link.length)) is not None:
@@ -297,12 +298,10 @@ class _Scene:
     def _weights(self) -> Iterable[Mark]:
         down, gravity = downwards(self.rows), self.system.gravity
         for particle in self.system.particles:
-            yield Arrow(column_of(particle.at), down, HALF, False, label=particle.mass * gravity)
+            yield Weight(column_of(particle.at), down, HALF, False, label=particle.mass * gravity)
         for placed in self.system.bodies:
-            known = {placed.body.mass, *getattr(placed.body, "centre", ())}
-            keys = tuple(each.key for each in getattr(placed.body, "values", ()) if each.symbol in known)
             centre = column_of(with_its_shape(placed).centre)
-            yield Arrow(centre, down, HALF, False, label=placed.body.mass * gravity, keys=keys)
+            yield Weight(centre, down, HALF, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
         """Whether something is drawn there that is no end of a spring or a force."""

@@ -113,4 +113,4 @@ class Cavity(Mark):
 
 
 def _bounded(spots: tuple[Spot, ...], filled: bool = True) -> list[Piece]:
-    return [*([Patch(spots)] if filled else []), Stroke(spots, "edge")]
+    return [*([Patch(spots, "solid")] if filled else []), Stroke(spots, "edge")]

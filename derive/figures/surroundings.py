@@ -196,6 +196,15 @@ class AngleBetween(Mark):
 
 
 @dataclass(frozen=True)
+class UprightAngle(AngleBetween):
+    """An angle in an upright plane that is drawn from its front: nothing needs to be turned for it to be seen."""
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
+
+
+@dataclass(frozen=True)
 class DistanceMark(Mark):
     """A dimension line between two places, set off to a side, or away from the middle of the drawing."""
 

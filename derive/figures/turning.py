@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
-from derive.algebra.expressions import TIME, scalar
+from derive.algebra.expressions import TIME
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Axis, AxisOfRotation, Line, PointMark, Turn
+from derive.figures.annotations import Axis, AxisOfRotation, PointMark
 from derive.figures.elements import CLEAR
 from derive.figures.marks import Mark
 from derive.figures.parts import COIL, BarMark, ConnectionMark, ParticleMark
@@ -22,8 +21,6 @@ from derive.mechanics.systems.system import Particle, System
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
-LONGER, BESIDE, ROUND = Rational(5, 4), Rational(9, 8), Rational(1, 8)  # of the axis, where it turns, how wide
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
 HANGING = frozenset({"bob", "pendulum"})  # what particles are called that hang on a rod or a string
 THREADED = frozenset({"bead", "ring", "sleeve", "collar"})  # and those on a wire
@@ -133,35 +130,6 @@ def _components(system: System, link: Link) -> list[Mark]:
         return []
     start = column_of(link.start)
     return [Axis(start, start + Rational(4, 3) * q * way, label=q) for q, way in sorted(ways.items(), key=str)]
-
-
-def turns_about_axes(system: System, axes: Any, at: Location, end: Location) -> Iterable[Mark]:
-    """Of axes turned about the vertical, inclined and turned about themselves, the first turn and the last: arrows
-    round the vertical and round the axis, for the angles of precession and of spin."""
-    turns = [(i, angle) for i, angle in axes.turns if moving_in(system, 0 * angle + angle)]
-    if len(turns) < 2 or axes.turns[0][0] != 2:
-        return
-    start, far = column_of(at), column_of(end)
-    way = far - start
-    size = sqrt(tidied(Add(*(c**2 for c in way))))
-    up: Any = ImmutableDenseMatrix([0, 0, size])
-    if axes.turns[0] in turns and axes.turns[0][1].is_Symbol:
-        yield Axis(start, start + LONGER * up, label=scalar("Z"))
-        yield Turn(start + BESIDE * up, up, ROUND, label=axes.turns[0][1])
-    i, own = axes.turns[-1]
-    if (i, own) in turns and i == 2 and own.is_Symbol and len(axes.turns) > 1:
-        yield Line(far, start + LONGER * way, "construction")
-        yield Turn(start + BESIDE * way, way, ROUND, label=own)
-
-
-def leaning_to_the_right(system: System) -> dict[Symbol, Expr]:
-    """With which angle of precession a body is drawn that is inclined after it: so that its axis leans to the right."""
-    found: dict[Symbol, Expr] = {}
-    for placed in system.bodies:
-        turns: Any = getattr(placed.turned, "turns", ())
-        if len(turns) > 1 and turns[0][0] == 2 and turns[0][1].is_Symbol and turns[1][0] < 2:
-            found[turns[0][1]] = TO_THE_RIGHT + (pi / 2 if turns[1][0] == 0 else 0)
-    return found
 
 
 def _has_spring(system: System, link: Link) -> bool:

@@ -22,8 +22,7 @@ def solve(
 
     axes = space.turned(Z, phi).turned(X, theta).turned(Z, psi)
     spinning = System(top.held(axes, at="pivot"), weight(gravity))
-    sketch("top", spinning, values={theta: tilt})
-    sketch("weight", spinning, values={theta: tilt}, weights=True)
+    sketch("top", spinning, values={theta: tilt}, weights=True)
 
     L = lagrangian(spinning)
     S = conserved(L, psi, value=top.moments[2] * spin, key="constant_spin")  # psi is cyclic

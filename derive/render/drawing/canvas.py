@@ -63,7 +63,7 @@ PENS = {
     "frame": Pen(QUIET, 0.5),
     "tick": Pen(QUIET, 0.4),
 }
-FILLS = {"blank": BLANK, "body": "#DFE5EC", "line": LINE, "ink": INK}
+FILLS = {"blank": BLANK, "body": "#DFE5EC", "solid": "#EFF2F6", "line": LINE, "ink": INK}
 
 
 def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Letters = letters_of) -> Sheet:

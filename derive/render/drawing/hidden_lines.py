@@ -48,7 +48,7 @@ class OnPaper(Paper):
         hidden = [edge for edge, flags in facing.items() if not any(flags)]
         outer = {edge for edge, flags in facing.items() if any(flags) and not all(flags)}
         return [
-            Patch(hull(self.spots(*corners))),
+            Patch(hull(self.spots(*corners)), "solid"),
             *(Stroke(lines[edge], "hidden") for edge in hidden),
             *(Stroke(line, "edge") for edge, line in lines.items() if edge not in hidden),
             *(self._beside(name, [lines[e] for e in edges if e in outer]) for name, edges in named if outer & {*edges}),
@@ -77,7 +77,7 @@ class OnPaper(Paper):
             return [height * dot(outward, eye) - widening * dot(axis, eye) for outward in outwards]
 
         is_flat = size_of(normal) < FLAT * max(radii)
-        pieces: list[Piece] = [Patch(hull(self.spots(*(place for ring in rings for place in ring))))]
+        pieces: list[Piece] = [Patch(hull(self.spots(*(place for ring in rings for place in ring))), "solid")]
         for end, sense, facing in ((0, -1.0, side(0)), (-1, 1.0, side(len(rings) - 2))):
             if radii[end]:
                 seen = [sense * dot(axis, eye) > 0 or at >= 0 for at in facing]

@@ -1,0 +1,159 @@
+"""What turns about a point by Euler's angles: the line of nodes, the axes that follow it, its turns and its sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, pi, sqrt
+
+from derive.algebra.expressions import scalar
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import Axis, LengthMark, Line, PointMark, Turn
+from derive.figures.bodies import in_units, is_line, widest_of
+from derive.figures.marks import Mark, Position
+from derive.figures.positions import column_of
+from derive.figures.recognition import moving_in
+from derive.figures.surroundings import AngleBetween, UprightAngle
+from derive.mechanics.bodies.body import RoundBody
+from derive.mechanics.bodies.placed import after
+from derive.mechanics.systems.places import Location
+from derive.mechanics.systems.system import System
+from derive.steps.step import is_zero
+
+TO_THE_RIGHT = 2 * pi / 3  # as one usually looks at a drawing
+# So that the line of nodes comes towards the reader, to the left; the axis then leans to the left and a little away.
+NODES_IN_FRONT = -pi / 18
+LONGER, BESIDE, ROUND = Rational(27, 20), Rational(6, 5), Rational(1, 8)  # of the axis, where it turns, how wide
+ACROSS = Rational(4, 5)  # how long the axes across are, in terms of the body's own
+CLEAR, APART = 14.0, 20.0  # points from the axis to its dimension lines, past the arrow of the weight, and between them
+CENTRE = "C"
+
+
+def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
+    """Of a body turned about the vertical, inclined and turned about itself: arrows round the vertical and round its
+    axis, for the angles of precession and of spin, and for a symmetric one the axes that follow it without its spin.
+
+    end   where its axis ends
+    """
+    axes: Any = placed.turned
+    turns = [(i, angle) for i, angle in axes.turns if moving_in(system, 0 * angle + angle)]
+    if len(turns) < 2 or axes.turns[0][0] != 2:
+        return
+    start, far = column_of(placed.at), column_of(end)
+    way = far - start
+    size = sqrt(tidied(Add(*(c**2 for c in way))))
+    up: Any = ImmutableDenseMatrix([0, 0, size])
+    if axes.turns[0] in turns and axes.turns[0][1].is_Symbol:
+        yield Axis(start, start + LONGER * up, label=scalar("Z"))
+        yield Turn(start + BESIDE * up, up, ROUND, label=axes.turns[0][1])
+    i, own = axes.turns[-1]
+    if (i, own) not in turns or i != 2 or not own.is_Symbol:
+        return
+    yield Turn(start + BESIDE * way, way, ROUND, label=own)
+    if not follows_nodes(placed):
+        yield Line(far, start + LONGER * way, "construction")
+        return
+    yield Axis(far, start + LONGER * way, label=scalar("z"))
+    nodes, across, _ = following_axes(placed)
+    for name, along in (("x", nodes), ("y", across)):
+        yield Axis(start, start + ACROSS * size * along, label=scalar(name))
+
+
+def follows_nodes(placed: Any) -> bool:
+    """Whether it is a symmetric body turned by Euler's angles, so that the line of nodes is a principal axis of it."""
+    turns = getattr(placed.turned, "turns", ())
+    moments = getattr(placed.body, "moments", None)
+    if [i for i, _ in turns] != [2, 0, 2]:
+        return False
+    if moments is not None:
+        return is_zero(moments[0] - moments[1])
+    parts = getattr(placed.body, "parts", None)
+    return all(_is_on_axis(part) for part in parts) if parts else isinstance(placed.body, RoundBody)
+
+
+def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
+    """The unit vectors of the axes that share all turns of a body but the last one."""
+    frame = after(placed.turned.turns[:-1])
+    return [ImmutableDenseMatrix(frame[:, k]) for k in range(3)]
+
+
+def seen_upright(mark: Mark) -> Mark:
+    """An angle, as it is where the body itself was turned to be seen well."""
+    return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
+
+
+def stance_values(system: System) -> dict[Symbol, Expr]:
+    """With which angle of precession a body is drawn that is inclined after it: its line of nodes comes to the front,
+    or, where it is inclined the other way, its axis leans to the right."""
+    found: dict[Symbol, Expr] = {}
+    for placed in system.bodies:
+        turns: Any = getattr(placed.turned, "turns", ())
+        if len(turns) > 1 and turns[0][0] == 2 and turns[0][1].is_Symbol and turns[1][0] < 2:
+            if follows_nodes(placed) and not system.conditions:
+                found[turns[0][1]] = NODES_IN_FRONT
+            else:
+                found[turns[0][1]] = TO_THE_RIGHT + (pi / 2 if turns[1][0] == 0 else 0)
+    return found
+
+
+# --- how large it is -------------------------------------------------------------------------------------------------
+
+
+def sizes_of_top(placed: Any) -> Iterable[Mark]:
+    """The radii and lengths of the round parts on the axis of a body that follows its line of nodes, how far they are
+    from the point that is held, and its centre of mass."""
+    if not follows_nodes(placed):
+        return
+    _, across, along = following_axes(placed)
+    held, start = placed.point.position[2], column_of(placed.at)
+    told: list[Expr] = []
+    for body, low in (parts := _parts(placed)):
+        yield from _radius(body, start + low * along, along, across)
+        for length in _lengths(body, low):
+            if length != 0 and not any(is_zero(length - known) for known in told):
+                told.append(length)
+    told.sort(key=in_units)
+    for k, length in enumerate(told):
+        yield LengthMark(start, start + length * along, -across, beyond=CLEAR + APART * k, label=length)
+    centre = placed.body.middle.position[2] - held
+    if parts and centre != 0:
+        yield PointMark(start + centre * along, label=scalar(CENTRE))
+
+
+def _parts(placed: Any) -> list[tuple[RoundBody, Expr]]:
+    """The round bodies of which it is made, with where their own z is zero, from the point that is held."""
+    held = placed.point.position[2]
+    if isinstance(placed.body, RoundBody):
+        return [(placed.body, -held)]
+    parts = getattr(placed.body, "parts", ())
+    return [(part.body, part.seen(_on_axis(0))[2] - held) for part in parts if _is_on_axis(part) and part.sign > 0]
+
+
+def _is_on_axis(part: Any) -> bool:
+    """Whether a part is round about the axis of the whole, along which its own z points."""
+    if not isinstance(part.body, RoundBody):
+        return False
+    low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))
+    return all(is_zero(entry) for entry in (low[0], low[1], high[0], high[1], high[2] - low[2] - 1))
+
+
+def _on_axis(z: int) -> ImmutableDenseMatrix:
+    return ImmutableDenseMatrix([0, 0, z])
+
+
+def _radius(body: RoundBody, foot: Position, along: Position, aside: Position) -> Sequence[Mark]:
+    if is_line(body):
+        return ()
+    height, radius = widest_of(body)
+    if not any(is_zero(radius - measure) for measure in body.measures.values()):
+        return ()
+    middle = foot + height * along
+    return (Line(middle, middle + radius * aside, "hidden", label=radius),)
+
+
+def _lengths(body: RoundBody, low: Expr) -> list[Expr]:
+    """From the point that is held to both ends of a part, of a flat one to its middle."""
+    lower, upper = body.ends
+    return [tidied(Integer(0) + low + end) for end in dict.fromkeys((lower, upper))]
