@@ -58,6 +58,13 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
     return found
 
 
+def axes_at(body: Body, about: str) -> list[Mark]:
+    """The axes of a body that begin at one of its points."""
+    if isinstance(body, EdgedBody):
+        return body_axes(body, body.point(about))
+    return [mark for mark in outline(body, about) if isinstance(mark, Axis)]
+
+
 def is_in_plane(body: Body) -> bool:
     """Whether a body of several parts is best seen in the plane in which they lie."""
     return hasattr(body, "parts") and body.flat_across == "z"
@@ -72,13 +79,24 @@ def _with_edges(body: EdgedBody, point: Point, named: bool) -> list[Mark]:
     lengths = tuple((length if named and body.faces else None, edges) for length, edges in body.edges)
     marks: list[Mark] = [Polyhedron(corners, body.faces, lengths, **_words(body))]
     if named:
-        reaches = (max((corner[k] for corner in body.corners), key=in_units) for k in range(3))
-        ends = [point.seen(reach * along) for reach, along in zip(reaches, UNIT, strict=True)]
-        marks += [Axis(end, end, along, label=scalar(name)) for end, along, name in zip(ends, UNIT, AXES, strict=True)]
+        marks += body_axes(body, point)
     if named and not body.faces:
         middle = sum(corners, ORIGIN) / len(corners)
         ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in body.edges)
         marks += [LengthMark(a, b, (a + b) / 2 - middle, label=length) for length, a, b in ends_of]
+    return marks
+
+
+def body_axes(body: EdgedBody, point: Point) -> list[Mark]:
+    """The axes that begin at a point of it: dashed within the body, where no edge shows them, and an arrow outside."""
+    corners = [point.seen(corner) for corner in body.corners]
+    reaches = (max((corner[k] for corner in corners), key=in_units) for k in range(3))
+    ends = [reach * along for reach, along in zip(reaches, UNIT, strict=True)]
+    marks: list[Mark] = [
+        Axis(end, end, along, label=scalar(name)) for end, along, name in zip(ends, UNIT, AXES, strict=True)
+    ]
+    if ORIGIN not in corners:
+        marks += [Line(ORIGIN, end, "hidden") for end in ends if end != ORIGIN]
     return marks
 
 

@@ -16,7 +16,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Sym
 from derive.algebra.expressions import AXES, explicit, scalar
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, PointMark, Turn
-from derive.figures.bodies import ORIGIN, outline
+from derive.figures.bodies import ORIGIN, axes_at, outline
 from derive.figures.marks import (
     PLANE,
     SPACE,
@@ -167,15 +167,23 @@ def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[
     return [Axis(place, place + end, label=scalar(name), keys=keys) for name, end in zip(names, ends, strict=True)]
 
 
-def vectors_in(body: Any, *vectors: Quantity, angle: Any = None, at: Any = None) -> list[Mark]:
+def vectors_in(
+    body: Any, *vectors: Quantity, angle: Any = None, at: Any = None, about: str | None = None
+) -> list[Mark]:
     """A body with vectors in their true directions, the first of them along the axis of its rotation.
 
     body      a body, for its outline
     vectors   quantities, vectors (3) in the body's axes; each arrow is a little shorter than the one before
     angle     the angle between the first two: a quantity or a name; without it no arc is drawn
     at        the place where they begin, otherwise the middle of the body
+    about     the name of a point at which they begin in its place, with the axes of the body there
     """
-    start = body.middle if at is None else at
-    marks = [*outline(body, named=False), axis_of_rotation(vectors[0], start)]
+    if about is not None:
+        start: Any = ORIGIN
+        shown = [*outline(body, about, named=False), *axes_at(body, about)]
+    else:
+        start = body.middle if at is None else at
+        shown = outline(body, named=False)
+    marks = [*shown, axis_of_rotation(vectors[0], start)]
     marks += [arrow(vector, start, LONG * Rational(4, 5) ** i) for i, vector in enumerate(vectors)]
     return marks if angle is None else [*marks, arc(vectors[0], vectors[1], angle, start)]
