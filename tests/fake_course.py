@@ -39,6 +39,7 @@ def rendered(
     cache: object = None,
     draws: bool = False,
     only: tuple[str, ...] | None = None,
+    evidence: str = "none",
 ) -> Rendered:
     path = path_of(root, problem_id)
     said = (root / path).read_text().strip()
@@ -55,7 +56,7 @@ def rendered(
         print("chatter of the script")
     warnings = (Complaint("unshown", "`spin` is never shown", severity="warning"),) if said == "warn" else ()
     with open(root / "derived.txt", "a") as notes:
-        notes.write(f"{problem_id} {detail}\n")
+        notes.write(f"{problem_id} {detail}\n" if evidence == "none" else f"{problem_id} {detail} {evidence}\n")
     return Rendered(
         id=problem_id,
         title=said,
@@ -64,7 +65,7 @@ def rendered(
         latex=Tex(said),
         title_latex=Tex(said),
         sheet=Tex(said),
-        checked=Tex(said),
+        report=Tex(said),
         warnings=warnings,
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
@@ -98,6 +99,10 @@ def set_document(root: Path, heading: object, problems: list[Rendered]) -> str:
 
 def sheet_document(root: Path, heading: object, problems: list[Rendered]) -> str:
     return "".join(f"questions of {problem.id}\n" for problem in problems)
+
+
+def report_document(root: Path, heading: object, problems: list[Rendered]) -> str:
+    return "".join(f"checks of {problem.id}\n" for problem in problems)
 
 
 class Course:
@@ -155,7 +160,7 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 def replace_derivation(monkeypatch: Any) -> None:
     """Put the stand-ins where the modules of `derive.building` that have these functions are imported from."""
-    documents = (problem_document, set_document, sheet_document)
+    documents = (problem_document, set_document, sheet_document, report_document)
     modules = {"solution": (rendered,), "headline": (headline,), "explained": (explained,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")

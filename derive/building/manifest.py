@@ -35,6 +35,7 @@ class Manifest:
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
+    evidence: str = ""  # how much the set says that its solutions tell of how they were checked
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:

@@ -1,4 +1,4 @@
-"""Whole documents from solved problems: one solution, the solutions of a set, and the sheet for its students."""
+"""Whole documents from solved problems: one solution, the solutions of a set, its sheet for students, its report."""
 
 from __future__ import annotations
 
@@ -48,13 +48,18 @@ def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
 
 
 def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """A complete .tex of the set: cover block, its problems in order, how they were checked."""
+    """A complete .tex of the set: cover block and its problems in order."""
     return _document(root, "set.tex.j2", heading, _listed(problems))
 
 
 def sheet_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
     """A complete .tex of the questions alone, for students."""
     return _document(root, "sheet.tex.j2", heading, _listed(problems))
+
+
+def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
+    """A complete .tex of how the set was checked and where its source is wrong, for whoever must trust it."""
+    return _document(root, "report.tex.j2", heading, _listed(problems))
 
 
 def _listed(problems: Sequence[Rendered]) -> list[Listed]:

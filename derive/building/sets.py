@@ -26,7 +26,7 @@ from derive.building.preamble import at_hand, beginning
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
-from derive.course.names import DOCUMENTS, NAME, SHEET, SOLUTIONS
+from derive.course.names import DOCUMENTS, NAME, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.render.formats import formats
 from derive.render.rendered import Files, Rendered
@@ -69,6 +69,7 @@ class Options:
     jobs: int = 0  # 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems of the set, if not all of them
+    evidence: str | None = None  # as much as the set itself says, if nothing else is
 
 
 class Superseded(Exception):
@@ -190,9 +191,10 @@ class _Build:
         self.edits = edits
         self.started = time.time_ns()
         templates = [folder_digest(each / "templates") for each in (root, FOLDER, FOLDER.parent)]
-        self.recipe = digest(engine_digest(*PACKAGES), *templates, options.detail or "")
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
+        self.how = (engine_digest(*PACKAGES), *templates, options.detail or "")
+        self.evidence = options.evidence or self.manifest.evidence
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
@@ -202,6 +204,10 @@ class _Build:
         self.then: dict[Job, Callable[[Outcome], None]] = {}
         self.tell = tell
         self.crew = Crew(options.jobs or os.cpu_count() or 1, self._tick)
+
+    @property
+    def recipe(self) -> str:
+        return digest(*self.how, self.evidence)
 
     def report(self) -> Report:
         manifest, result = self.manifest, self.result
@@ -222,7 +228,10 @@ class _Build:
         self.manifest.complete = False
         self.prepares = not os.listdir(at_hand().name)  # which all workers have from here
         reading = partial(problem_set, self.root, self.set_id)
-        heading = self.heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
+        heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
+        self.manifest.evidence = heading.evidence
+        self.evidence = self.options.evidence or heading.evidence
+        self.heading = replace(heading, evidence=EvidenceShown(self.evidence))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -297,7 +306,8 @@ class _Build:
 
         for name in names:
             problem = f"{self.set_id}/{name}"
-            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
+            shown = EvidenceShown(self.evidence)
+            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown)
             self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
         self.crew.start()
 
@@ -359,13 +369,14 @@ class _Build:
         """The documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.set_document import set_document, sheet_document
+        from derive.building.set_document import report_document, set_document, sheet_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
         numbers = Kept(self.cache, digest("numbers", SOLUTIONS, self.engine.identity))  # one run is enough next time
         self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, FIRST, numbers)
         self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files, LAST)
+        self._typeset(REPORT, lambda: report_document(self.root, self.heading, parts), {}, (), LAST)
 
     def _typeset(
         self,

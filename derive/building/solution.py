@@ -19,6 +19,7 @@ from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
 from derive.building.drawn import drawing_files
 from derive.building.solved import Solved, steps_key
+from derive.course.names import EvidenceShown
 from derive.course.parts import Question, points_text
 from derive.course.problem import Problem, load_problem, run_solve
 from derive.course.problem_set import problem_set
@@ -60,11 +61,13 @@ def rendered(
     cache: Cache = NO_CACHE,
     draws: bool = False,
     only: Collection[str] | None = None,
+    evidence: EvidenceShown = EvidenceShown.NONE,
 ) -> Rendered:
     """Derive a problem and print it; raises `DeriveError` with everything that is wrong.
 
     Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time; `draws`
-    says whether the files of its drawings are wanted too, and `only` in which formats the page is, else it is in all.
+    says whether the files of its drawings are wanted too, `only` in which formats the page is, else it is in all, and
+    `evidence` how much it tells of how it was checked.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
@@ -74,7 +77,9 @@ def rendered(
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
     level = Level(detail or "standard")
-    document, faults = document_of(problem, derivation, values, words, level, solved.compared, others, solved.drawings)
+    document, faults = document_of(
+        problem, derivation, values, words, level, solved.compared, others, solved.drawings, evidence
+    )
     Faults(faults).stop()
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = Notation(document.dimensions)
@@ -89,7 +94,7 @@ def rendered(
         latex=fragments.solution,
         title_latex=fragments.title,
         sheet=fragments.sheet,
-        checked=fragments.checked,
+        report=fragments.report,
         texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
         warnings=(*(w for w in document.warnings if w not in of_nobody), *failures),
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),

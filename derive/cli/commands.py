@@ -27,6 +27,7 @@ from derive.render.formats import TYPESET
 if TYPE_CHECKING:
     from derive.building.sets import Options, Report
     from derive.building.workers import Outcome
+    from derive.course.problem_set import ProblemSet
     from derive.render.rendered import Files, Rendered
 
 _REPORT = "   = help: this is a fault of derive: report it with the traceback and the files of the problem"
@@ -184,20 +185,25 @@ def _warn_of_names(root: Path) -> None:
 def _solve(arguments: argparse.Namespace) -> int:
     from derive.building.set_document import problem_document
     from derive.building.solution import rendered
-    from derive.building.workers import Job, done, job_of
+    from derive.building.workers import done, job_of
+    from derive.course.names import EvidenceShown
     from derive.course.problem_set import problem_set
 
     root, problem_id, limit = _root(arguments), _problem_id(arguments.id), arguments.time_limit
     check_output(arguments.output, root)
+    set_id, form = problem_id.partition("/")[0], arguments.format
+
+    def told() -> tuple[Rendered, ProblemSet]:
+        heading = problem_set(root, set_id)
+        heading = replace(heading, evidence=EvidenceShown(arguments.evidence or heading.evidence))
+        options = {"draws": form == "pdf", "only": (form,), "evidence": heading.evidence}
+        return rendered(root, problem_id, arguments.detail, **options), heading
+
     with _waiting(f"deriving {problem_id}"):
-        form = arguments.format
-        work = partial(rendered, root, problem_id, arguments.detail, draws=form == "pdf", only=(form,))
-        solved: Rendered = done(job_of(root, problem_id, work, limit))
+        solved, heading = done(job_of(root, problem_id, told, limit))
     complain(solved.warnings)
     text = solved.texts.get(arguments.format, "")
     if arguments.format in TYPESET:
-        set_id = problem_id.partition("/")[0]
-        heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
         text = problem_document(root, solved, heading)
     if arguments.format == "pdf":
         return _solve_pdf(arguments, root, problem_id, text, solved.files)
@@ -314,7 +320,14 @@ def _build(arguments: argparse.Namespace) -> int:
     root = _root(arguments)
     if not arguments.sets:
         _warn_of_names(root)
-    options = Options(arguments.engine, arguments.detail, arguments.force, arguments.jobs, arguments.time_limit)
+    options = Options(
+        arguments.engine,
+        arguments.detail,
+        arguments.force,
+        arguments.jobs,
+        arguments.time_limit,
+        evidence=arguments.evidence,
+    )
     asked = _sets_asked(arguments.sets or set_names(root))
     if not asked:
         raise Misused(
@@ -381,7 +394,7 @@ def _listed(paths: Sequence[str], most: int = 12) -> str:
     """The last ones, which are those of the whole set, and how many others."""
     if len(paths) <= most:
         return ", ".join(paths)
-    last = paths[-2:]
+    last = paths[-3:]
     return f"{', '.join(last)} and {len(paths) - len(last)} others beside {'them' if len(last) > 1 else 'it'}"
 
 

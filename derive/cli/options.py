@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from derive.render.formats import TYPESET, formats
 
 DETAILS = ("brief", "standard", "full")
+EVIDENCE = ("none", "end", "margin")
 _TIME_LIMIT = 120.0
 
 _ENVIRONMENT = """\
@@ -75,6 +76,9 @@ def _parser() -> argparse.ArgumentParser:
     doctor = command("doctor", "show what a build needs and what is missing")
     for sub in (solve, build):
         sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
+        sub.add_argument(
+            "--evidence", choices=EVIDENCE, help="how much to tell of the checks (default: as set.yaml says)"
+        )
     for sub in (solve, build, doctor):
         sub.add_argument("--engine", metavar="NAME", help="tinytex (default), latexmk, pdflatex, lualatex or tectonic")
     for sub in (solve, explain, check, build):

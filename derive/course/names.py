@@ -1,8 +1,20 @@
-"""How sets and problems are called, and what the documents of a whole set are: names that no problem can have."""
+"""How sets and problems are called, and what the documents of a whole set are: names that no problem can have.
+
+The solutions are for students, the sheet has their questions alone, and the report is for whoever must trust both.
+"""
 
 from __future__ import annotations
 
 import re
+from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
-SOLUTIONS, SHEET = DOCUMENTS = ("solutions", "problems")  # with the solutions, and for students
+SOLUTIONS, SHEET, REPORT = DOCUMENTS = ("solutions", "problems", "report")
+
+
+class EvidenceShown(StrEnum):
+    """How much a solution tells of how it was checked; the report of its set tells all of it in any case."""
+
+    NONE = "none"  # that it was, and where that is told
+    END = "end"  # counts, in a note at its end
+    MARGIN = "margin"  # the same, and beside each display how sure it is and by which second route

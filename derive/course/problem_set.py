@@ -6,8 +6,8 @@ from collections.abc import Sequence as List
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, NAME
-from derive.course.schema import TEXT, Record, as_written, key, read_record, wrong_type
+from derive.course.names import DOCUMENTS, NAME, EvidenceShown
+from derive.course.schema import TEXT, Record, as_written, key, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, Faults, Misused, Rejected, did_you_mean, nearest
 
@@ -25,6 +25,7 @@ class ProblemSet:
     instructor: str | None
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
+    evidence: EvidenceShown = EvidenceShown.NONE
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -40,6 +41,7 @@ class SetKeys(Record):
     title: Word | None = key("the heading of the set", TEXT, required=True)
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("who teaches the course", TEXT)
+    evidence: str | None = key("how much the solutions tell of how they were checked", one_of(tuple(EvidenceShown)))
     problems: Tree | None = key("names of the problems in order", as_written({}), required=True)
 
 
@@ -97,8 +99,16 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
     faults.stop()
+    evidence = EvidenceShown(written.evidence or EvidenceShown.NONE)
     return ProblemSet(
-        set_id, written.course or "", written.title or "", written.date, written.instructor, problems, (path,)
+        set_id,
+        written.course or "",
+        written.title or "",
+        written.date,
+        written.instructor,
+        problems,
+        (path,),
+        evidence,
     )
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade
+from derive.course.names import EvidenceShown
 from derive.course.reference.comparison import Remark
 from derive.course.reference.errata import Erratum
 from derive.page.wording import Inline, Phrases, filled
@@ -55,8 +56,10 @@ class Checks:
             "errata": len(self.errata),
         }
 
-    def closing(self, words: Phrases) -> tuple[Inline, ...]:
-        """The note at the end of a problem."""
+    def closing(self, words: Phrases, evidence: EvidenceShown) -> tuple[Inline, ...]:
+        """The note at the end of a problem: that it was checked, and if so much is wanted, how often."""
+        if evidence is EvidenceShown.NONE:
+            return filled(words.labels["closing_line"], {})
         names: dict[str, Any] = {
             "lines": sum(self.lines.values()),
             "lines_by_grade": _by_grade(self.lines, words.grades),

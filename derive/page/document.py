@@ -15,6 +15,7 @@ from sympy import Integral, preorder_traversal
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import LEAST_SURE_FIRST, Grade
 from derive.algebra.expressions import Amount, Relation, Truncated
+from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem
 from derive.course.reference.comparison import Remark
@@ -167,6 +168,7 @@ class Document:
     dimensions: Mapping[Any, Dimension | None] = field(repr=False)
     warnings: tuple[Complaint, ...] = ()
     strategy: tuple[Inline, ...] = ()
+    evidence: EvidenceShown = EvidenceShown.NONE
 
 
 def document_of(
@@ -178,13 +180,14 @@ def document_of(
     compared: Sequence[Remark] = (),
     others: Mapping[str, int] | None = None,
     drawings: Sequence[Recorded] = (),
+    evidence: EvidenceShown = EvidenceShown.NONE,
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
 
     `others` are the numbers of the set's problems, to which prose may refer.
     """
     writer = _Writer(problem, derivation, values, words, level, others or {}, drawings)
-    return writer.document([c for c in compared if c.here]), writer.faults
+    return writer.document([c for c in compared if c.here], evidence), writer.faults
 
 
 class _Writer:
@@ -221,7 +224,7 @@ class _Writer:
         self.asked = {step.key for step in answered}
         self.notes = notes_apart(answered, words)
 
-    def document(self, compared: Sequence[Remark]) -> Document:
+    def document(self, compared: Sequence[Remark], evidence: EvidenceShown) -> Document:
         problem = self.problem
         title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)
@@ -242,12 +245,13 @@ class _Writer:
             parts=parts,
             note=note,
             checks=checks,
-            closing=checks.closing(self.words),
+            closing=checks.closing(self.words, evidence),
             numbers=self.numbers,
             symbols={**self.symbols, **{value.key: value.symbol for value in self.values.values()}},
             shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=(*self.derivation.warnings, *letters_not_drawn(problem, self.drawings)),
+            evidence=evidence,
         )
 
     # --- names ---

@@ -24,7 +24,7 @@ class Rendered:
     """One problem, solved and printed in the formats that were asked for.
 
     texts                   its page by the name of each format
-    latex, sheet, checked   its fragments of a document: the solution, the questions alone, and how it was checked
+    latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     counts                  the numbers of how it was checked, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
     """
@@ -36,7 +36,7 @@ class Rendered:
     latex: Tex
     title_latex: Tex
     sheet: Tex
-    checked: Tex
+    report: Tex
     warnings: tuple[Complaint, ...]
     inputs: tuple[str, ...]
     grades: dict[str, int]
@@ -62,7 +62,7 @@ class Rendered:
                 latex=Tex(_text(data["latex"])),
                 title_latex=Tex(_text(data["title_latex"])),
                 sheet=Tex(_text(data["sheet"])),
-                checked=Tex(_text(data["checked"])),
+                report=Tex(_text(data["report"])),
                 warnings=tuple(_complaint(warning) for warning in data["warnings"]),
                 inputs=tuple(_text(path) for path in data["inputs"]),
                 grades=_counts(data["grades"]),

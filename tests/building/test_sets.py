@@ -104,7 +104,7 @@ def test_the_order_in_the_set_changes_only_the_set(course: Course) -> None:
     course.derived(), course.typeset()
     course.heading("two", "one")
     build(course)
-    assert (course.derived(), course.typeset()) == ([], ["problems.tex", "solutions.tex"])
+    assert (course.derived(), course.typeset()) == ([], ["problems.tex", "report.tex", "solutions.tex"])
     assert (course.outputs / "solutions.tex").read_text().index("second") < 40
 
 
@@ -121,7 +121,7 @@ def test_a_template_an_engine_and_a_detail_each_count_as_a_change(course: Course
     course.typeset()
     shutil.copy(course.root / "bin" / "pdflatex", course.root / "bin" / "lualatex")
     build(course, Options(engine="lualatex"))
-    assert course.typeset() == ["one.tex", "problems.tex", "solutions.tex", "two.tex"]
+    assert course.typeset() == ["one.tex", "problems.tex", "report.tex", "solutions.tex", "two.tex"]
 
 
 def test_a_reference_that_appears_is_a_change(course: Course) -> None:
@@ -282,3 +282,32 @@ def test_a_drawing_may_not_have_the_name_of_another_output(course: Course) -> No
     report = build(course)
     assert codes(report) == ["file-clash"]
     assert "the drawing `one-axes.pdf` of `one` would have the name of another output" in report.complaints[0].message
+
+
+# --- how much a set tells of its checks ---
+
+
+def with_evidence(course: Course, word: str) -> None:
+    file = course.folder / "set.yaml"
+    file.write_text(file.read_text() + f"evidence: {word}\n")
+
+
+def test_a_set_says_how_much_its_solutions_tell_of_their_checks(course: Course) -> None:
+    with_evidence(course, "margin")
+    build(course)
+    assert course.derived() == ["hw1/one None margin", "hw1/two None margin"]
+    build(course)
+    assert course.derived() == []
+
+
+def test_an_option_beats_what_the_set_says_of_evidence(course: Course) -> None:
+    with_evidence(course, "margin")
+    build(course, Options(evidence="end"))
+    assert course.derived() == ["hw1/one None end", "hw1/two None end"]
+    build(course)
+    assert course.derived() == ["hw1/one None margin", "hw1/two None margin"]
+
+
+def test_the_report_lies_beside_the_solutions(course: Course) -> None:
+    build(course)
+    assert b"checks of hw1/one" in course.contents()["report.tex"]

@@ -177,7 +177,9 @@ def test_check_takes_problems_and_sets(course: Course, capfd: pytest.CaptureFixt
 def test_build_ends_with_one_line_per_set(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["build"]) == 0
     out, err = capfd.readouterr()
-    pages = "build/hw1/one.pdf, build/hw1/two.pdf, build/hw1/solutions.pdf, build/hw1/problems.pdf"
+    pages = (
+        "build/hw1/one.pdf, build/hw1/two.pdf, build/hw1/solutions.pdf, build/hw1/problems.pdf, build/hw1/report.pdf"
+    )
     said = re.fullmatch(r"hw1: derived 2 of 2 problems, wrote (.*) \(\d+\.\d s\)\n", out)
     assert said
     assert sorted(said[1].split(", ")) == sorted(pages.split(", "))

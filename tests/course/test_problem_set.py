@@ -78,3 +78,18 @@ def test_a_set_that_does_not_exist_is_met_with_the_nearest(tmp_path: Path) -> No
     with pytest.raises(DeriveError, match="did you mean `hw9`") as caught:
         problem_set(at(tmp_path), "hw8")
     assert caught.value.exit_code == 2
+
+
+def test_a_set_says_how_much_its_solutions_tell_of_their_checks(tmp_path: Path) -> None:
+    root = tmp_path
+    file = at(root) / "problems" / "hw9" / "set.yaml"
+    text = "course: Physics 311\ntitle: Homework 9\nproblems: [block]\n"
+    told = {}
+    for line in ("", "evidence: end\n"):
+        file.write_text(text + line, encoding="utf-8")
+        told[line] = str(problem_set(root, "hw9").evidence)
+    assert told == {"": "none", "evidence: end\n": "end"}
+    file.write_text(text + "evidence: below\n", encoding="utf-8")
+    with pytest.raises(Rejected) as refused:
+        problem_set(root, "hw9")
+    assert refused.value.complaints[0].message == "`evidence` must be none, end or margin, but it is `below`"

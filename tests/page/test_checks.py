@@ -10,6 +10,7 @@ from sympy import symbols
 
 from derive.algebra.equality import LEAST_SURE_FIRST
 from derive.algebra.expressions import scalar
+from derive.course.names import EvidenceShown
 from derive.page.checks import Checks, checks_of
 from derive.page.wording import Phrases, Text, phrases
 from derive.steps.establish import establish
@@ -83,5 +84,10 @@ def test_every_grade_that_a_step_may_have_is_a_column(words: Phrases) -> None:
 
 def test_the_closing_note_says_how_many_lines_there_are(words: Phrases) -> None:
     checks = counted(step("one", "sum"))
-    said = "".join(node.text for node in checks.closing(words) if isinstance(node, Text))
+    said = "".join(node.text for node in checks.closing(words, EvidenceShown.END) if isinstance(node, Text))
     assert str(checks.counts()["lines"]) in said
+
+
+def test_a_student_is_told_that_it_was_checked_and_where_that_is_told(words: Phrases) -> None:
+    said = "".join(node.text for node in counted().closing(words, EvidenceShown.NONE) if isinstance(node, Text))
+    assert "report" in said and not any(character.isdigit() for character in said)

@@ -11,9 +11,10 @@ from sympy import symbols
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import column
+from derive.course.names import EvidenceShown
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Checks, Ways
-from derive.page.document import Answer, Answers, Document
+from derive.page.document import Answer, Answers, Document, Paragraph
 from derive.page.wording import DimensionMark, Text, UnitMark
 from derive.render.printing.latex_page import Fragments, dotted, problem_latex, whole_latex
 from tests.courses import ROOT
@@ -74,9 +75,18 @@ def test_a_page_does_not_end_within_a_step() -> None:
 
 
 def test_the_margin_names_a_route_only_if_there_is_room_for_it() -> None:
-    short, long = (solution(page(display("mass", routes=(route,)))) for route in ("by halves", "round and round " * 9))
+    short, long = (
+        solution(page(display("mass", routes=(route,)), evidence=EvidenceShown.MARGIN))
+        for route in ("by halves", "round and round " * 9)
+    )
     assert "second route: by halves" in short
     assert r"\checked{proved}" in long and "round and round" not in long
+
+
+@pytest.mark.parametrize("evidence", [EvidenceShown.NONE, EvidenceShown.END])
+def test_the_margin_is_empty_unless_it_is_asked_for(evidence: EvidenceShown) -> None:
+    shown = solution(page(Paragraph((Text("So "),)), display("mass", routes=("by halves",)), evidence=evidence))
+    assert r"\checked" not in shown and "by halves" not in shown
 
 
 @pytest.mark.parametrize(
@@ -106,7 +116,7 @@ def test_what_was_checked_names_steps_by_their_symbols_and_errata_by_what_is_pri
         Erratum("law", None, "a sign", M - a, M + a),
         Erratum("mass", None, "swapped", column(a, 0, 0), column(0, a, 0)),
     )
-    tex = str(fragments(replace(WHOLE, checks=Checks({}, {}, {}, ways, 0, 0, errata))).checked)
+    tex = str(fragments(replace(WHOLE, checks=Checks({}, {}, {}, ways, 0, 0, errata))).report)
     assert r"\mbox{$T$}" in tex and "by halves" in tex
     assert "printed $T = Ma$, right $T = Ma^{2}$; a slip." in tex
     assert "$M-a = 0$" in tex, "an equation is stated by what vanishes in it"

@@ -19,7 +19,7 @@ PAGE = Rendered(
     latex=Tex(r"$\omega$"),
     title_latex=Tex("A top"),
     sheet=Tex("?"),
-    checked=Tex("!"),
+    report=Tex("!"),
     texts={"text": "ω", "json": "{}"},
     warnings=(TOLD, Complaint("a", "b")),
     inputs=("one.yaml", "one.py"),
@@ -40,7 +40,7 @@ def test_what_comes_back_is_tex_where_it_was_and_nowhere_else() -> None:
     back = Rendered.from_data(PAGE.to_data())
     assert back
     names = {field.name for field in dataclasses.fields(PAGE) if isinstance(getattr(back, field.name), Tex)}
-    assert names == {"latex", "title_latex", "sheet", "checked"}
+    assert names == {"latex", "title_latex", "sheet", "report"}
 
 
 @pytest.mark.parametrize("data", [None, [], {}, "page", 3])

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import pytest
 
+from derive.course.names import EvidenceShown
 from derive.page.document import Answer, Answers, Document, Paragraph
 from derive.page.wording import Math, Ref, Text
 from derive.render.notation.text import columns
@@ -82,3 +83,9 @@ def test_text_in_a_line_is_squeezed_and_needs_the_numbers_it_refers_to() -> None
     assert inline_text((Text("by \n "), Ref("law"), Text("  too")), NOTATION, {"law": 4}) == "by (4) too"
     with pytest.raises(KeyError):
         inline_text((Ref("law"),), NOTATION)
+
+
+def test_the_margin_of_a_typeset_page_stands_below_a_display_of_text() -> None:
+    pages = {each: "\n".join(shown(replace(WHOLE, evidence=each))) for each in EvidenceShown}
+    assert "[proved; second route: by halves]" in pages[EvidenceShown.MARGIN]
+    assert all("by halves" not in pages[evidence] for evidence in (EvidenceShown.NONE, EvidenceShown.END))

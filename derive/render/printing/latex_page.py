@@ -12,6 +12,7 @@ from typing import Any
 from sympy import Expr, MatrixBase
 
 from derive.algebra.dimensions import Dimension
+from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Ways
@@ -21,7 +22,7 @@ from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_lat
 from derive.render.notation.notation import Notation
 from derive.render.printing.lines import LINE_WIDTH, Printed, answer_lines, printed_lines
 from derive.render.printing.templates import filled_template
-from derive.render.printing.text_page import inline_text
+from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.rendered import Tex
 
 # About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
@@ -36,7 +37,7 @@ class Fragments:
     title: Tex
     solution: Tex
     sheet: Tex
-    checked: Tex
+    report: Tex
 
 
 NOT_TYPESET = Fragments(*[Tex("")] * 4)
@@ -52,7 +53,7 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, folder
         page.title(),
         fragment("problem.tex.j2", page),
         fragment("questions.tex.j2", questions),
-        fragment("checked.tex.j2", page),
+        fragment("reported.tex.j2", page),
     )
 
 
@@ -200,8 +201,13 @@ class _Page:
             return Tex(f"{right} = 0")  # an equation is stated by what vanishes in it
         return Tex(right if symbol is None else f"{latex(self.notation.layout(symbol), inline=True)} = {right}")
 
+    def has_margin(self) -> bool:
+        """Whether notes stand beside displays."""
+        return self.document.evidence is EvidenceShown.MARGIN
+
     def closing(self) -> Tex:
-        return Tex(rf"\textbf{{{escaped(self.words.labels['checked'])}}} {self.inline(self.document.closing)}")
+        title = closing_title(self.document, self.words)
+        return Tex(rf"\textbf{{{escaped(title)}}} {self.inline(self.document.closing)}")
 
 
 class _Questions(_Page):

@@ -6,6 +6,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 
 from derive.algebra.dimensions import exponents
+from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
@@ -44,6 +45,11 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, int]) -> str:
     return ""
 
 
+def closing_title(document: Document, words: Phrases) -> str:
+    """What the closing note begins with: it tells how the problem was checked, or only that it was."""
+    return str(words.labels["checked_line" if document.evidence is EvidenceShown.NONE else "checked"])
+
+
 class _Page:
     def __init__(self, document: Document, words: Phrases, notation: Notation):
         self.document, self.words, self.notation = document, words, notation
@@ -58,7 +64,7 @@ class _Page:
         for part in self.document.parts:
             blocks += ["", self._part(part)]
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
-        checked = Text(self.words.labels["checked"] + " ")
+        checked = Text(closing_title(self.document, self.words) + " ")
         blocks += ["", "-" * PAGE_COLUMNS, self._wrapped((checked, *self.document.closing))]
         return "\n".join(blocks) + "\n"
 
@@ -108,7 +114,15 @@ class _Page:
             indent = max((columns(plain(line.left)) for line in printed if line.left is not None), default=0)
             for line in printed:
                 lines += self._line(line, indent)
+        if self.document.evidence is EvidenceShown.MARGIN:
+            lines.append(to_the_right(self._evidence(display), PAGE_COLUMNS))
         return "\n".join(lines)
+
+    def _evidence(self, display: Display) -> str:
+        """What the margin of a typeset page has."""
+        second = self.words.labels["second_route"]
+        said = [self.words.grades[display.grade], *(f"{second}: {route}" for route in display.routes[:1])]
+        return textwrap.shorten(f"[{'; '.join(said)}]", PAGE_COLUMNS, placeholder="\u2026]")
 
     def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:
         """The formula, its relations below each other, and on which line they stand."""
