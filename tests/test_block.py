@@ -283,7 +283,7 @@ def test_where_a_sign_is_not_known_the_size_is_an_absolute_value(
     solution = solved(tmp_path, edits)
     assert "Abs" in json.loads(solution.texts["json"])["answers"]["magnitude"]["sympy"]
     assert solution.grades["sampled"] == 0
-    assert "In general it is not along" in flat(solution)
+    assert "In general it is not parallel" in flat(solution)
 
 
 def test_two_equal_moments_make_every_axis_in_their_plane_principal(tmp_path: Path) -> None:

@@ -79,10 +79,10 @@ def test_an_equation_that_is_linear_already_stands_once(tmp_path: Path) -> None:
     assert text.count("+ k x = 0") == 2  # the step and its box
     asked = CART.replace("answer: normal_modes", "answer: linearised")
     again = rendered(course_with(tmp_path / "asked", asked), "trial/one", only={"text"}).texts["text"]
-    assert "is linear already" in again
+    assert "is already linear" in again
 
 
 def test_that_no_spring_is_pressed_to_nothing_is_told_where_it_is_used(tmp_path: Path) -> None:
     text = rendered(course_with(tmp_path, CART), "trial/one", only={"text"}).texts["text"]
     assert "It is assumed" not in text
-    assert "The potential energy, as long as no spring is pressed to nothing, is" in text
+    assert "The potential energy, as long as no spring is compressed to zero length, is" in text

@@ -52,7 +52,7 @@ def test_the_part_is_the_first_that_shows_a_step(block: Block) -> None:
 def test_how_it_was_checked_is_told_by_grade_and_route(block: Block) -> None:
     torque = explained(block, "torque")
     assert torque.lines == {"proved": len(torque.step.chain) - 1}
-    assert torque.routes == (("the angular momentum carried round the axis and differentiated", "proved"),)
+    assert torque.routes == (("the rotating angular momentum differentiated in the inertial frame", "proved"),)
     assert said(block, "axis_vector")["checked"] == "Grade: by definition."
 
 

@@ -129,6 +129,6 @@ parts:
   - ask: Find its moment of inertia.
     answer: moment_of_inertia_z
 """
-    assert "through the centre of mass" in " ".join(
+    assert "the origin at the centre of mass" in " ".join(
         rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"].split()
     )

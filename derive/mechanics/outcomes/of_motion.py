@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 from sympy import Expr, diff
 
-from derive.algebra.expressions import Slope, explicit
+from derive.algebra.expressions import Partial, Slope, explicit
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import always_sign, lasts, sign_where_it_exists, vanishes
-from derive.steps.outcomes import Judged, Predicate, outcomes_of
+from derive.steps.outcomes import Judged, Predicate, outcomes_of, told_by
 from derive.steps.step import is_zero
 
 
@@ -20,6 +20,11 @@ def _cyclic(facts: Judged) -> bool:
 
 def _not_cyclic(facts: Judged) -> bool:
     return not _cyclic(facts)
+
+
+def _by_its_coordinate(facts: Judged, outcome: str) -> bool:
+    """The derivative is by the coordinate that the sentence names."""
+    return isinstance(facts.symbol, Partial) and facts.symbol.args[1] == facts.inputs["coordinate"]
 
 
 def _order_of(*orders: int, more: bool = False) -> Predicate:
@@ -109,3 +114,5 @@ _TABLE: dict[str, dict[str, Predicate]] = {
 
 for _rule, _predicates in _TABLE.items():
     outcomes_of(_rule, _predicates)
+
+told_by("lagrangian.generalized_force", _by_its_coordinate)

@@ -60,7 +60,7 @@ def test_a_circuit_with_a_resistance(tmp_path: Path) -> None:
 
 def test_the_page_says_that_it_is_given(tmp_path: Path) -> None:
     assert (
-        "The Lagrangian is given" in rendered(course_with(tmp_path, CIRCUIT), "trial/one", only={"text"}).texts["text"]
+        "The given Lagrangian is" in rendered(course_with(tmp_path, CIRCUIT), "trial/one", only={"text"}).texts["text"]
     )
 
 
