@@ -80,15 +80,12 @@ class References:
             self.faults.append(Complaint(code, message, mention.place, help=help_line))
 
 
-def found_before(
-    steps: Iterable[Step], shown_in: Mapping[str, str], numbers: Mapping[str, int], words: Phrases
-) -> list[tuple[Inline, ...]]:
+def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phrases) -> list[tuple[Inline, ...]]:
     """A sentence for each part that has given some of these steps: which, and by which equations."""
     found: dict[str, list[tuple[Inline, ...]]] = {}
     for step in steps:
-        label = "found" if step.key in numbers else "found_unshown"
         names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
-        found.setdefault(shown_in[step.key], []).append(filled(words.labels[label], names))
+        found.setdefault(shown_in[step.key], []).append(filled(words.labels["found"], names))
     return [
         filled(words.labels["found_before"], {"part": part, "results": joined(items, words.labels["and"])})
         for part, items in found.items()

@@ -5,7 +5,7 @@ Equations are numbered here, so that every format and every reference has the sa
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
@@ -14,7 +14,7 @@ from sympy import Integral, preorder_traversal
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import LEAST_SURE_FIRST, Grade
-from derive.algebra.expressions import Amount, Relation, Truncated
+from derive.algebra.expressions import Amount, Relation
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem
@@ -43,7 +43,6 @@ from derive.page.wording import (
     name_of,
     names_asked,
     names_of_step,
-    notes_apart,
     stated_once,
     told,
     unknown_keys,
@@ -64,15 +63,17 @@ class ChainLine:
     right: Any
     reason: tuple[Inline, ...] = ()
     presented: bool = False
+    numeric: bool = False
 
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, numbered on the last of them."""
+    """The lines of one step, numbered on the last of them; so many at the end are framed, as what a part asks for."""
 
     key: str
     lines: tuple[ChainLine, ...]
     number: int
+    framed: int = 0
 
 
 @dataclass(frozen=True)
@@ -105,26 +106,6 @@ class Paragraph:
 
 
 @dataclass(frozen=True)
-class Answer:
-    """A boxed result: symbol = exact value, or another relation between them; its numbers, each after its sign.
-
-    There is a note where the symbols of several answers are alike.
-    """
-
-    key: str
-    symbol: Any
-    value: Any
-    relation: str = "equals"
-    numbers: tuple[tuple[str, Any], ...] = ()
-    note: tuple[Inline, ...] = ()
-
-
-@dataclass(frozen=True)
-class Answers:
-    answers: tuple[Answer, ...]
-
-
-@dataclass(frozen=True)
 class Illustration:
     """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
 
@@ -137,7 +118,7 @@ class Illustration:
     rests_on: tuple[str, ...] = ()
 
 
-Block = Paragraph | Display | Answers | Illustration
+Block = Paragraph | Display | Illustration
 
 
 @dataclass(frozen=True)
@@ -222,7 +203,6 @@ class _Writer:
         self.page_names = self._page_names()
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.asked = {step.key for step in answered}
-        self.notes = notes_apart(answered, words)
 
     def document(self, compared: Sequence[Remark], evidence: EvidenceShown) -> Document:
         problem = self.problem
@@ -299,17 +279,17 @@ class _Writer:
         label = chr(ord("a") + index)
         blocks: list[Block] = self._found_before(part)
         ends: dict[str, int] = {}
+        answers = self.derivation.answering(part.answers)
+        framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
-            self._append(blocks, self.derivation.step(key))
+            self._append(blocks, self.derivation.step(key), framed=key in framed)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
             ends[key] = len(blocks)
         steps = len(blocks)
-        answers = self.derivation.answering(part.answers)
         values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
         for i, value in enumerate(v for v in values if v.outcome != "exact"):
-            self._append(blocks, value, goes_on=i > 0)
-        blocks.append(Answers(tuple(self._answer(step) for step in answers)))
+            self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, ends, steps)
         return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
@@ -317,35 +297,38 @@ class _Writer:
     def _found_before(self, part: Question) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""
         before = [step for step in self.derivation.answering(part.answers) if step.key in self.shown_in]
-        return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.numbers, self.words)]
+        return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.words)]
 
     @property
     def _and(self) -> str:
         return str(self.words.labels["and"])
 
-    def _answer(self, step: Step) -> Answer:
-        key, value = step.key, self.values.get(step.key)
-        forms = [form for form in value.chain if form.because in NUMBERS] if value is not None else []
-        numbers = tuple((_sign_before(form), _right_side(form.expr)) for form in forms)
-        if isinstance(step.result, Truncated) or step.chain[-1].because == "series":
-            return Answer(key, step.symbol, step.result, "approx")
-        result = self._short(step, step.result)
-        if isinstance(result, Relation):
-            return Answer(key, result.left, result.right, result.word, numbers, self.notes.get(key, ()))
-        note = (Text(self.words.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
-        return Answer(key, step.symbol, result, "equals", numbers, self.notes.get(key, note))
+    def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
+        """The steps of a part whose last line is framed as its answer, each in its place.
 
-    def _append(self, blocks: list[Block], step: Step, goes_on: bool = False) -> None:
-        """A step's words and lines; one that goes on from the step before needs no words of its own."""
+        Where its number follows at once, with nothing but other answers between, the number alone has the frame.
+        """
+        derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
+        measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
+        return set(asked) - measured
+
+    def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
+        """A step's words and lines; one that goes on from the step before needs no words of its own.
+
+        What a part asks for is on the page: if it shall be hidden, its result stands without words.
+        """
         mode = self.problem.show.get(step.key, "")
-        if mode == "hidden":
+        if mode == "hidden" and step.key not in self.asked:
             return
         if step.key not in self.asked and (same := says_again(step)) in self.numbers:
             self.numbers[step.key] = self.numbers[str(same)]
             return
-        nodes = (Chain(),) if goes_on else self._phrase(step)
+        nodes = (Chain(),) if goes_on or mode == "hidden" else self._phrase(step)
         self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
-        equations = Equations(step.key, self._lines(step, mode), self.numbers[step.key])
+        lines = self._lines(step, mode)
+        if framed and step.grade is Grade.DEFINITION and not lines[-1].reason:
+            lines = (*lines[:-1], replace(lines[-1], reason=(Text(self.words.labels["by_definition"]),)))
+        equations = Equations(step.key, lines, self.numbers[step.key], _results(step, lines) if framed else 0)
         before, after = around_chain(nodes)
         display = Display((equations,), frozenset({step.grade}), self._routes(step))
         if not before and blocks and isinstance(blocks[-1], Display):
@@ -375,27 +358,36 @@ class _Writer:
     def _lines(self, step: Step, mode: str) -> tuple[ChainLine, ...]:
         level = Level.FULL if mode == "full" else self.level
         forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
-        if mode == "result":
+        if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
+        forms += self._decimals(step)
         before = [None, *(form.because for form in forms)]
         forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         return tuple(lines)
 
+    def _decimals(self, step: Step) -> list[Form]:
+        """The decimals of an answer without letters go on its own lines."""
+        value = self.values.get(step.key)
+        exact = value is not None and value.outcome == "exact"
+        return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []
+
     def _line(self, step: Step, form: Form, before: str | None) -> ChainLine:
         stands_alone = before is None and not isinstance(form.expr, Relation)
         template = "" if stands_alone else self.words.reason(step, form.because, before or "")
         reason = self._reason(step, form, template)
-        if isinstance(form.expr, Relation) and form.because in NUMBERS and before is not None:
-            return ChainLine(None, _sign_before(form), form.expr.right, reason)
+        numeric = form.because in NUMBERS
+        if isinstance(form.expr, Relation) and numeric and before is not None:
+            return ChainLine(None, _sign_before(form), form.expr.right, reason, numeric=True)
         if isinstance(form.expr, Relation):
-            return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason)
+            return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason, numeric=numeric)
         return ChainLine(
             left=step.symbol if before is None else None,
             relation=_sign_before(form),
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
+            numeric=numeric,
         )
 
     def _reason(self, step: Step, form: Form, template: str) -> tuple[Inline, ...]:
@@ -423,8 +415,13 @@ def _sign_before(form: Form) -> str:
     return "approx" if form.because in {"rounded", "series"} else "equals"
 
 
-def _right_side(value: Any) -> Any:
-    return value.right if isinstance(value, Relation) else value
+def _results(step: Step, lines: Sequence[ChainLine]) -> int:
+    """How many lines at the end are the result: the last one, or its decimals and before them what they are of.
+
+    Where numbers are put in, what they are of is the same formula with units: the decimals alone are the result.
+    """
+    decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
+    return decimals if decimals and step.outcome == "measured" else min(decimals + 1, len(lines))
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

@@ -95,7 +95,6 @@ class Phrases:
     rules: Mapping[str, Mapping[str, str]]
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
-    verdicts: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]
     drawings: Mapping[str, str]
     grades: Mapping[str, str]
@@ -264,21 +263,6 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     if unit:
         names["unit"] = UnitMark(unit)
     return names
-
-
-def notes_apart(steps: Sequence[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """What is said beside answers: a verdict; of one symbol, a general result, and what it becomes in a case."""
-    notes: dict[str, tuple[Inline, ...]] = {}
-    for step in steps:
-        verdict = words.verdicts.get(step.rule, {}).get(step.outcome)
-        if verdict:
-            notes[step.key] = filled(verdict, names_of_step(step, words, None))
-        phrase = words.labels["in_case"].get(step.rule)
-        general = [g for g in steps if g.key in step.inputs and step.symbol is not None and g.symbol == step.symbol]
-        if phrase and general:
-            notes[general[0].key] = (Text(words.labels["in_general"]),)
-            notes[step.key] = filled(phrase, names_of_step(step, words, None))
-    return notes
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:

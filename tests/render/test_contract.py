@@ -58,6 +58,7 @@ def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
         "problem",
         "title",
         "points",
+        "strategy",
         "given",
         "parts",
         "assumed",
@@ -66,7 +67,7 @@ def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
         "steps",
         "reference",
     ]
-    assert {frozenset(part) for part in page["parts"]} == {frozenset({"label", "points", "answers"})}
+    assert {frozenset(part) for part in page["parts"]} == {frozenset({"label", "points", "extra", "answers"})}
     assert {frozenset(answer) for answer in page["answers"].values()} == {
         frozenset({"symbol", "sympy", "latex", "unit", "number"})
     }

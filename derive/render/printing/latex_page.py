@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +16,11 @@ from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Ways
-from derive.page.document import Answer, Display, Document, Illustration, PartPage
+from derive.page.document import Display, Document, Equations, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark, filled
 from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_latex
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import LINE_WIDTH, Printed, answer_lines, printed_lines
+from derive.render.printing.lines import Printed, printed_lines
 from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.rendered import Tex
@@ -119,37 +119,34 @@ class _Page:
         return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
 
     def display(self, display: Display) -> Tex:
-        """The rows of an align environment; the last row of each step is numbered."""
-        steps = []
-        for group, stop in zip(display.groups, display.stops, strict=True):
-            *lines, last = printed_lines(group, self.notation)
-            rows = [self._row(line, "") for line in lines] + [self._row(last, stop)]
-            steps.append(" \\\\*\n".join(rows))  # a page ends between steps, not within one
-        return Tex(" \\\\\n".join(steps))
+        """The rows of a chain; a page ends between steps, or far from both ends of a long one."""
+        steps = [self._step(group, stop) for group, stop in zip(display.groups, display.stops, strict=True)]
+        return Tex("\n\\nextstep\n".join(steps))
 
-    def _row(self, printed: Printed, stop: str) -> str:
-        body = self._formula(printed, r"\fit{%s}" if printed.width > LINE_WIDTH else "%s") + stop
-        reason = rf"\why{{{self.inline(printed.reason)}}}" if printed.reason else ""
-        if printed.number is None:
-            return body + (rf" \tag*{{{reason}\blanknumber}}" if reason else r" \notag")
-        anchor = rf"\anchor{{{_anchor(self.document.id, printed.number)}}}"
-        return body + rf" \tag*{{{reason}\eqnumber{{{printed.number}}}}}{anchor}"
+    def _step(self, group: Equations, stop: str) -> str:
+        rows = _rows(printed_lines(group, self.notation))
+        set_rows = [self._row(lines, stop if lines is rows[-1] else "") for lines in rows]
+        breaks = [r"\inlongstep" if 2 < i < len(rows) - 2 else r"\samestep" for i in range(1, len(rows))]
+        return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
-    def _formula(self, printed: Printed, fitted: str = "%s", mark: str = "&") -> str:
-        """The line; `mark` is where lines below each other are aligned."""
-        left = fitted % latex(printed.left) if printed.left else ""
-        sides = " ".join(
-            f"{TEX_OPERATORS[relation].strip()} {fitted % latex(side)}" for relation, side in printed.sides
-        )
-        return f"{left} {mark}{sides}"
+    def _row(self, lines: Sequence[Printed], stop: str) -> str:
+        """Left side, right sides, punctuation, reason and number; a framed row has its left side within the frame."""
+        first, last = lines[0], lines[-1]
+        left = latex(first.left) if first.left else ""
+        if first.frames_all:
+            command, body = "framedrow", f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines)
+        elif len(lines) > 1:
+            ((relation, begun),) = first.sides
+            stacked = _stacked("", [replace(first, sides=(("start", begun),)), *lines[1:]])
+            command, body = "row", f"{TEX_OPERATORS[relation]} {_framed(stacked)}"
+        else:
+            command, body = "row", _sides(first)
+        reason = rf"\why{{{self.inline(last.reason)}}}" if last.reason else ""
+        number = "" if last.number is None else self._numbered(last.number)
+        return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
 
-    def answer(self, answer: Answer) -> Tex:
-        lines = answer_lines(answer, self.notation)
-        note = rf" \quad\text{{{self.inline(answer.note)}}}" if answer.note else ""
-        if len(lines) == 1:
-            return Tex(self._formula(lines[0], mark="") + note)
-        rows = " \\\\\n".join(self._formula(line) for line in lines)
-        return Tex(rf"\begin{{aligned}}{rows}\end{{aligned}}{note}")
+    def _numbered(self, number: int) -> str:
+        return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
 
     def in_statement(self) -> Sequence[Illustration]:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
@@ -215,6 +212,38 @@ class _Questions(_Page):
 
     def _reference(self, key: str) -> str:
         return escaped(f"{self.words.labels['part']} ({self.document.shown_in.get(key, '')})")
+
+
+def _rows(lines: Sequence[Printed]) -> list[list[Printed]]:
+    """Lines that one frame holds are one row."""
+    rows: list[list[Printed]] = []
+    for line in lines:
+        goes_on = line.left is None and line.sides[0][0] == "on"
+        if goes_on and line.framed and rows and rows[-1][-1].framed:
+            rows[-1].append(line)
+        else:
+            rows.append([line])
+    return rows
+
+
+def _sides(line: Printed) -> str:
+    """Relations and right sides; those at the end that are the result in a frame, the relation before it."""
+    shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
+    at = len(shown) - (0 if line.frames_all else line.framed)
+    plain = [f"{sign} {side}" for sign, side in shown[:at]]
+    if at == len(shown):
+        return " ".join(plain)
+    (sign, first), *others = shown[at:]
+    return " ".join([*plain, sign, _framed(" ".join([first, *(f"{sign} {side}" for sign, side in others)]))])
+
+
+def _stacked(left: str, lines: Sequence[Printed]) -> str:
+    rows = [f"&{_sides(line)}" for line in lines]
+    return rf"\begin{{aligned}}{left} " + r" \\ ".join(rows) + r"\end{aligned}"
+
+
+def _framed(formula: str) -> str:
+    return rf"\inframe{{{formula}}}"
 
 
 def dotted(problem_id: str) -> str:

@@ -5,25 +5,36 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from derive.page.document import Answer, Equations
+from derive.page.document import Equations
 from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken, terms_of
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
-LINE_WIDTH, ANSWER_WIDTH = 60.0, 70.0  # of a line, and of a boxed result
+LINE_WIDTH, TEXT_WIDTH = 76.0, 60.0  # of a line on paper, and of one on a screen
 LINE_INDENT = 4.0  # of a line that goes on
+MOST_SIDES = 4  # of one line
 
 
 @dataclass(frozen=True)
 class Printed:
-    """One printed line: `left` if it begins the chain, then relations and right sides, then the reason."""
+    """One printed line: `left` if it begins the chain, then relations and right sides, then the reason.
+
+    So many right sides at its end are framed, with the left side where they are all.
+    """
 
     left: Layout | None
     sides: tuple[tuple[str, Layout], ...]
     reason: tuple[Inline, ...]
     number: int | None = None
+    framed: int = 0
+
+    @property
+    def frames_all(self) -> bool:
+        """Whether the frame has the left side in it: not where the line goes on from another."""
+        stands_alone = self.left is not None or self.sides[0][0] in ("start", "on")
+        return self.framed == len(self.sides) and stands_alone
 
     @property
     def width(self) -> float:
@@ -35,23 +46,27 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     """The lines of one step, packed to a width in characters; the last carries the number."""
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the equation that goes on
-    for line in equations.lines:
+    framed_from = len(equations.lines) - equations.framed
+    for i, line in enumerate(equations.lines):
+        framed = int(i >= framed_from)
         side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
         last = packed[-1] if packed else None
         left = notation.side(line.left) if line.left is not None else None
         goes_on = left is None or left == begun and line.relation == "equals"
         begun = begun if left is None else left
         if last and not goes_on:
-            packed.append(Printed(left, (side,), line.reason))
+            packed.append(Printed(left, (side,), line.reason, framed=framed))
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
-            packed[-1] = replace(last, sides=(*last.sides[:-1], side))  # what is laid out alike is one to the reader
+            # What is laid out alike is one to the reader.
+            packed[-1] = replace(last, sides=(*last.sides[:-1], side), framed=max(last.framed, framed))
             continue
         room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit
-        if last and room and len(last.sides) < 3 and not (last.reason and line.reason):
-            packed[-1] = Printed(last.left, (*last.sides, side), last.reason or line.reason)
+        if last and room and len(last.sides) < MOST_SIDES and not (last.reason and line.reason):
+            reason, count = last.reason or line.reason, last.framed + framed
+            packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
-            packed.append(Printed(None if last else left, (side,), line.reason))
+            packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
 
@@ -65,17 +80,6 @@ def _alike(first: Layout, second: Layout) -> bool:
 def _as_read(terms: list[Layout]) -> list[str]:
     """In some order, and without spaces: M/(2 pi a) as it was put together, and with its numbers side by side."""
     return sorted("".join(plain(term).split()) for term in terms)
-
-
-def answer_lines(answer: Answer, notation: Notation, limit: float = ANSWER_WIDTH) -> list[Printed]:
-    """A boxed result on as few lines as it takes."""
-    sides = [(answer.relation, notation.result(answer.value))]
-    sides += [(sign, notation.layout(number)) for sign, number in answer.numbers]
-    whole = Printed(notation.side(answer.symbol), tuple(sides), ())
-    if whole.width <= limit:
-        return [whole]
-    begun = replace(whole, sides=whole.sides[:1])
-    return [*_fitted(begun, limit), *(Printed(None, (side,), ()) for side in sides[1:])]
 
 
 def _fitted(line: Printed, limit: float) -> list[Printed]:
@@ -94,7 +98,8 @@ def _fitted(line: Printed, limit: float) -> list[Printed]:
     if not others:
         return [line]
     *between, last = (Printed(None, (("on", piece),), ()) for piece in others)
-    return [begun, *between, replace(last, sides=(*last.sides, *ends), reason=line.reason)]
+    whole = [begun, *between, replace(last, sides=(*last.sides, *ends), reason=line.reason)]
+    return [replace(each, framed=len(each.sides)) for each in whole] if line.framed else whole
 
 
 def reason_width(reason: tuple[Inline, ...]) -> float:

@@ -8,14 +8,15 @@ from collections.abc import Mapping, Sequence
 from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
-from derive.page.document import Answer, Answers, Display, Document, Illustration, Paragraph, PartPage
+from derive.page.document import Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import columns, plain, text_box, to_the_right
-from derive.render.printing.lines import Printed, answer_lines, printed_lines
+from derive.render.printing.lines import TEXT_WIDTH, Printed, printed_lines
 
 PAGE_COLUMNS = 88
+FRAMED = "  * "  # before a line that has in it what a part asks for
 
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
@@ -79,8 +80,6 @@ class _Page:
                     blocks += ["", self._wrapped(nodes)]
                 case Display():
                     blocks += ["", self._display(block)]
-                case Answers(answers):
-                    blocks += ["", *(self._answer(answer) for answer in answers)]
                 case Illustration():
                     blocks += ["", self._drawing(block)]
         return "\n".join(blocks)
@@ -110,7 +109,7 @@ class _Page:
     def _display(self, display: Display) -> str:
         lines: list[str] = []
         for group in display.groups:
-            printed = printed_lines(group, self.notation)
+            printed = printed_lines(group, self.notation, TEXT_WIDTH)
             indent = max((columns(plain(line.left)) for line in printed if line.left is not None), default=0)
             for line in printed:
                 lines += self._line(line, indent)
@@ -135,6 +134,8 @@ class _Page:
     def _line(self, line: Printed, indent: int) -> list[str]:
         body, middle = self._body(line, indent)
         lines = ["    " + text for text in body]
+        if line.framed:
+            lines[middle] = FRAMED + lines[middle][len(FRAMED) :]
         reason = f"[{self._inline(line.reason)}]" if line.reason else ""
         if reason and columns(lines[middle]) + columns(reason) + 10 <= PAGE_COLUMNS:
             lines[middle] += "  " + reason
@@ -145,19 +146,3 @@ class _Page:
             room = PAGE_COLUMNS - len(number) - columns(lines[middle])
             lines[middle] += (" " * room if room > 0 else "  ") + number
         return lines
-
-    def _answer(self, answer: Answer) -> str:
-        lines = answer_lines(answer, self.notation)
-        indent = max((columns(plain(line.left)) for line in lines if line.left is not None), default=0)
-        body = [text for line in lines for text in self._body(line, indent)[0]]
-        if answer.note:
-            body = [f"{body[0]}   {self._inline(answer.note)}", *body[1:]]
-        size = max(map(columns, body))
-        rule = "─" * (size + 2)
-        return "\n".join(
-            [
-                "    ┌" + rule + "┐",
-                *(f"    │ {text}{' ' * (size - columns(text))} │" for text in body),
-                "    └" + rule + "┘",
-            ]
-        )
