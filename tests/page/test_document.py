@@ -12,7 +12,7 @@ from derive.algebra.equality import Grade
 from derive.building.solved import Solved
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint
-from derive.page.document import Answers, Display, Document, Equations, Illustration, Paragraph, document_of
+from derive.page.document import Display, Document, Equations, Illustration, Paragraph, document_of
 from derive.page.wording import Math, Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, solved_once
@@ -65,10 +65,21 @@ def test_a_hidden_step_takes_no_number(block: Block) -> None:
     assert hidden == {key: number - 1 for key, number in shown.items() if key != "density"}
 
 
-def test_every_part_ends_with_the_answers_that_it_asks_for(block: Block) -> None:
-    for part, asked in zip(page(block).parts, block[0].parts, strict=True):
-        (boxed,) = [each for each in part.blocks if isinstance(each, Answers)]
-        assert [answer.key for answer in boxed.answers] == list(asked.answers)
+def framed(document: Document) -> dict[str, int]:
+    return {group.key: group.framed for group in groups(document) if group.framed}
+
+
+def test_what_a_part_asks_for_is_framed_where_it_is_reached_with_its_decimals(block: Block) -> None:
+    asked = [key for part in block[0].parts for key in part.answers]
+    found = framed(page(block))
+    assert list(found) == asked
+    assert {key for key, count in found.items() if count == 2} == {"cosine", "angle_between", "magnitude"}
+
+
+def test_what_a_part_asks_for_stands_on_the_page_though_it_be_hidden(block: Block) -> None:
+    shown, hidden = page(block), page(block, show={"torque": "hidden"})
+    assert hidden.numbers == shown.numbers and framed(hidden) == framed(shown)
+    assert lines(hidden)["torque"] == 1
 
 
 def test_more_detail_has_more_lines_and_the_same_results(block: Block) -> None:

@@ -14,7 +14,7 @@ from derive.algebra.expressions import column
 from derive.course.names import EvidenceShown
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Checks, Ways
-from derive.page.document import Answer, Answers, Document, Paragraph
+from derive.page.document import ChainLine, Document, Equations, Paragraph
 from derive.page.wording import DimensionMark, Text, UnitMark
 from derive.render.printing.latex_page import Fragments, dotted, problem_latex, whole_latex
 from tests.courses import ROOT
@@ -25,6 +25,11 @@ TEMPLATES = ROOT / "templates"
 
 def fragments(document: Document) -> Fragments:
     return problem_latex(document, WORDS, NOTATION, TEMPLATES)
+
+
+def chain(tex: str) -> list[str]:
+    """The rows of the first display, and what stands between them."""
+    return tex.partition("\\chain{\n")[2].partition("\n}\n")[0].splitlines()
 
 
 def solution(document: Document) -> str:
@@ -52,7 +57,7 @@ def test_every_number_is_an_anchor_and_every_reference_leads_to_one() -> None:
 def test_the_sheet_has_the_questions_and_nothing_that_is_derived() -> None:
     sheet = str(fragments(WHOLE).sheet)
     assert "Find $T$ as in part (a)" in sheet, "an equation is referred to by the part that asks for it"
-    assert not re.search(r"hyperlink|align|answer|halves|gap|every step", sheet)
+    assert not re.search(r"hyperlink|chain|frame|halves|gap|every step", sheet)
 
 
 def test_the_strategy_stands_between_the_statement_and_the_first_part() -> None:
@@ -68,10 +73,17 @@ def test_a_part_beyond_the_homework_is_marked_on_the_page_and_on_the_sheet() -> 
 
 
 def test_a_page_does_not_end_within_a_step() -> None:
-    rows = solution(page(display("mass", "energy"))).partition(r"\begin{align}")[2].partition(r"\end{align}")[0]
-    first, second, third = rows.strip().splitlines()
-    assert first.endswith("\\\\") and second.endswith("\\\\*") and r"\eqnumber{2}" in third
-    assert r"\notag" not in first + third
+    first, between, second, within, third = chain(solution(page(display("mass", "energy"))))
+    assert (between, within) == (r"\nextstep", r"\samestep")
+    assert r"\eqnumber{1}" in first and r"\eqnumber" not in second and r"\eqnumber{2}" in third
+
+
+def test_a_page_may_end_in_the_middle_of_a_long_step() -> None:
+    lines = tuple(ChainLine(T if i == 0 else None, "equals", a**i, (Text("why"),)) for i in range(8))
+    rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", lines, 1),)))))
+    assert [row for row in rows if "row" not in row] == [
+        *[r"\samestep"] * 2, *[r"\inlongstep"] * 3, *[r"\samestep"] * 2
+    ]  # fmt: skip
 
 
 def test_the_margin_names_a_route_only_if_there_is_room_for_it() -> None:
@@ -101,12 +113,23 @@ def test_units_and_dimensions_stand_upright(node: DimensionMark | UnitMark, tex:
     assert tex in solution(page(note=(node,)))
 
 
-def test_a_long_answer_is_one_box_of_several_lines() -> None:
+def framed(*lines: ChainLine) -> list[str]:
+    return chain(solution(page(replace(display("mass"), groups=(Equations("mass", lines, 1, framed=1),)))))
+
+
+def test_a_result_that_stands_alone_is_framed_with_its_left_side_and_else_by_itself() -> None:
+    assert framed(ChainLine(T, "equals", M * a)) == [r"\framedrow{T}{T = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"]
+    (row,) = framed(ChainLine(T, "equals", M + a), ChainLine(None, "equals", M * a))
+    assert row == r"\row{T}{= M+a = \inframe{Ma}}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"
+
+
+def test_a_long_result_is_in_one_frame_of_several_lines() -> None:
     terms = sum(symbols("b_:40", positive=True))
-    short, long = (solution(page(Answers((Answer("energy", T, value),)))) for value in (M * a, terms))
-    assert r"\begin{aligned}" not in short
-    boxed = long.partition(r"\begin{aligned}")[2].partition(r"\end{aligned}")[0]
-    assert boxed.count(r"\\") >= 1 and "b_{39}" in boxed
+    (alone,) = framed(ChainLine(T, "equals", terms))
+    first, _, goes_on = framed(ChainLine(T, "equals", M * a, (Text("why"),)), ChainLine(None, "equals", terms))
+    assert alone.startswith(r"\framedrow{T}{\begin{aligned}T &= b_{0}") and "b_{39}" in alone
+    assert alone.count(r"\\") == goes_on.count(r"\\") >= 1
+    assert goes_on.startswith(r"\row{}{= \inframe{\begin{aligned} &b_{0}") and r"\inframe" not in first
 
 
 def test_what_was_checked_names_steps_by_their_symbols_and_errata_by_what_is_printed() -> None:

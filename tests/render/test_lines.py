@@ -5,10 +5,10 @@ from __future__ import annotations
 from sympy import Symbol, sin, symbols
 
 from derive.algebra.expressions import Relation
-from derive.page.document import Answer, ChainLine, Equations
+from derive.page.document import ChainLine, Equations
 from derive.page.wording import Text
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import answer_lines, printed_lines
+from derive.render.printing.lines import printed_lines
 
 LETTERS = symbols("a b c d e f g h k l m n p q r s", positive=True)
 theta = Symbol("theta", real=True)
@@ -33,10 +33,28 @@ def test_a_long_left_side_ends_with_its_relation() -> None:
     assert lines[-1].sides[-1] == ("equals", NOTATION.layout(relation.right))
 
 
-def test_a_boxed_answer_takes_as_many_lines_as_it_needs() -> None:
-    answer = Answer("T", Symbol("T"), LONG)
-    assert len(answer_lines(answer, NOTATION, 40)) > 2
-    assert len(answer_lines(answer, NOTATION, 1000)) == 1
+def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -> None:
+    T, (a, b, c) = Symbol("T"), LETTERS[:3]
+    chain = (ChainLine(T, "equals", a * b), ChainLine(None, "equals", c), ChainLine(None, "approx", a, numeric=True))
+    for framed, whole in ((0, False), (1, False), (2, False), (3, True)):
+        (line,) = printed_lines(Equations("T", chain, 7, framed), NOTATION)
+        assert (line.framed, line.frames_all) == (framed, whole)
+    apart = printed_lines(Equations("T", chain, 7, 2), NOTATION, 4)
+    assert [(line.framed, line.frames_all) for line in apart] == [(0, False), (1, False), (1, False)]
+
+
+def test_a_framed_line_that_is_broken_is_framed_as_a_whole() -> None:
+    lines = printed_lines(Equations("T", (ChainLine(Symbol("T"), "equals", LONG),), 7, 1), NOTATION, 40)
+    assert len(lines) > 2 and all(line.frames_all for line in lines)
+    relation = ChainLine(LONG, "equals", Symbol("T"))
+    assert all(line.frames_all for line in printed_lines(Equations("T", (relation,), 7, 1), NOTATION, 40))
+
+
+def test_what_looks_alike_keeps_its_frame() -> None:
+    a, b = LETTERS[:2]
+    alike = (ChainLine(Symbol("T"), "equals", a * b), ChainLine(None, "equals", b * a))
+    (line,) = printed_lines(Equations("T", alike, 1, 1), NOTATION)
+    assert line.frames_all
 
 
 def test_short_forms_share_a_line_until_one_has_a_reason() -> None:

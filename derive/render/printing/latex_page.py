@@ -238,7 +238,7 @@ def _sides(line: Printed) -> str:
 
 
 def _stacked(left: str, lines: Sequence[Printed]) -> str:
-    rows = [f"&{_sides(line)}" for line in lines]
+    rows = [f"&{_sides(line).strip()}" for line in lines]
     return rf"\begin{{aligned}}{left} " + r" \\ ".join(rows) + r"\end{aligned}"
 
 
