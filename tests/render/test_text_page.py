@@ -12,7 +12,7 @@ from derive.page.document import Document, Paragraph
 from derive.page.wording import Math, Ref, Text
 from derive.render.notation.text import columns
 from derive.render.printing.text_page import PAGE_COLUMNS, inline_text, page_text
-from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
+from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, a, display, page
 
 
 def shown(document: Document) -> list[str]:
