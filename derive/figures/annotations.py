@@ -284,6 +284,14 @@ class PointMark(_Single):
 
 
 @dataclass(frozen=True)
+class CentreMark(PointMark):
+    """A centre of mass that is still to be found: where it is, is seen and not told."""
+
+    def in_words(self) -> InWords | None:
+        return self._if_named("point", place=None)
+
+
+@dataclass(frozen=True)
 class Support(_Single):
     """The fixed ground under a pivot: a pointed stand on hatched ground, high enough that what turns about the pivot
     clears the ground."""

@@ -11,32 +11,37 @@ from sympy import Expr, Integer, Rational, sqrt
 from derive.algebra.expressions import AXES, column, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.figures.annotations import Axis, LengthMark, Line
+from derive.figures.annotations import Axis, CentreMark, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, ThinRod
+from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, SliceMark, ThinRod
 from derive.mechanics.bodies.body import Body, OfRadius, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.bodies.solids import ThickShell
 from derive.steps.step import is_zero
 
-__all__ = ["outline"]
+__all__ = ["centre_mark", "outline"]
 
 ORIGIN = column(0, 0, 0)
 X, Y, Z = UNIT = tuple(column(*(int(i == k) for k in range(3))) for i in range(3))
 THIN = Rational(1, 40)  # half the thickness with which a disc is drawn, in terms of its radius
 EDGE = 32  # steps along each side of the edge of a flat body
+CUT, SLICE = Rational(11, 20), Rational(1, 20)  # where a slice is cut and how thick it is, in terms of the height
+BESIDE_IT = 17.0  # points between the dimension line of its height and that of the whole
 CURVED = 48  # circles by which a curved side is drawn, close together where it may come to a tip
 
 
-def outline(body: Any, about: str | None = None, named: bool = True) -> list[Mark]:
+def outline(body: Any, about: str | None = None, named: bool = True, sliced: bool = False) -> list[Mark]:
     """The outline of a body, in the axes that begin at one of its points.
 
     body    a body of `derive.mechanics`
     about   the name of the point, otherwise the one at which the body's own axes begin
     named   whether its measures and the axes are written beside it
+    sliced  whether a round solid has a slice across its axis marked, as an integral over its height cuts it
     """
     found = seen_outline(body, about, named) if isinstance(body, Body) else []
+    if sliced and isinstance(body, RoundBody) and body.filling == "volume":
+        found = _with_slice(found, body, body.point(about or body.reference))
     if not found:
         raise Rejected(Complaint("wrong-argument", f"there is no outline of a {type(body).__name__}"))
     return found
@@ -161,6 +166,30 @@ def _measures(body: RoundBody, point: Point) -> list[Mark]:
 def widest_of(body: RoundBody) -> tuple[Expr, Expr]:
     """The height at which it is widest, and the radius there."""
     return max(_profile(body), key=lambda ring: in_units(ring[1]))
+
+
+def _with_slice(marks: Sequence[Mark], body: RoundBody, point: Point) -> list[Mark]:
+    """A slice at the height z from the point, with its radius there; the dimension lines beside it make room."""
+    z = scalar("z")
+    lower, upper = body.ends
+    at = lower + CUT * (upper - lower)
+    near, far = sorted((at, at + SLICE * (upper - lower)), key=lambda own: in_units(_height(point, own)))
+    radius = max((radius for _, radius in _profile(body)), key=in_units)
+    rings = tuple((_height(point, own), body.radius_at(at)) for own in (near, far))
+    label = tidied(body.radius_at(point.along_body(z)))
+    slice_of_it = SliceMark(rings, ORIGIN, Z, label=label, height=z, thickness=("d", z))
+    moved = [replace(mark, beyond=BESIDE_IT) if isinstance(mark, LengthMark) else mark for mark in marks]
+    return [*moved, slice_of_it, LengthMark(ORIGIN, _height(point, near) * Z, None, radius, label=z)]
+
+
+def _height(point: Point, own: Expr) -> Expr:
+    """The z from a point on the axis of what the body itself has there."""
+    return point.seen(column(0, 0, own))[2]
+
+
+def centre_mark(body: Body, about: str | None = None, label: Any = "C") -> Mark:
+    """Where the centre of mass of a body is, with its name and not its place, which is for the problem to find."""
+    return CentreMark(body.point(about or body.reference).seen(body.middle.position), label=scalar(label))
 
 
 def _is_told(length: Expr, body: Body) -> bool:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
 
 from derive.figures.marks import BESIDE, InWords, Mark, Position, Surface
-from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Stroke
+from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, rim
 
 EVERY = 8  # of the places of a circle, one in so many says how large it is
@@ -35,6 +35,34 @@ class Revolved(Surface):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         return paper.revolved(*self._rings(paper.numbers))
+
+
+@dataclass(frozen=True)
+class SliceMark(Revolved):
+    """A thin slice of a round body across its axis, with its radius as its label.
+
+    height, thickness   the letter of its height and the label of its thickness
+    """
+
+    height: Any = field(default=None, metadata=BESIDE)
+    thickness: Any = field(default=None, metadata=BESIDE)
+    layer: ClassVar[int] = 1
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        centres, radii = self._rings(paper.numbers)
+        found = [replace(p, fill="body") if isinstance(p, Patch) else p for p in paper.revolved(centres, radii)]
+        spots = [spot for piece in found for spot in piece.spots]
+        left, right = (choice(spots, key=lambda spot: spot[0]) for choice in (min, max))
+        middle = paper.spot(centres[-1])
+        return [
+            *found,
+            Stroke((middle, (right[0], middle[1])), "hidden"),
+            Tag(self.label, (right[0], middle[1]), (1.0, 0.0), 4.0),
+            Tag(self.thickness, (left[0], left[1]), (-1.0, 0.0), 4.0),
+        ]
+
+    def in_words(self) -> InWords:
+        return "slice", {"height": self.height, "radius": self.label}
 
 
 @dataclass(frozen=True)

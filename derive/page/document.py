@@ -439,8 +439,12 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
 def _illustrated(
     blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
 ) -> tuple[Block, ...]:
-    """Each drawing after the step that completes it; at the end of the part if that is its last, or none of its."""
-    places = [max((ends[key] for key in drawing.rests_on if key in ends), default=steps) for drawing in own]
+    """Each drawing after the step that completes it; what shows only what is given opens the part, and what rests on
+    earlier parts alone closes it."""
+    places = [
+        max((ends[key] for key in drawing.rests_on if key in ends), default=steps if drawing.rests_on else 0)
+        for drawing in own
+    ]
     found: list[Block] = []
     for i, block in enumerate(blocks):
         found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]

@@ -123,7 +123,10 @@ def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
 
 
 def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
-    """A label is a name or an expression, or a word that is printed as it is."""
+    """A label is a name or an expression, or a word that is printed as it is, or several of these in a row."""
+    if isinstance(label, tuple):
+        parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
+        return (Span(f"${''.join(parts)}$"),)
     return (Span(rf"$\mathrm{{{label}}}$"),) if isinstance(label, str) else runs(notation.result(label))
 
 
