@@ -183,7 +183,16 @@ class Arrow(Mark):
 
 @dataclass(frozen=True)
 class Weight(Arrow):
-    """A weight where it acts: it is seen from everywhere, so that nothing needs to be turned for it."""
+    """A weight where it acts: it is seen from everywhere, so that nothing needs to be turned for it. What is under its
+    tip is often taken, so that its name stands anywhere beside it."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        line, *_ = found = super().pieces(paper)
+        (x, y), (u, v) = line.spots
+        along = direction(*line.spots)
+        half = 0.5 * (u - x), 0.5 * (v - y)
+        beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
+        return [beside if isinstance(piece, Tag) else piece for piece in found]
 
     @property
     def directions(self) -> tuple[Position, ...]:

@@ -53,7 +53,8 @@ __all__ = ["sketch"]
 ZERO = Integer(0)
 HANGING = Rational(5, 2)  # a string through a hole, in terms of what of it is on the table
 FAR = Rational(8, 5)  # how much of a curve is drawn, in terms of its coordinate
-HALF = ECCENTRICITY = Rational(1, 2)
+ECCENTRICITY = Rational(1, 2)
+WEIGHT = Rational(2, 5)  # how long the arrow of a weight is, in terms of the size of the whole
 BROADSIDE = 23 * pi / 36  # across the way in which one usually looks
 ON_A_TABLE = 17 * pi / 36  # so that two level axes and the vertical are seen apart
 
@@ -298,10 +299,10 @@ class _Scene:
     def _weights(self) -> Iterable[Mark]:
         down, gravity = downwards(self.rows), self.system.gravity
         for particle in self.system.particles:
-            yield Weight(column_of(particle.at), down, HALF, False, label=particle.mass * gravity)
+            yield Weight(column_of(particle.at), down, WEIGHT, False, label=particle.mass * gravity)
         for placed in self.system.bodies:
             centre = column_of(with_its_shape(placed).centre)
-            yield Weight(centre, down, HALF, False, label=placed.body.mass * gravity)
+            yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
         """Whether something is drawn there that is no end of a spring or a force."""

@@ -2,7 +2,7 @@
 
 from sympy import S, cos, pi, sin
 
-from derive.figures import arrow, length_mark, plot, sketch
+from derive.figures import arrow, axes, dashed_at, length_mark, plot, point_mark, sketch
 from derive.given import *
 from derive.mechanics import *
 
@@ -43,10 +43,10 @@ def solve(
     N = constraint_force(forces, {x: sin(theta), y: cos(theta)}, "N", "normal_force")
     F = constraint_force(forces, {x: cos(theta), y: -sin(theta)}, "F", "tangent_force")
 
-    sketch("slab", system)
+    top, C, O = (radius + thickness) * across, point_mark(point(*centre), "C"), point_mark(point(0, 0), "O")
+    way = length_mark(top - radius * theta * along, top, "s")
+    sketch("slab", system, axes(point(0, 0), (7 * radius / 5, 9 * radius / 4)), O, C, way, dashed_at(system, {theta: 0}))
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
-    top = (radius + thickness) * across
-    sketch("rolled", system, length_mark(top - radius * theta * along, top, centre[0].parents[0]))
-    pulls = (point(0, -1), point(*centre), mass * gravity), (across, radius * across, N), (along, radius * across, F)
-    sketch("forces", system, [arrow(way, at, 1 / S(4), label=name) for way, at, name in pulls])
+    pushes = [arrow(out, radius * across, 2 / S(5), label=name) for out, name in ((across, N), (along, F))]
+    sketch("forces", system, O, C, pushes, weights=True)
     return L, motion, frequency(squared), stable, curvature, minimum, leading_order(curvature), again, N, F

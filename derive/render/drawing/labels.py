@@ -2,7 +2,7 @@
 
 Each label tries a ring of places round its spot and takes the one that covers the least; between equals, the one
 nearest to the side that its mark asked for. Labels on what they name choose first, those of lines last, as they
-can slide.
+can slide; then each looks once more, and where something is still covered, those with few places choose first.
 """
 
 from __future__ import annotations
@@ -19,7 +19,9 @@ from derive.figures.space import Spot
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 CLEAR = 1.5  # points between a label and a line
-HEAVY = 60.0  # what covering another label costs, in points of line covered
+LINE, HEAVY = 3.0, 60.0  # what covering a point of a line costs, and another label
+HEAVY_ENOUGH = 20.0
+ROUNDS = 3
 
 
 @dataclass(frozen=True)
@@ -34,25 +36,42 @@ class Placed:
 def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float]]) -> list[Placed]:
     """Every label of the pieces with its place; `measured` gives a label's width and height in points."""
     drawn = _seen(pieces)
-    found: list[Placed] = []
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
-    for tag in sorted(tags, key=lambda each: (not each.on, each.way is not None)):
-        width, height = measured(tag.label)
-        best = _best(_tried(tag, width, height), drawn, [p.extent for p in found])
-        found.append(Placed(tag.label, (best[0], best[1]), best))
-    return found
+    tried = [sorted(enumerate(_tried(tag, *measured(tag.label))), key=lambda each: each[1][0]) for tag in tags]
+    order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
+    cost, found = _one_by_one(order, tried, drawn)
+    if cost >= HEAVY_ENOUGH:  # something is covered: let those choose first that have the fewest places
+        other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
+        cost, found = min((cost, found), _one_by_one(other, tried, drawn), key=lambda each: each[0])
+    return [Placed(tags[i].label, found[i][:2], found[i]) for i in order]
 
 
-def _best(tried: Iterable[tuple[float, Extent]], drawn: Sequence[Spot], others: Sequence[Extent]) -> Extent:
+Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # the places of a label, the dearest last
+
+
+def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]) -> tuple[float, dict[int, Extent]]:
+    """The box of each label in this order, then once more of each, now that all others stand; and what all cost."""
+    found: dict[int, Extent] = {}
+    costs: dict[int, float] = {}
+    for _ in range(ROUNDS):
+        before = dict(found)
+        for i in order:
+            costs[i], found[i] = _best(tried[i], drawn, [box for j, box in found.items() if j != i])
+        if found == before:
+            break
+    return sum(costs.values()), found
+
+
+def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
     """The box that costs least, with what it covers; where no box is better in itself, none need be looked at."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
-    for place, (cost, box) in sorted(enumerate(tried), key=lambda each: each[1][0]):
+    for place, (cost, box) in tried:
         if cost > least:
             break
         whole = cost + _covered(box, drawn, others)
         if (whole, place) < (least, best[0]):
             least, best = whole, (place, box)
-    return best[1]
+    return least, best[1]
 
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
@@ -103,7 +122,7 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
     left, below, right, above = box[0] - CLEAR, box[1] - CLEAR, box[2] + CLEAR, box[3] + CLEAR
     lines = sum(left < x < right and below < y < above for x, y in drawn)
     labels = sum(left < o[2] and o[0] < right and below < o[3] and o[1] < above for o in others)
-    return lines * 2.0 + labels * HEAVY
+    return lines * LINE + labels * HEAVY
 
 
 def _seen(pieces: Sequence[Piece]) -> list[Spot]:

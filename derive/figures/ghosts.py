@@ -1,0 +1,56 @@
+"""Where the bodies of a system would be at other values of its coordinates: their outlines, dashed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Expr, Integer
+
+from derive.errors import Complaint, Rejected
+from derive.figures.marks import InWords, Mark, Surface
+from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
+from derive.figures.placed_bodies import placed_outline, with_its_shape
+from derive.figures.positions import name_of
+from derive.figures.space import Vector
+from derive.mechanics.systems.system import System
+
+__all__ = ["dashed_at"]
+
+
+@dataclass(frozen=True)
+class Ghost(Surface):
+    """The outline of a surface where it is not now.
+
+    letter, value   which coordinate has another value there
+    """
+
+    of: Surface = None  # type: ignore[assignment]
+    letter: Any = None
+    value: Any = None
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return self.of.places(numbers)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        patches = [piece for piece in self.of.pieces(paper) if isinstance(piece, Patch)]
+        return [Stroke((*patch.spots, patch.spots[0]), "trace") for patch in patches]
+
+    def in_words(self) -> InWords | None:
+        if not self.of.name:
+            return None
+        return "ghost", {"name": self.of.name, "letter": self.letter, "value": self.value}
+
+
+def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:
+    """The outlines of the bodies of a system where one of its coordinates has another value: its equilibrium.
+
+    values   the coordinate and its value there: `{theta: 0}`
+    """
+    known: dict[Any, Expr] = {name_of(None, letter): Integer(0) + value for letter, value in values.items()}
+    if len(known) != 1 or not known.keys() <= {*system.coordinates}:
+        raise Rejected(Complaint("wrong-argument", "`dashed_at` needs one coordinate of the system and its value"))
+    ((letter, value),) = known.items()
+    shown = [mark for body in system.bodies for mark in placed_outline(with_its_shape(body.moved(known)))]
+    return [Ghost(of=mark, letter=letter, value=value) for mark in shown if isinstance(mark, Surface)]
