@@ -12,12 +12,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from derive.algebra.expressions import Amount
-from derive.algebra.kinds import unit_of_kind
 from derive.course.placement import HIDDEN, STATEMENT, Placement
 from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.figures import marks as m
-from derive.page.plots import curves_of
+from derive.page.plots import Curve, Curves, curves_of, panel_letters, told_value, with_unit
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 
@@ -71,6 +70,8 @@ def depictions(
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
                 alt = alternative(problem, drawing, placement, words)
+                if caption and isinstance(drawing, m.Plot):
+                    caption += _read_off(problem, drawing, placement, words)
             except Rejected as error:
                 faults += error.complaints
                 continue
@@ -217,31 +218,45 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     names = {
         "quantity": _named(plot.label),
         "variable": _named(plot.variable),
-        "lower": _with_unit(first.lower * curves.per_unit, curves.unit),
-        "upper": _with_unit(first.upper * curves.per_unit, curves.unit),
+        "lower": with_unit(first.lower * curves.per_unit, curves.unit),
+        "upper": with_unit(first.upper * curves.per_unit, curves.unit),
     }
     told = [filled(words.drawings["plot"], names)]
-    for curve in curves.curves:
-        turns = [
-            filled(
-                words.drawings["extremum"],
-                {
-                    "kind": words.drawings[extremum.kind],
-                    "at": _with_unit(extremum.at * curves.per_unit, curves.unit),
-                    "value": _with_unit(extremum.value, unit_of_kind(plot.kind)),
-                },
-            )
-            for extremum in curve.extrema
-        ]
+    for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
         numbers = [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in curve.numbers]
         last = words.labels["and"]
-        told.append(filled(words.drawings["curve"], {"numbers": joined(numbers, last), "turns": joined(turns, last)}))
+        turns = joined(_turns(plot, curves, curve, words), last)
+        told.append(
+            filled(words.drawings["curve"], {"letter": letter, "numbers": joined(numbers, last), "turns": turns})
+        )
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
 
 
-def _with_unit(value: float, unit: str) -> str:
-    gap = "" if unit == "\u00b0" else " "
-    return f"{value:.4g}{gap}{unit}".replace("-", "\u2212").strip()
+def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
+    """Where a curve has its extrema, each in a few words."""
+    return [
+        filled(
+            words.drawings["extremum"],
+            {
+                "kind": words.drawings[extremum.kind],
+                "at": with_unit(extremum.at * curves.per_unit, curves.unit),
+                "value": told_value(plot, extremum),
+            },
+        )
+        for extremum in curve.extrema
+    ]
+
+
+def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
+    """After its caption, what is read off a plot: its extrema with their numbers, panel by panel."""
+    curves = curves_of(problem, plot, placement)
+    last = words.labels["and"]
+    told = [
+        filled(words.drawings["read_off"], {"letter": letter, "turns": joined(turns, last)})
+        for letter, curve in zip(panel_letters(curves), curves.curves, strict=True)
+        if (turns := _turns(plot, curves, curve, words))
+    ]
+    return (Text(" "), *filled(words.drawings["extrema"], {"told": joined(told, last)})) if told else ()
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:

@@ -439,12 +439,9 @@ def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
 def _illustrated(
     blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
 ) -> tuple[Block, ...]:
-    """Each drawing after the step that completes it; what shows only what is given opens the part, and what rests on
-    earlier parts alone closes it."""
-    places = [
-        max((ends[key] for key in drawing.rests_on if key in ends), default=steps if drawing.rests_on else 0)
-        for drawing in own
-    ]
+    """Each drawing after the step that completes it; one that rests on nothing opens the part, others close it."""
+    without = [steps if drawing.rests_on else 0 for drawing in own]
+    places = [max((ends[k] for k in d.rests_on if k in ends), default=n) for d, n in zip(own, without, strict=True)]
     found: list[Block] = []
     for i, block in enumerate(blocks):
         found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]

@@ -94,3 +94,20 @@ def _curve(
     expr = plot.expr.xreplace({letter: value for letter, value in numbers.items() if letter != plot.variable})
     ends = float(lower), float(upper)
     return Curve(expr, plot.variable, *ends, own, extrema(expr, plot.variable, *ends))
+
+
+def panel_letters(curves: Curves) -> list[str]:
+    """By which letter each panel is called, where there are several."""
+    several = len(curves.curves) > 1
+    return [chr(ord("a") + i) if several else "" for i, _ in enumerate(curves.curves)]
+
+
+def told_value(plot: Plot, extremum: Extremum) -> str:
+    """The value at an extremum with its unit, as it stands in the plot, in its words and in its caption."""
+    return with_unit(extremum.value, _unit(plot.kind))
+
+
+def with_unit(value: float, unit: str) -> str:
+    """A number to four figures with its unit; a degree sign stands close."""
+    gap = "" if unit == "\u00b0" else " "
+    return f"{value:.4g}{gap}{unit}".replace("-", "\u2212").strip()

@@ -45,7 +45,9 @@ def solve(
 
     top, C, O = (radius + thickness) * across, point_mark(point(*centre), "C"), point_mark(point(0, 0), "O")
     way = length_mark(top - radius * theta * along, top, "s")
-    sketch("slab", system, axes(point(0, 0), (7 * radius / 5, 9 * radius / 4)), O, C, way, dashed_at(system, {theta: 0}))
+    sketch(
+        "slab", system, axes(point(0, 0), (7 * radius / 5, 9 * radius / 4)), O, C, way, dashed_at(system, {theta: 0})
+    )
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
     pushes = [arrow(out, radius * across, 2 / S(5), label=name) for out, name in ((across, N), (along, F))]
     sketch("forces", system, O, C, pushes, weights=True)

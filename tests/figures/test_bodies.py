@@ -14,12 +14,12 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
 from derive.errors import Rejected
-from derive.figures import drawing, outline, sketch
+from derive.figures import centre_mark, drawing, outline, sketch
 from derive.figures.annotations import Axis, LengthMark, Line
 from derive.figures.bodies import is_in_plane, seen_outline
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
-from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, ThinRod
+from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, SliceMark, ThinRod
 from derive.mechanics import (
     Ball,
     Composite,
@@ -310,7 +310,7 @@ def test_what_is_cut_out_is_dashed_and_told_and_kept() -> None:
     assert drawings_from_data(drawings_to_data([found])) == (found,)
     assert (
         in_words(HOLED, named=False)
-        == "A drawing in space of a ball of radius R and a ball of radius 1/2 R cut out of it."
+        == "A drawing in space of a ball of radius R and a ball of radius R/2 cut out of it."
     )
 
 
@@ -349,3 +349,44 @@ def test_what_would_be_drawn_wrong_has_no_outline(body: Any) -> None:
     assert seen_outline(body) == []
     with pytest.raises(Rejected, match="there is no outline"):
         outline(body)
+
+
+@pytest.mark.parametrize(("about", "radius"), [("apex", "R*z/h"), ("base", "R*(h - z)/h")])
+def test_a_slice_of_a_cone_has_the_radius_that_the_cone_has_there(about: str, radius: str) -> None:
+    marks = outline(CONE, about, sliced=True)
+    (cut,) = [mark for mark in marks if isinstance(mark, SliceMark)]
+    assert str(cut.label) == radius
+    (low, near), (high, far) = cut.profile
+    assert near == far
+    numbers = {"z": float(low.subs(h, 1)), "R": 1.0, "h": 1.0}
+    there = cut.label.subs({letter: numbers[letter.name] for letter in cut.label.free_symbols})
+    assert float(near.subs(R, 1)) == pytest.approx(float(there), abs=0.06)
+    assert 0 < (high - low) / h < Rational(1, 10)
+    heights = {str(mark.label): mark.end[2] for mark in marks if isinstance(mark, LengthMark)}
+    assert heights == {"h": h, "z": low}
+    told = inline_text(alternative(None, drawing("cut", marks), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    assert "a slice at the height z of radius" in told
+
+
+def test_only_a_round_solid_is_sliced() -> None:
+    assert outline(Disc(R, M), sliced=True) == outline(Disc(R, M))
+    assert outline(Cuboid((a, a, a), M), sliced=True) == outline(Cuboid((a, a, a), M))
+
+
+def test_a_centre_of_mass_to_be_found_is_seen_and_not_told() -> None:
+    mark = centre_mark(CONE)
+    assert list(mark.at) == [0, 0, 3 * h / 4]
+    told = mark.in_words()
+    assert told is not None
+    assert told[1]["place"] is None
+    assert list(centre_mark(CONE, "base", "S").at) == [0, 0, h / 4]
+
+
+@pytest.mark.parametrize("about", ["corner", "centre"])
+def test_axes_of_a_block_begin_at_its_point(about: str) -> None:
+    marks = outline(Cuboid((a, 2 * a, 3 * a), M), about)
+    ends = {str(mark.label): list(mark.start) for mark in marks if isinstance(mark, Axis)}
+    share = 1 if about == "corner" else Rational(1, 2)
+    assert ends == {"x": [share * a, 0, 0], "y": [0, share * 2 * a, 0], "z": [0, 0, share * 3 * a]}
+    inside = [mark for mark in marks if isinstance(mark, Line)]
+    assert len(inside) == (0 if about == "corner" else 3)  # along edges one sees them

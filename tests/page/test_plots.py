@@ -12,7 +12,7 @@ from derive.course.placement import Placement
 from derive.errors import Place, Rejected
 from derive.figures.extrema import MAXIMUM
 from derive.figures.marks import Plot
-from derive.page.plots import Curves, curves_of
+from derive.page.plots import Curves, curves_of, panel_letters, told_value, with_unit
 
 a, k = symbols("a k", positive=True)
 theta = symbols("theta", real=True)
@@ -74,3 +74,19 @@ def test_an_angle_is_told_in_degrees_if_its_ends_are() -> None:
         1.0,
     )
     assert curves(theta, -pi, pi, of="length").unit == "m"
+
+
+def test_panels_have_letters_where_there_are_several() -> None:
+    assert panel_letters(curves(a * cos(theta), amounts={a: Integer(3)})) == [""]
+    assert panel_letters(curves(a * cos(theta), cases=[{a: 2}, {a: 3}])) == ["a", "b"]
+
+
+def test_an_extremum_is_told_with_its_value_and_unit() -> None:
+    (curve,) = curves(a * cos(theta), amounts={a: Integer(3)}).curves
+    plot = Plot("potential", theta, a * cos(theta), theta, -pi / 2, pi / 2, "energy", "angle")
+    assert [told_value(plot, each) for each in curve.extrema] == ["3 J"]
+    assert (with_unit(-2.20549, "J"), with_unit(30.0, "\u00b0"), with_unit(0.5, "")) == (
+        "\u22122.205 J",
+        "30\u00b0",
+        "0.5",
+    )

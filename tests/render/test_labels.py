@@ -124,3 +124,14 @@ def test_the_label_of_a_line_slides_along_it_past_another_label() -> None:
     blocked = [Tag("b", (20.0, y), (8.0, 0.0), on=True) for y in (6.0, -6.0)]
     found = labels(*blocked, line)[-1]
     assert abs((found.extent[0] + found.extent[2]) / 2 - 20.0) > 3
+
+
+def test_labels_with_few_places_choose_first_where_otherwise_something_would_be_covered() -> None:
+    """A label of a line between two walls has one place, which the label of a point beside it would take as well."""
+    walls = [Stroke(((x, -30.0), (x, 30.0)), "edge") for x in (-17.0, 17.0)]
+    point, line = Tag("p", (0.0, 20.0), (0.0, -1.0)), Tag("q", (0.0, -4.0), (0.0, 1.0), 3.0, (0.0, 0.1))
+    blocked = Stroke(((-17.0, -6.0), (17.0, -6.0)), "edge")
+    found = {each.label: each for each in labels(*walls, blocked, point, line)}
+    one, other = found["p"].extent, found["q"].extent
+    assert one[1] >= other[3] or other[1] >= one[3] or one[0] >= other[2] or other[0] >= one[2]
+    assert not any(covers(found["q"], x, -6.0) for x in range(-17, 18))

@@ -135,3 +135,16 @@ def test_a_plot_is_the_same_bytes_each_time_and_says_what_it_shows() -> None:
 def test_a_curve_that_is_level_has_an_axis_all_the_same() -> None:
     (panel,) = panels(plot_of(theta - theta + 5 * cos(0) + 0 * theta))
     assert panel.values[1] < 5 < panel.values[3]
+
+
+def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -> None:
+    found = curves(plot_of(a * cos(theta)), 1, 2)
+    one, two = (
+        panel_of(plot_of(a * cos(theta)), curve, found, Notation(), WORDS, letter)
+        for letter, curve in zip("ab", found.curves, strict=True)
+    )
+    assert [name for panel in (one, two) for _, _, name in panel.turns] == [
+        r"$\mathrm{maximum}\;\;1\,\mathrm{J}$",
+        r"$\mathrm{maximum}\;\;2\,\mathrm{J}$",
+    ]
+    assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")

@@ -16,7 +16,7 @@ from derive.figures.extrema import MINIMUM, values_along
 from derive.figures.marks import Plot
 from derive.figures.pieces import Bullet, Piece, Stroke
 from derive.figures.space import Spot
-from derive.page.plots import DEGREES, Curve, Curves
+from derive.page.plots import DEGREES, Curve, Curves, panel_letters, told_value
 from derive.page.wording import Phrases
 from derive.render.drawing.canvas import LINE, QUIET, shapes_of
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
@@ -116,7 +116,10 @@ def plot_sheet(
     """The panels side by side; `width` is that of one of them."""
     wide = (width or PANEL) * CM
     tall = wide * TALL / PANEL
-    panels = [panel_of(plot, curve, curves, notation, words) for curve in curves.curves]
+    panels = [
+        panel_of(plot, curve, curves, notation, words, letter)
+        for letter, curve in zip(panel_letters(curves), curves.curves, strict=True)
+    ]
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
     room = _room(panels, writing)
     shapes: list[Shape] = []
@@ -129,7 +132,7 @@ def plot_sheet(
 # --- what a panel shows ----------------------------------------------------------------------------------------------
 
 
-def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases) -> Panel:
+def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases, letter: str = "") -> Panel:
     """One curve with its axes, which have room for the words under a minimum and over a maximum."""
     points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
     low, high = min(y for _, y in points), max(y for _, y in points)
@@ -148,12 +151,19 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
             (
                 (each.at * curves.per_unit, each.value),
                 each.kind == MINIMUM,
-                rf"$\mathrm{{{words.drawings[each.kind]}}}$",
+                rf"$\mathrm{{{words.drawings[each.kind]}}}\;\;{_mathtext_of_value(told_value(plot, each))}$",
             )
             for each in curve.extrema
         ),
-        numbers=_numbers(curve, notation) if curve.numbers else "",
+        numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
     )
+
+
+def _title(letter: str, numbers: str) -> str:
+    """Over a panel: its letter, if there are several, and its numbers."""
+    if not letter:
+        return numbers
+    return f"$({{\\mathrm{{{letter}}}}})\\;\\;{numbers.strip('$')}$"
 
 
 def _ticks(low: float, high: float, in_degrees: bool) -> Ticks:
@@ -188,6 +198,12 @@ def _numbers(curve: Curve, notation: Notation) -> str:
 
 def _mathtext(layout: Any) -> str:
     return "".join(run.text.strip("$") for run in runs(layout))
+
+
+def _mathtext_of_value(told: str) -> str:
+    """`2.205 J`: the number and the unit, upright and apart."""
+    number, _, unit = told.replace("\u2212", "-").partition(" ")
+    return rf"{number}\,{unit_latex(unit)}" if unit else number
 
 
 def _mathtext_of_unit(unit: str) -> str:
