@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from sympy import Symbol
+from sympy import Expr, Symbol, sin, symbols
 
 from derive.errors import Rejected
 from derive.render.notation.latex import TEX_FUNCTIONS, TEX_OPERATORS, escaped, latex, unit_latex, unprintable
@@ -22,6 +22,8 @@ from derive.render.notation.layout import (
     Row,
 )
 from derive.render.notation.notation import Notation
+
+a, b, R = symbols("a b R", positive=True)
 
 
 @pytest.mark.parametrize(
@@ -44,9 +46,9 @@ def test_a_layout_has_its_tex(layout: Layout, tex: str) -> None:
 
 
 def test_a_fraction_in_a_line_of_text_is_small() -> None:
-    half = Fraction(Digits("1"), Digits("2"))
-    assert latex(half, inline=True) == r"\tfrac{1}{2}"
-    assert latex(half, inline=True) != latex(half)
+    half_of_product = Row((Fraction(Digits("1"), Digits("2")), Name("a"), Name("b")))
+    assert latex(half_of_product, inline=True) == r"\tfrac{1}{2}\,ab"
+    assert latex(half_of_product) == r"\frac{1}{2}\,ab"
 
 
 @pytest.mark.parametrize("name", sorted(TEX_FUNCTIONS))
@@ -99,3 +101,20 @@ def test_a_prime_stands_close_to_its_letter_and_can_be_squared() -> None:
     moment = Symbol("J'_xx")
     assert latex(Notation().layout(moment)) == "J'_{xx}"
     assert latex(Notation().layout(moment**2)) == "{J'_{xx}}^{2}"
+
+
+@pytest.mark.parametrize(
+    ("value", "tex"),
+    [
+        (a / 2, "a/2"),
+        (R - a / 2, "R-a/2"),
+        (-R * a / b, "-Ra/b"),
+        (a**2 / b**2, "a^{2}/b^{2}"),
+        (R * a / 2, r"\tfrac{1}{2}\,Ra"),
+        (a / 2 * sin(R), r"\tfrac{a}{2}\,\sin R"),
+        (R / (a + b), r"\tfrac{R}{a+b}"),
+        (R / (a * b), r"\tfrac{R}{ab}"),
+    ],
+)
+def test_in_running_text_a_fraction_has_a_stroke_where_it_cannot_be_misread(value: Expr, tex: str) -> None:
+    assert latex(Notation().layout(value), inline=True) == tex

@@ -29,6 +29,9 @@ from derive.render.notation.layout import (
     Row,
     Upright,
     begins_with_number,
+    first_of,
+    is_differential,
+    row,
 )
 
 TEX_FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
@@ -53,13 +56,53 @@ TEX_OPERATORS = {
     "close": r"\Bigr)",
     "start": "",
     "on": r"\qquad ",
+    "stroke": "/",
 }
+BETWEEN_TERMS = {
+    Operator(kind)
+    for kind in (
+        "plus",
+        "minus",
+        "plus_minus",
+        "equals",
+        "approx",
+        "unequal",
+        "less",
+        "greater",
+        "at_most",
+        "at_least",
+        "comma",
+    )
+}
+STROKE = Operator("stroke")
 COLUMN_STRUT = r"\rule[-.95em]{0pt}{2.45em}"  # keeps fractions below one another apart
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
-    """The LaTeX of a layout; inline, fractions are small."""
-    return _Printer(inline).show(layout)
+    """The LaTeX of a layout; inline, fractions are small, or have a stroke where that cannot be misread."""
+    return _Printer(inline).show(_with_strokes(layout) if inline else layout)
+
+
+def _with_strokes(layout: Layout) -> Layout:
+    """For running text: R > a/2, dL/dt, (a/2, 0); before or behind another factor a fraction stays one."""
+    if isinstance(layout, Fenced):
+        return Fenced(_with_strokes(layout.inside), layout.kind)
+    items = layout.items if isinstance(layout, Row) else (layout,)
+    around = (None, *items, None)
+    alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
+    return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
+
+
+def _with_stroke(item: Layout) -> Layout:
+    """The fraction with a stroke, if one can see at once what is above it and what below."""
+    if isinstance(item, Fenced):
+        return _with_strokes(item)
+    if not isinstance(item, Fraction):
+        return item
+    is_single = isinstance(item.below, Digits | Name | Raised) or is_differential(first_of(item.below))
+    factors = item.above.items if isinstance(item.above, Row) else (item.above,)
+    are_letters = all(isinstance(factor, Digits | Name | Raised | Upright | RootSign) for factor in factors)
+    return row(item.above, STROKE, item.below) if is_single and are_letters else item
 
 
 class _Printer:
