@@ -206,7 +206,6 @@ class _Writer:
 
     def document(self, compared: Sequence[Remark], evidence: EvidenceShown) -> Document:
         problem = self.problem
-        title = told(problem.title.pieces, self.page_names, self._unknown)
         self.references.check_title(problem.title.mentions, self.page_names)
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
@@ -217,7 +216,7 @@ class _Writer:
         self.faults += unknown_keys(problem, self.derivation, self.words)
         return Document(
             id=problem.id,
-            title=title,
+            title=told(problem.title.pieces, self.page_names, self._unknown),
             points=problem.points,
             statement=statement,
             strategy=strategy,
@@ -393,9 +392,9 @@ class _Writer:
     def _reason(self, step: Step, form: Form, template: str) -> tuple[Inline, ...]:
         if not template:
             return ()
-        direct = [symbol for _, symbol in step.roles]
-        near = [key for key in step.inputs if self.symbols.get(key) is None or self.symbols[key] in direct]
-        keys = sorted((key for key in near if key in self.numbers), key=self.numbers.__getitem__)
+        direct = [None, *(symbol for _, symbol in step.roles)]
+        near = [key for key in step.inputs if self.symbols.get(key) in direct]
+        keys = sorted(self.numbers.keys() & set(near), key=self.numbers.__getitem__)
         found = {"refs": keys, "equations": [key for key in keys if self.symbols[key] is None]}
         if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
