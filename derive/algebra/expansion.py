@@ -8,25 +8,47 @@ Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotie
 
 from __future__ import annotations
 
-from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, diff, nan, oo, zoo
+from sympy import (
+    AccumBounds,
+    Add,
+    Dummy,
+    Expr,
+    Integer,
+    Rational,
+    Symbol,
+    cosh,
+    diff,
+    exp,
+    ilcm,
+    nan,
+    oo,
+    sinh,
+    tanh,
+    together,
+    zoo,
+)
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import Factors, Terms
 from derive.algebra.length import length
-from derive.algebra.node import DimensionOf, ScalarNode, TextOf, explicit
+from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
 HIGHEST = 10  # derivatives that are taken at most
 LARGEST = 4000  # operations of an expression that is expanded
 SMALL = Dummy("epsilon", positive=True)
-SPOILT = (nan, zoo, oo, -oo)
+SPOILT = (nan, zoo, oo, -oo, AccumBounds)
 
 Series = dict[Rational, Expr]  # power -> coefficient
 
 
 class NoExpansion(Exception):
     """The expression has no expansion in powers there, or none that can be found within reason."""
+
+
+class BeginsBeyond(NoExpansion):
+    """It begins with a higher power than was asked for, up to which it is zero."""
 
 
 class Expansion(ScalarNode):
@@ -39,6 +61,8 @@ class Expansion(ScalarNode):
         f, x, to, power = self.args
         try:
             return tidied_terms(expanded(explicit(f), x, to, power), x, to)
+        except BeginsBeyond:
+            return Integer(0)
         except NoExpansion:
             return nan
 
@@ -49,6 +73,16 @@ class Expansion(ScalarNode):
         return text(self.args[0])
 
 
+class Approach(Node):
+    """Where a letter or a ratio goes to, S -> oo. Arguments: what goes, and where to."""
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return of(self.args[0])
+
+    def lowered(self, text: TextOf) -> str:
+        return f"Tuple({text(self.args[0])}, {text(self.args[1])})"
+
+
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
     """The terms up to that power of what is small; only the leading one where no power is given."""
     written = in_small(f, x, to)
@@ -56,6 +90,8 @@ def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Ser
         raise NoExpansion(f)
     try:
         return _quotient(written, power)
+    except BeginsBeyond:
+        raise
     except NoExpansion:
         halved = {SMALL: SMALL**2}
         doubled = _quotient(tidied(written.xreplace(halved)), None if power is None else 2 * power)
@@ -64,11 +100,30 @@ def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Ser
 
 def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
     """The expression in terms of what is small."""
-    if to == oo:
-        return tidied(f.subs(x, 1 / SMALL))
-    if to == -oo:
-        return tidied(f.subs(x, -1 / SMALL))
+    if to in (oo, -oo):
+        return tidied(_without_what_dies(f.subs(x, (1 if to == oo else -1) / SMALL)))
     return tidied(f.subs(x, to + SMALL))
+
+
+def _without_what_dies(f: Expr) -> Expr:
+    """Without exponentials that go to zero faster than any power: of 1 - exp(-k t) only 1 is left for long times.
+
+    What grows is one over what dies, and both are powers of one exponential, which is put to zero.
+    """
+    f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
+    rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
+    rates = {e: rate for e, rate in rates.items() if not rate.has(SMALL) and rate.is_nonzero}
+    if not rates:
+        return f
+    first = next(iter(rates.values()))
+    ratios = {e: tidied(rate / first) * (-1 if first.is_positive else 1) for e, rate in rates.items()}
+    if first.is_positive is first.is_negative or not all(ratio.is_Rational for ratio in ratios.values()):
+        raise NoExpansion(f)
+    dying, whole = Dummy("d", positive=True), ilcm(1, *(ratio.q for ratio in ratios.values()))
+    left = together(f.xreplace({e: dying ** (whole * ratio) for e, ratio in ratios.items()})).subs(dying, 0)
+    if left.has(*SPOILT):
+        raise NoExpansion(f)
+    return left
 
 
 def small_of(x: Symbol, to: Expr) -> Expr:
@@ -104,7 +159,7 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
         return {}
     first = Rational(high - low)
     if power is not None and power < first:
-        raise NoExpansion(f)
+        raise BeginsBeyond(f)
     count = 0 if power is None else int(power - first)
     if count > HIGHEST:
         raise NoExpansion(f)

@@ -17,7 +17,7 @@ from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp
 from derive.algebra.expressions import stand_in
 from derive.algebra.normal_form import vanishes
 
-__all__ = ["NoSeries", "coefficient_along", "series_along", "slope", "taylor"]
+__all__ = ["NoSeries", "arithmetic_along", "coefficient_along", "series_along", "slope", "taylor"]
 
 ZERO = Integer(0)
 DEEPEST = 8  # order to which a numerator and a denominator may vanish together
@@ -54,15 +54,22 @@ def series_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
     """The coefficients of s^0, ..., s^n in that direction."""
-    paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     try:
-        found = taylor(expr, paths, order)
-        return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
+        return arithmetic_along(expr, place, direction, order)
     except NoSeries:
         s = stand_in("s_small")
         moved = expr.subs({q: at + s * direction[q] for q, at in place.items()}, simultaneous=True)
         terms = series(moved, s, 0, order + 1).removeO().expand()
         return [terms.coeff(s, n) for n in range(order + 1)]
+
+
+def arithmetic_along(
+    expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
+) -> Sequence[Expr]:
+    """The same where these rules are enough, also for 0/0; else `NoSeries`."""
+    paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
+    found = taylor(expr, paths, order)
+    return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:

@@ -411,7 +411,7 @@ class _Writer:
 
 
 def _sign_before(form: Form) -> str:
-    return "approx" if form.because in {"rounded", "series"} else "equals"
+    return "tends" if form.because == "limit" else "approx" if form.because in {"rounded", "series"} else "equals"
 
 
 def _results(step: Step, lines: Sequence[ChainLine]) -> int:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Rational, cos, exp, log, oo, sin, sqrt, symbols
+from sympy import Expr, Integer, Rational, atan, cos, cosh, exp, log, oo, sin, sinh, sqrt, symbols, tanh
 
 from derive.algebra.equality import equal
-from derive.algebra.expansion import Expansion, NoExpansion, expanded, in_ascending_powers, tidied_terms
+from derive.algebra.expansion import BeginsBeyond, Expansion, NoExpansion, expanded, in_ascending_powers, tidied_terms
 from derive.algebra.expressions import explicit
 
 x, a, b = symbols("x a b", positive=True)
@@ -52,3 +52,35 @@ def test_the_node_stands_for_its_terms_and_has_the_dimension_of_the_whole() -> N
     node = Expansion(sin(x), x, Integer(0), Integer(3))
     assert equal(explicit(node), x - x**3 / 6)
     assert node.dimension(lambda part: part) == sin(x)
+
+
+@pytest.mark.parametrize(
+    ("value", "left"),
+    [
+        (b * (1 - exp(-a * x)), b),
+        (b * (exp(a * x) - 1) * exp(-a * x), b),
+        (b * tanh(a * x), b),
+        (sinh(a * x) / cosh(a * x), 1),
+        ((exp(2 * a * x) + exp(a * x)) / (b * exp(2 * a * x)), 1 / b),
+    ],
+)
+def test_exponentials_that_die_away_leave_what_stays(value: Expr, left: Expr) -> None:
+    assert expanded(value, x, oo) == {0: left}
+
+
+@pytest.mark.parametrize("value", [exp(a * x), cosh(x), exp(-a * x) + exp(b * x), exp(-(b - a) * x)])
+def test_what_grows_faster_than_any_power_or_may_has_none(value: Expr) -> None:
+    with pytest.raises(NoExpansion):
+        expanded(value, x, oo)
+
+
+@pytest.mark.parametrize("value", [sin(x), atan(x), x * sin(x), 2 + sin(x) / x])
+def test_what_oscillates_or_has_no_power_has_none(value: Expr) -> None:
+    with pytest.raises(NoExpansion):
+        expanded(value, x, oo)
+
+
+def test_an_expansion_that_begins_beyond_its_order_is_zero_to_it() -> None:
+    assert Expansion(x**2 + x**3, x, Integer(0), Integer(1)).doit() == 0
+    with pytest.raises(BeginsBeyond):
+        expanded(x**2, x, Integer(0), Rational(1))

@@ -6,7 +6,7 @@ import pytest
 from sympy import Expr, Integer, Rational, Symbol, cos, diff, exp, factorial, log, sin, sqrt, symbols, tan
 
 from derive.algebra.normal_form import vanishes
-from derive.algebra.taylor import NoSeries, coefficient_along, slope, taylor
+from derive.algebra.taylor import NoSeries, arithmetic_along, coefficient_along, slope, taylor
 
 a, b, s = symbols("a b s", positive=True)
 q, v, w = symbols("q v w", real=True)
@@ -88,3 +88,11 @@ def test_a_series_that_is_too_short_is_refused() -> None:
 @pytest.mark.parametrize("letter", [q, a, Symbol("other")])
 def test_the_slope_is_the_derivative_by_one_letter(value: Expr, letter: Symbol) -> None:
     assert vanishes(slope(value, letter) - diff(value, letter))
+
+
+def test_the_arithmetic_alone_reaches_a_quotient_of_what_vanishes() -> None:
+    assert list(arithmetic_along((1 - cos(q)) / q**2, {q: Integer(0)}, {q: Integer(1)}, 2)) == [
+        Rational(1, 2), 0, -Rational(1, 24),
+    ]  # fmt: skip
+    with pytest.raises(NoSeries):
+        arithmetic_along(log(q), {q: Integer(1)}, {q: Integer(1)}, 1)

@@ -345,7 +345,7 @@ def test_limiting_cases_have_their_order() -> None:
     assert limiting_case(a, m1, oo).value == g
     nearly = limiting_case(a, m1, m2, key="nearly")
     assert equal(nearly.value, g * (m1 - m2) / (2 * m2))
-    assert nearly.step.outcome == "near"
+    assert nearly.step.outcome == "vanishes"
 
 
 @pytest.mark.parametrize(
@@ -355,7 +355,6 @@ def test_limiting_cases_have_their_order() -> None:
         (lambda: limiting_case(given(log(h)), h), "no expansion"),
         (lambda: limiting_case(given(1 / h), oo, 1), "needs a letter"),
         (lambda: limiting_case(given(h**2), h, 0, 1), "no expansion"),
-        (lambda: limiting_case(equation(c, h), h), "is no number"),
     ],
 )
 def test_what_has_no_limiting_case_is_refused(wrong: Callable[[], Any], said: str) -> None:

@@ -29,7 +29,7 @@ from derive.mechanics import (
     spring,
     weight,
 )
-from derive.mechanics.equations import approximate, limits
+from derive.mechanics.equations import approximate, leading
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
 
@@ -120,7 +120,7 @@ def test_a_term_of_the_wrong_sign_is_refused(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_a_term_that_is_left_out_wrongly_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     _, _, _, motions = stone()
-    right = limits.expanded
-    monkeypatch.setattr(limits, "expanded", lambda f, x, to, n: {0: right(f, x, to, n)[0]})
+    right = leading.expanded
+    monkeypatch.setattr(leading, "expanded", lambda f, x, to, n: {0: right(f, x, to, n)[0]})
     with pytest.raises(Unverified):
         equation_in_limit(motions[0], W, 0, 1)

@@ -13,7 +13,7 @@ from derive.algebra.expansion import small_of, tidied_terms
 from derive.algebra.expressions import TIME, Relation, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.limits import expansion_of, rest_vanishes
+from derive.mechanics.equations.leading import expansion_of, rest_vanishes
 from derive.mechanics.equations.substitution import arranged
 from derive.mechanics.equations.unknowns import coordinates_of, letter_of, residual_of, unknown_of
 from derive.mechanics.systems.coordinates import OfCoordinate

@@ -2,32 +2,37 @@
 
 from __future__ import annotations
 
-from itertools import islice
+from collections.abc import Sequence
 from typing import Any
 
-from sympy import Abs, Expr, Mul, Pow, Rational, Symbol, factor_list, oo, sqrt
+from sympy import Expr, ImmutableDenseMatrix, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
 
-from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import (
+    Approach,
     Expansion,
     NoExpansion,
     Series,
     expanded,
     in_ascending_powers,
-    small_of,
     tidied_terms,
 )
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.approximate import equation_in_limit
+from derive.mechanics.equations.leading import (
+    beginnings,
+    entry_by_entry,
+    rest_vanishes,
+    terms_by_arithmetic,
+    to_that_order,
+)
 from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.record import changes, named_coordinates
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["limiting_case"]
-
-NEAR, NEARER = Rational(1, 10**8), Rational(1, 10**9)
-POINTS = 4
 
 
 def limiting_case(
@@ -35,66 +40,111 @@ def limiting_case(
 ) -> Quantity:
     """What a result is in a limiting case, f = c_n e^n + ... with e what is small: x, 1/x or x - a.
 
-    of       a scalar, any unit
-    letter   the letter that is small or large
+    of       a scalar, a vector or a tensor, any unit; an equation solved for a letter; or another equation, of which
+             `equation_in_limit` tells what is left
+    letter   the letter that is small or large, or a ratio, h/R, of which the first letter goes there
     to       0 where it is small, SymPy's `oo` where it is large, else the value that it is near
     order    the highest power of what is small that is kept; the leading term alone if none is given
-    Second route: numbers; the rest, divided by the last power that is kept, goes to zero with what is small.
-    Outcomes: small, large, near; exact (nothing is left out).
-    Errors: the result does not contain the letter; it has no such expansion, or begins beyond that order.
+    Of a vector or a tensor that is the leading power of its largest entry: the others vanish beside it. Letters that
+    are put equal, b = a, are `put_in`.
+    Second route: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
+    on each side: the rest, divided by the last power that is kept, goes to zero with what is small.
+    Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
+    left out).
+    Errors: the result does not contain the letter; the letter changes in the motion; there is no such expansion, as
+    where it oscillates, or it differs on the two sides, or begins beyond that order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
-    value, x = explicit(of.value), letter_of(unknown_of("limiting_case", letter))
-    if not isinstance(value, Expr) or isinstance(value, Relation):
+    solved = _solved_for(of)
+    if isinstance(of.value, Relation) and solved is None:
+        if symbol is not None:
+            raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter of its own"))
+        return equation_in_limit(of, letter, to, order, key)
+    value = explicit(of.value.right if solved is not None else of.value)
+    name = _name(of, symbol) if solved is None or symbol is not None else solved
+    goes, x = _what_goes(letter)
+    if not isinstance(value, Expr | MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is no number"))
-    if x not in value.free_symbols:
-        message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
-        raise Rejected(Complaint("nothing-to-put-in", message))
-    place = explicit(to.value if isinstance(to, Quantity) else to)
-    series = expansion_of(of, value, x, place, order)
-    series = {n: _of_squares_drawn(c) for n, c in series.items()}
-    power = Rational(order) if order is not None else max(series, default=Rational(0))
-    found = tidied_terms(series, x, place)
-    exact = is_zero(value - found)
-    name = _name(of, symbol)
+    _check_letter(of, value, x)
+    aim = explicit(to.value if isinstance(to, Quantity) else to)
+    place = aim if aim in (oo, -oo) else tidied(aim * x / goes)
+    series = beginnings(of, value, x, place, order)
+    found = _added_up(series, value, x, place)
+    power = Rational(order) if order is not None else max((n for each in series for n in each), default=Rational(0))
+    exact, is_limit = is_zero(value - found), order is None and power == 0
+    again = terms_by_arithmetic(value, series, x, place, power)
     return establish(
         "limits.limiting_case",
         name,
-        lambda _: Expansion(_as_written(value, x, place), x, place, power),
-        {"quantity": of},
+        lambda *_: entry_by_entry(lambda f: Expansion(_as_written(f, x, place), x, place, power), value),
+        {"quantity": of, "letter": goes, "approach": Approach(goes, aim)},
         lines=Lines(
-            law=Level.STANDARD,
+            law=Level.FULL,
             put_in=None,
-            after=[Form(found, "result") if exact else Form(in_ascending_powers(series, x, place), "series")],
+            after=[_last_line(found, series, x, place, exact, is_limit)],
             result=False,
             arranged=lambda _: found,
-            means={} if isinstance(name, Symbol) else meaning(name, found),
+            means=_means(name, found),
         ),
-        routes={"numbers": lambda result: rest_vanishes(value, result, x, place, power)},
-        outcome="exact" if exact else _sort_of(place),
+        routes={
+            **({} if again is None else {"arithmetic": lambda result: to_that_order(result, again, exact or is_limit)}),
+            "numbers": lambda result: rest_vanishes(value, result, x, place, power),
+        },
+        outcome="exact" if exact else _sort_of(place) if order is not None else _as_it_goes(power),
         key=key or f"{of.key}_limit",
         kind=of.step.kind,
         telling=Telling(
-            formulas={"letter": (x, x), **({"place": (place, place)} if place not in (oo, -oo) else {})},
-            judged_by={"to": place, "value": value},
+            formulas={"place": (place, place)} if place not in (oo, -oo) else {},
+            judged_by={"to": place, "value": value, "x": x},
         ),
         scope=Scope(case_of=of),
     )
 
 
-def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None) -> Series:
-    """Its terms to that order, the leading one alone without; refused where there are none in powers."""
-    try:
-        return expanded(value, x, place, None if order is None else Rational(order))
-    except NoExpansion:
-        message = f"`{of.key}` has no expansion in powers at {x.name} = {place}"
-        help_line = None if order is None else "leave `order` out for the leading term alone"
-        raise Rejected(Complaint("no-expansion", message, help=help_line)) from None
+def _solved_for(of: Quantity) -> Symbol | None:
+    """The letter that an equation gives: x of x = f, where f does not hold it."""
+    if not isinstance(of.value, Relation) or of.value.mark != "=":
+        return None
+    left, right = of.value.sides
+    return left if isinstance(left, Symbol) and left not in explicit(right).free_symbols else None
+
+
+def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
+    """What goes to a value as the page says it, and the letter that does it: of h/R the first letter, h."""
+    if isinstance(letter, Mul):
+        above = [part for part in Mul.make_args(letter.as_numer_denom()[0]) if isinstance(part, Symbol)]
+        if above and above[0] not in (letter / above[0]).free_symbols:
+            return letter, above[0]
+    x = letter_of(unknown_of("limiting_case", letter))
+    return x, x
+
+
+def _check_letter(of: Quantity, value: Any, x: Symbol) -> None:
+    if x not in value.free_symbols:
+        message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
+        raise Rejected(Complaint("nothing-to-put-in", message))
+    if changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
+        message = f"`limiting_case`: {x.name} changes in the motion, so that it is not small all the time"
+        raise Rejected(Complaint("changes", message, help="give a letter that is constant"))
+
+
+def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:
+    """The terms of each entry together."""
+    added = [tidied_terms(each, x, place) for each in series]
+    return ImmutableDenseMatrix(*value.shape, added) if isinstance(value, MatrixBase) else added[0]
+
+
+def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exact: bool, is_limit: bool) -> Form:
+    if exact:
+        return Form(found, "result")
+    if is_limit:
+        return Form(found, "limit")
+    return Form(found if isinstance(found, MatrixBase) else in_ascending_powers(series[0], x, place), "series")
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
     """What is a polynomial already in ascending powers, its leading term in front: 2 pi sqrt(l/g) (1 + A^2/16)."""
-    if place != 0 or value.is_Add or not value.is_polynomial(x):
+    if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:
         return in_ascending_powers(expanded(value, x, place, Rational(value.as_poly(x).degree())), x, place)
@@ -102,17 +152,8 @@ def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
         return value
 
 
-def _of_squares_drawn(value: Expr) -> Expr:
-    """With |l_1 - l_2| for sqrt((l_1 + l_2)^2 - 4 l_1 l_2)."""
-    drawn = {}
-    for root in value.atoms(Pow):
-        letters = root.base.free_symbols
-        if root.exp != Rational(1, 2) or not letters or not root.base.is_polynomial(*letters):
-            continue
-        number, factors = factor_list(root.base)
-        if number > 0 and all(times % 2 == 0 for _, times in factors):
-            drawn[root] = sqrt(number) * Mul(*(Abs(part) ** (times // 2) for part, times in factors))
-    return value.xreplace(drawn)
+def _as_it_goes(power: Rational) -> str:
+    return "finite" if power == 0 else "vanishes" if power > 0 else "diverges"
 
 
 def _sort_of(place: Expr) -> str:
@@ -124,34 +165,10 @@ def _sort_of(place: Expr) -> str:
 def _name(of: Quantity, symbol: str | None) -> Any:
     if symbol is not None:
         return Symbol(symbol, real=True)
-    return of.symbol if isinstance(of.symbol, Symbol) else unknown_of("limiting_case", of.symbol)
+    if isinstance(of.symbol, Symbol | MatrixSymbol | MatrixBase):
+        return of.symbol
+    return unknown_of("limiting_case", of.symbol)
 
 
-def rest_vanishes(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational) -> Verdict:
-    """At two distances, one a tenth of the other: the rest over the last power kept is smaller by a root at least."""
-    seen = 0
-    letters = (letters_of(value) | letters_of(found)) - {x}
-    for point in islice(points(letters, seed_of(value)), POINTS):
-        sizes = []
-        for near in (NEAR, NEARER):
-            there = {**point, x: _at(place, near, point)}
-            try:
-                rest, small = value_at(value - found, there), value_at(small_of(x, place), there)
-            except (Undefined, NoNumber):
-                break
-            sizes.append(abs((rest / abs(small) ** power).evalf(20)))
-        if len(sizes) < 2:
-            continue
-        seen += 1
-        if sizes[1] > sizes[0] * Rational(1, 2):
-            where = tuple((str(name), str(number)) for name, number in point.items())
-            return Verdict(Grade.REFUTED, f"the rest does not vanish to order {power} in what is small", where)
-    if not seen:
-        return Verdict(Grade.REFUTED, "undefined wherever it was tried")
-    return Verdict(Grade.APPROXIMATION, f"to order {power} in what is small, in numbers")
-
-
-def _at(place: Expr, near: Rational, point: Any) -> Expr:
-    if place in (oo, -oo):
-        return 1 / near if place == oo else -1 / near
-    return place.subs(dict(point)) + near
+def _means(name: Any, found: Any) -> dict[Any, Any]:
+    return {} if isinstance(name, Symbol | MatrixSymbol | MatrixBase) else dict(meaning(name, found))

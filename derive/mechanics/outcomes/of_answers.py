@@ -5,12 +5,13 @@ from __future__ import annotations
 from itertools import islice
 from typing import Any
 
-from sympy import Expr, Integer, Poly, Rational, Symbol, acos, asin, atan, cos, oo, sin, tan
+from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, acos, asin, atan, cos, diff, oo, sign, sin, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import MARK_OF, sign_is
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
@@ -173,6 +174,19 @@ def _nothing_left_out(facts: Judged) -> bool:
     return is_zero(explicit(facts.inputs["value"]) - facts.result)
 
 
+def _goes_as(wanted: int) -> Predicate:
+    """By the result alone, which is one power of what is small: it stays, vanishes with it, or grows."""
+
+    def is_so(facts: Judged) -> bool:
+        x, to = facts.inputs["x"], facts.inputs["to"]
+        small = 1 / x if to in (oo, -oo) else x - to
+        entries = list(facts.result) if isinstance(facts.result, MatrixBase) else [facts.result]
+        slopes = [tidied(diff(entry, x) / diff(small, x) * small / entry) for entry in entries if entry != 0]
+        return not _nothing_left_out(facts) and bool(slopes) and all(sign(each) == wanted for each in slopes)
+
+    return is_so
+
+
 def _bent(sign: int) -> Predicate:
     """By the values a little to both sides of the place, in numbers: they are below it, or above."""
 
@@ -279,6 +293,9 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "equal": lambda facts: _always(False)(facts) and is_zero(facts.inputs["difference"]),
     },
     "limits.limiting_case": {
+        "finite": _goes_as(0),
+        "vanishes": _goes_as(1),
+        "diverges": _goes_as(-1),
         "small": _near(Integer(0)),
         "large": _near(oo, -oo),
         "near": _near(),

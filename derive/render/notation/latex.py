@@ -49,6 +49,7 @@ TEX_OPERATORS = {
     "greater": ">",
     "at_most": r"\le ",
     "at_least": r"\ge ",
+    "tends": r"\to ",
     "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",

@@ -34,12 +34,12 @@ from sympy import (
     fraction,
 )
 from sympy.core.function import AppliedUndef
-from sympy.core.numbers import Exp1, ImaginaryUnit, Pi
+from sympy.core.numbers import Exp1, ImaginaryUnit, Infinity, NegativeInfinity, Pi
 
 from derive.algebra import expressions as ex
 from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.dimensions import Dimension
-from derive.algebra.expansion import Expansion
+from derive.algebra.expansion import Approach, Expansion
 from derive.algebra.rounding import Rounded, decimal_text
 from derive.algebra.swing import SwingTime
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
@@ -330,6 +330,9 @@ class Notation:
         left, right = (self.side(side) for side in expr.sides)
         return row(left, Operator(expr.word), right)
 
+    def _approach(self, expr: Approach) -> Layout:
+        return row(self.layout(expr.args[0]), Operator("tends"), self.layout(expr.args[1]))
+
     def side(self, expr: Any) -> Layout:
         """A side of an equation: a number common to its terms is not put before a bracket."""
         return self._terms(self._ordered_terms(expr)) if isinstance(expr, Add) else self.layout(expr)
@@ -412,6 +415,8 @@ class Notation:
         (Symbol, lambda self, expr: layout_of_name(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),
+        (Infinity, lambda self, _: Name("infty")),
+        (NegativeInfinity, lambda self, _: row(MINUS, Name("infty"))),
         (ImaginaryUnit, lambda self, _: Name("i")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),
@@ -445,6 +450,7 @@ class Notation:
         (SwingTime, lambda self, expr: self._swing(expr)),
         (ex.Truncated | Expansion, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
+        (Approach, _approach),
         (Determinant, lambda self, expr: Applied("det", self._matrix(expr.args[0]))),
         (Amplitudes, lambda self, expr: self._matrix(expr.column)),
     )

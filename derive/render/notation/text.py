@@ -63,6 +63,7 @@ TEXT_OPERATORS = {
     "greater": " > ",
     "at_most": " ≤ ",
     "at_least": " ≥ ",
+    "tends": " → ",
     "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",

@@ -178,7 +178,7 @@ def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
     if isinstance(form.expr, ex.Truncated):
         _, x, place, order = form.expr.args
         return {"variable": named.text(x), "place": named.text(place), "order": int(order)}
-    if form.because == "series" and i:
+    if form.because in {"series", "limit"} and i:
         return _of_expansion(named, i)
     if isinstance(form.expr, ex.Relation) and i and form.because not in NUMBERS:
         return {"factor": named.text_of_value(named.factor(i)), "nonzero": [named.text(each) for each in form.nonzero]}

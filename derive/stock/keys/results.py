@@ -22,6 +22,7 @@ from derive.mechanics import (
     frequency,
     frequency_squared_about,
     leaves_contact,
+    limiting_case,
     maximum,
     minimum,
     noether,
@@ -43,7 +44,6 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.formulas import Formula, formula
-from derive.stock.keys.limits import in_limit
 from derive.stock.keys.starts import from_start
 
 NAMES = as_written(one_or_more(TEXT.schema))
@@ -278,7 +278,7 @@ def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     given = result.named({"to": result.to, "order": result.order})
-    return in_limit(result.only(of), result.letter, key=result.name, **given, **result.symbol)
+    return limiting_case(result.only(of), result.letter, key=result.name, **given, **result.symbol)
 
 
 def _where(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
