@@ -27,6 +27,7 @@ from derive.page.assumptions import between_bounds
 from derive.page.checks import Checks, checks_of
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
+from derive.page.signs import sign_before
 from derive.page.wording import (
     AXIS_NAMES,
     Chain,
@@ -377,12 +378,12 @@ class _Writer:
         reason = self._reason(step, form, template)
         numeric = form.because in NUMBERS
         if isinstance(form.expr, Relation) and numeric and before is not None:
-            return ChainLine(None, _sign_before(form), form.expr.right, reason, numeric=True)
+            return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True)
         if isinstance(form.expr, Relation):
             return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason, numeric=numeric)
         return ChainLine(
             left=step.symbol if before is None else None,
-            relation=_sign_before(form),
+            relation=sign_before(form),
             right=form.expr,
             reason=reason,
             presented=form.because == "result",
@@ -408,10 +409,6 @@ class _Writer:
 
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
-
-
-def _sign_before(form: Form) -> str:
-    return "tends" if form.because == "limit" else "approx" if form.because in {"rounded", "series"} else "equals"
 
 
 def _results(step: Step, lines: Sequence[ChainLine]) -> int:

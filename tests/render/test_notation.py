@@ -34,6 +34,7 @@ from sympy import (
 
 from derive.algebra import expressions as ex
 from derive.algebra.equality import equal
+from derive.algebra.expansion import Approach
 from derive.algebra.expressions import explicit
 from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.rounding import rounded_form
@@ -195,6 +196,11 @@ def test_a_function_of_two_arguments_is_not_printed_with_one() -> None:
     except TypeError:
         return
     assert "x" in shown and "y" in shown
+
+
+@pytest.mark.parametrize(("to", "tex"), [(oo, r"\infty"), (-oo, r"-\infty"), (pi, r"\pi"), (Integer(0), "0")])
+def test_where_a_letter_goes_to_may_be_infinite(to: Expr, tex: str) -> None:
+    assert latex(NOTATION.layout(Approach(a, to)), inline=True).replace(" ", "") == rf"a\to{tex}"
 
 
 def test_what_has_no_notation_is_refused_by_name() -> None:

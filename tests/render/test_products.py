@@ -21,6 +21,7 @@ from derive.render.notation.products import (
     rank_of_dimension,
     root_cancelled,
     roots_together,
+    rounded_number,
     side_by_side,
     under_one_root,
     with_content_apart,
@@ -212,3 +213,8 @@ def test_powers_of_a_letter_with_a_letter_stand_together() -> None:
     assert powers_together(Mul(a**n, 1 / a, b, evaluate=False)) == a ** (n - 1) * b
     assert powers_together(a**2 * b**n / g) == a**2 * b**n / g
     assert roots_together(1 / sqrt(a) / sqrt(g)) == 1 / Root(Mul(a, g, evaluate=False))
+
+
+@pytest.mark.parametrize(("text", "shown"), [("-1.50", "-1.50"), ("2.66e-26", "2.66×10⁻²⁶"), ("3e4", "3×10⁴")])
+def test_the_digits_that_were_kept_are_shown(text: str, shown: str) -> None:
+    assert plain(rounded_number(text)) == shown

@@ -32,9 +32,10 @@ from sympy import (
     Symbol,
     exp,
     fraction,
+    oo,
 )
 from sympy.core.function import AppliedUndef
-from sympy.core.numbers import Exp1, ImaginaryUnit, Infinity, NegativeInfinity, Pi
+from sympy.core.numbers import Exp1, ImaginaryUnit, Pi
 
 from derive.algebra import expressions as ex
 from derive.algebra.amplitudes import Amplitudes, Determinant
@@ -50,7 +51,6 @@ from derive.render.notation.layout import (
     MINUS,
     PLUS,
     THIN_SPACE,
-    TIMES,
     Applied,
     Array,
     Bracketed,
@@ -79,9 +79,9 @@ from derive.render.notation.products import (
     number_and_letters,
     present,
     root_cancelled,
+    rounded_number,
     side_by_side,
     sign_and_size,
-    times_ten_to,
     under_one_root,
 )
 
@@ -331,7 +331,10 @@ class Notation:
         return row(left, Operator(expr.word), right)
 
     def _approach(self, expr: Approach) -> Layout:
-        return row(self.layout(expr.args[0]), Operator("tends"), self.layout(expr.args[1]))
+        what, to = expr.args
+        sign = [MINUS] if to == -oo else []
+        place = row(*sign, Name("infty")) if to in (oo, -oo) else self.layout(to)
+        return row(self.layout(what), Operator("tends"), place)
 
     def side(self, expr: Any) -> Layout:
         """A side of an equation: a number common to its terms is not put before a bracket."""
@@ -399,24 +402,12 @@ class Notation:
             return row(inner, DEGREE_SIGN)
         return row(inner, THIN_SPACE, Upright(unit.name)) if unit.name else inner
 
-    def _rounded(self, expr: Rounded) -> Layout:
-        text = decimal_text(expr)
-        negative, text = text.startswith("-"), text.lstrip("-")
-        digits, _, power = text.partition("e")
-        items: list[Layout] = [MINUS] if negative else []
-        items.append(Digits(digits))
-        if power:
-            items += [TIMES, times_ten_to(int(power))]
-        return row(*items)
-
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),
-        (Rounded, _rounded),
+        (Rounded, lambda self, expr: rounded_number(decimal_text(expr))),
         (Symbol, lambda self, expr: layout_of_name(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),
-        (Infinity, lambda self, _: Name("infty")),
-        (NegativeInfinity, lambda self, _: row(MINUS, Name("infty"))),
         (ImaginaryUnit, lambda self, _: Name("i")),
         (Exp1, lambda self, _: Name("e")),
         (Derivative, _derivative),

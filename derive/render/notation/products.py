@@ -52,6 +52,13 @@ def decimal(number: Rational) -> Layout:
     return row(*sign, digits, TIMES, times_ten_to(power)) if power else row(*sign, digits)
 
 
+def rounded_number(text: str) -> Layout:
+    """-1.50, 2.66*10^-26: the digits that were kept, also where they are zeros."""
+    digits, _, power = text.lstrip("-").partition("e")
+    sign = [MINUS] if text.startswith("-") else []
+    return row(*sign, Digits(digits), *([TIMES, times_ten_to(int(power))] if power else []))
+
+
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
     """Of what is very small, or very large and round: the power of ten apart, one digit before the point."""
     power = 0
