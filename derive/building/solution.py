@@ -52,6 +52,7 @@ from derive.steps.homogeneity import dimension_table
 from derive.steps.memory import Memory
 from derive.steps.numeric import coefficient_of, comparison_of, is_plain, value_of
 from derive.steps.step import Level, Quantity, Step
+from derive.stock.keys.limits import limits_of
 
 
 def rendered(
@@ -154,7 +155,8 @@ def derived(
     _check_answers(known, asked)
     if clashes := letter_clashes(problem, known, run.coordinates):
         raise Rejected(clashes)
-    derivation = derivation_of(asked, known, run, groups)
+    closing = limits_of(problem, known, run)
+    derivation = derivation_of(asked, known, run, groups, closing)
     values: dict[str, Step] = {}
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
     for part, answers_of_part in zip(problem.parts, asked, strict=True):

@@ -58,4 +58,5 @@ def steps_key(problem: Problem) -> str:
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     asked = [(part.answers, sorted((str(key), form) for key, form in part.forms.items())) for part in problem.parts]
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
-    return digest("steps", engine_digest("sympy", "mpmath"), *texts, problem.reference, repr(facts))
+    read = (problem.reference, repr(problem.limits))
+    return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

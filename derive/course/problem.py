@@ -7,7 +7,9 @@ whoever knows the steps; `Prose.place_of` and `Problem.place_of` say where to po
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from collections.abc import Mapping as Table
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
@@ -29,7 +31,7 @@ from derive.course.prose import Prose
 from derive.course.schema import read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, StockScript, stock_names, stock_script
-from derive.course.written import SortOfLetter, written_problem
+from derive.course.written import LimitKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Faults, Place, did_you_mean, nearest
 from derive.steps.record import Run, assume, recorded
@@ -65,6 +67,7 @@ class Problem:
     described: Described | None = None
     strategy: Prose | None = None
     note: Prose | None = None
+    limits: tuple[LimitKeys, ...] = ()
     reference: str = ""
 
     @property
@@ -78,8 +81,13 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """What all its parts ask for."""
-        return tuple({str(answer): answer for part in self.parts for answer in part.answers}.values())
+        """What all its parts ask for, and what is looked at in limiting cases."""
+        answers = [answer for part in self.parts for answer in part.answers]
+        limited = [name for each in self.limits for name in (each.of, each.step, each.known) if name]
+        first: dict[str, Word] = {}
+        for name in (*answers, *limited):  # a limit may be of a step on the way to an answer
+            first.setdefault(str(name), name)
+        return tuple(first.values())
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
@@ -112,7 +120,7 @@ class Problem:
         """All prose that is printed."""
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
         captions = (placement.caption for placement in self.drawings if placement.caption)
-        around = (prose for prose in (self.strategy, self.note) if prose)
+        around = (prose for prose in (self.strategy, self.note, *(each.why for each in self.limits)) if prose)
         return (self.title, self.statement, *(part.ask for part in self.parts), *around, *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
@@ -152,6 +160,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         places=written.places,
         strategy=written.strategy,
         note=written.note,
+        limits=written.limits,
         reference=as_text(written.reference),
     )
 
@@ -163,12 +172,19 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
     record.letters = _letters_of(problem)
-    with recorded(record), within(problem.ranges):
+    with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)
         if isinstance(problem.script, StockScript):
             return problem.script.stock.solve(problem.described, problem.asked)
         return run(problem.script, {given.name: given.value for given in problem.givens})
+
+
+@contextmanager
+def deriving(problem: Problem, record: Run) -> Iterator[None]:
+    """What is done inside is on that record, and knows the ranges of the problem's letters."""
+    with recorded(record), within(problem.ranges):
+        yield
 
 
 def _letters_of(problem: Problem) -> set[str]:

@@ -117,6 +117,40 @@ class DrawingKeys(Record):
     )
 
 
+@dataclass(frozen=True)
+class LimitKeys(Record):
+    """The keys of one of `limits:`."""
+
+    of: Word | None = key("the step that is looked at in a limiting or a special case, by its key", TEXT)
+    letter: Tree | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", SCALAR)
+    to: Tree | None = key("where it goes: `infinity` or a value; 0 unless it is given", SCALAR)
+    where: dict[Word, Tree] = key(
+        "what letters become in a special case, `{b: a, c: a}`", mapping_of(SCALAR, "a mapping such as `{b: a, c: a}`")
+    )
+    step: Word | None = key("a step that the script has made for this, in place of `of`", TEXT)
+    stated: Tree | None = key("what the result then is; refused where it is not", SCALAR, called="is")
+    known: Word | None = key("a step that has the same result in another way, by its key", TEXT)
+    why: Prose | None = key("what is added to the sentence, in prose: `as for a disc`", PROSE)
+
+
+def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
+    """One of `limits:`, which says of what it is a limit, and in what way."""
+    found = _LIMIT.read(node, name, faults)
+    if found is None:
+        return None
+    ways = [way for way in ("letter", "where", "step") if getattr(found, way)]
+    if len(ways) != 1 or (found.of is None) != (ways == ["step"]):
+        message = "a limit has `of` with `letter` or with `where`, or it has a `step` alone"
+        faults.error("missing-key", message, node.place, help="such as `{of: frequency, letter: M, to: infinity}`")
+        return None
+    if found.to is not None and ways != ["letter"]:
+        faults.error("unknown-key", "only a `letter` goes `to` a value", found.places["to"])
+    return found
+
+
+_LIMIT = record_of(LimitKeys, "a limit", "a mapping such as `{of: frequency, letter: M, to: infinity}`", "a limit")
+LIMITS = list_of(Reader(_LIMIT.schema, _limit), "a list of limits", each="a limit")
+
 _DRAWING = record_of(DrawingKeys, "a drawing", "a mapping with `at`, `caption` or `width`", "the drawing `{}`")
 
 
@@ -152,6 +186,7 @@ class ProblemKeys(Record):
     drawings: dict[Word, DrawingKeys] = key(
         "where the drawings of the script stand, by their names", mapping_of(_DRAWING)
     )
+    limits: tuple[LimitKeys, ...] = key("limiting and special cases that check the answers at the end", LIMITS)
     note: Prose | None = key("a remark after the last part, in prose", PROSE)
     reference: Mapping | None = key("what a source states of the same problem", mapping_node({}))
 

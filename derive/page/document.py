@@ -25,11 +25,12 @@ from derive.figures.marks import Recorded
 from derive.page.abbreviations import says_again, shortened
 from derive.page.assumptions import between_bounds
 from derive.page.checks import Checks, checks_of
+from derive.page.closing import limiting_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
+from derive.page.names import page_names
 from derive.page.signs import sign_before
 from derive.page.wording import (
-    AXIS_NAMES,
     Chain,
     Inline,
     Math,
@@ -39,9 +40,7 @@ from derive.page.wording import (
     around_chain,
     conversions,
     filled,
-    given_words,
     joined,
-    name_of,
     names_asked,
     names_of_step,
     stated_once,
@@ -150,6 +149,7 @@ class Document:
     dimensions: Mapping[Any, Dimension | None] = field(repr=False)
     warnings: tuple[Complaint, ...] = ()
     strategy: tuple[Inline, ...] = ()
+    limits: PartPage | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
 
 
@@ -201,7 +201,7 @@ class _Writer:
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self._short = shortened(derivation.steps)
-        self.page_names = self._page_names()
+        self.page_names = page_names(problem, derivation, words)
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.asked = {step.key for step in answered}
 
@@ -211,6 +211,7 @@ class _Writer:
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        limits = self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
         checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
@@ -221,6 +222,7 @@ class _Writer:
             points=problem.points,
             statement=statement,
             strategy=strategy,
+            limits=limits,
             illustrations=tuple(illustrations),
             parts=parts,
             note=note,
@@ -235,16 +237,6 @@ class _Writer:
         )
 
     # --- names ---
-
-    def _page_names(self) -> dict[str, Any]:
-        described = self.problem.described.letters if self.problem.described else {}
-        names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
-        coordinates = (q for step in self.derivation.steps for q, _ in step.coordinates)
-        names.update({q.name: (Math(q),) for q in coordinates})
-        names.update({step.key: name_of(step) for step in self.derivation.steps})
-        for given in self.problem.givens:
-            names[given.name] = given_words(given, self.problem.measured, self.words)
-        return names
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
@@ -293,6 +285,17 @@ class _Writer:
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, ends, steps)
         return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
+
+    def _limits(self) -> PartPage | None:
+        """The limiting cases at the end; before them what they alone rest on."""
+        blocks: list[Block] = []
+        for each in limiting_cases(self.derivation, self.problem.limits, self.words, self._phrase, self._told):
+            if isinstance(each, Step):
+                self._append(blocks, each)
+            else:
+                blocks.append(Paragraph(each))
+        heading = (Text(self.words.labels["limits"]),)
+        return PartPage("", heading, None, _punctuated(blocks)) if blocks else None
 
     def _found_before(self, part: Question) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""

@@ -80,7 +80,7 @@ def explanation_of(
     named = names_of_step(step, words, None) if shown_in else ()
     return Explanation(
         step=step,
-        part=shown_in or asked[step.key],
+        part=shown_in or asked.get(step.key, ""),
         needed=tuple(sorted(_needs(step, asked, derivation.steps), key=lambda need: need.part)),
         lines=Counter(e.grade.value for e in step.evidence if e.compared is Compared.LINES),
         routes=tuple((words.route(step, e.claim), e.grade.value) for e in evidence),
@@ -158,6 +158,7 @@ class _Teller:
             else self.line("asked", part=n.part)
             for n in self.of.needed
         ]
+        needs = needs or [self.line("closing")]
         return [*needs, self.line("rests_on", inputs=self.listed(self.step.inputs))]
 
     def checked(self) -> list[tuple[Inline, ...]]:

@@ -34,6 +34,7 @@ class Derivation:
     assumed: tuple[Relation, ...] = ()
     groups: tuple[tuple[str, tuple[str, ...]], ...] = ()
     in_words: tuple[Relation, ...] = ()  # of what is assumed, that which a step tells
+    closing: tuple[tuple[str, ...], ...] = ()  # the steps of each limiting case in which the answers are checked
 
     def step(self, key: str) -> Step:
         return next(step for step in self.steps if step.key == key)
@@ -152,18 +153,27 @@ def derivation_of(
     known: dict[str, Quantity],
     run: Run | None = None,
     groups: Mapping[str, tuple[str, ...]] | None = None,
+    closing: Iterable[Iterable[Quantity]] = (),
 ) -> Derivation:
-    """Divide the steps among the parts; `answers` holds the keys that each part asks for."""
+    """Divide the steps among the parts; `answers` holds the keys that each part asks for.
+
+    closing   the quantities of each limiting case; what they alone rest on stands in no part
+    """
     shown: dict[str, Step] = {}
     parts = []
     for keys in answers:
         new = [key for key in with_ancestors(known[key] for key in keys) if key not in shown]
         shown.update({key: known[key].step for key in new})
         parts.append(tuple(new))
+    cases = [list(case) for case in closing]
+    for key, quantity in with_ancestors(quantity for case in cases for quantity in case).items():
+        shown.setdefault(key, quantity.step)
+    checked = tuple(tuple(quantity.key for quantity in case) for case in cases)
     run = run or Run()
     unshown = tuple(dict.fromkeys(q.key for q in run.established if q.key not in shown))
     named = tuple((groups or {}).items())
-    return Derivation(tuple(shown.values()), tuple(parts), unshown, tuple(run.assumed), named, tuple(run.in_words))
+    steps, assumed, in_words = tuple(shown.values()), tuple(run.assumed), tuple(run.in_words)
+    return Derivation(steps, tuple(parts), unshown, assumed, named, in_words, checked)
 
 
 # --- JSON ------------------------------------------------------------------------------------------------------------

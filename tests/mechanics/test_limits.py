@@ -16,6 +16,7 @@ from derive.mechanics import (
     angular_momentum,
     coordinate,
     inertia_tensor,
+    known_case,
     let,
     limiting_case,
     momentary_angular_velocity,
@@ -153,3 +154,25 @@ def test_a_second_route_of_a_wrong_power_is_refused(monkeypatch: pytest.MonkeyPa
 def test_a_letter_within_a_range_is_tried_where_it_may_be() -> None:
     tilt = scalar("theta_0", positive=True)
     assert limiting_case(given(M * g * sin(tilt)), tilt).value == M * g * tilt
+
+
+def test_a_limit_that_is_known_from_elsewhere_agrees_with_it_by_a_step() -> None:
+    """Morin, section 1.1: a heavy block falls as fast as a free one; a shell is a thin hollow sphere."""
+    hollow = given(2 * M * (h**5 - R**5) / (5 * (h**3 - R**3)), "hollow", symbol="I")
+    shell = given(2 * M * R**2 / 3, "shell", symbol="I_0")
+    agreed = known_case(limiting_case(hollow, h, R), shell)
+    assert (agreed.value, agreed.step.grade) == (2 * M * R**2 / 3, Grade.PROVED)
+    assert agreed.step.inputs == ("hollow_limit", "shell")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (lambda hollow: known_case(limiting_case(hollow, h, R), given(M * R**2 / 3, "other", symbol="I_0")), "is"),
+        (lambda hollow: known_case(limiting_case(hollow, h, R), hollow), "would say nothing"),
+    ],
+)
+def test_what_is_not_known_or_not_from_elsewhere_is_refused(wrong: Callable[[Quantity], Any], said: str) -> None:
+    hollow = given(2 * M * (h**5 - R**5) / (5 * (h**3 - R**3)), "hollow", symbol="I")
+    with pytest.raises(Rejected, match=said):
+        wrong(hollow)

@@ -7,6 +7,7 @@ from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
 
+from derive.algebra.equality import equal
 from derive.algebra.expansion import (
     Approach,
     Expansion,
@@ -30,9 +31,9 @@ from derive.mechanics.equations.leading import (
 from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, named_coordinates
-from derive.steps.step import Form, Level, Quantity, is_zero
+from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 
-__all__ = ["limiting_case"]
+__all__ = ["known_case", "limiting_case"]
 
 
 def limiting_case(
@@ -172,3 +173,33 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 def _means(name: Any, found: Any) -> dict[Any, Any]:
     return {} if isinstance(name, Symbol | MatrixSymbol | MatrixBase) else dict(meaning(name, found))
+
+
+def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Quantity:
+    """What a limiting case gives is what is known from elsewhere, f = g.
+
+    found   the result in a limiting or a special case, any unit
+    known   the same quantity by a derivation of its own
+    Second route: the known result, entry by entry.
+    Outcomes: generic.
+    Errors: the two are not equal; the one is derived from the other.
+    Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
+    """
+    values = [explicit(q.value.right if _solved_for(q) is not None else q.value) for q in (found, known)]
+    if found.rests_on(known):
+        message = f"`{found.key}` is derived from `{known.key}`, so that their agreement would say nothing"
+        raise Rejected(Complaint("same-source", message))
+    if not equal(*values):
+        raise Rejected(Complaint("wrong-limit", f"`{found.key}` is {values[0]}, but `{known.key}` is {values[1]}"))
+    return establish(
+        "limits.known_case",
+        found.symbol,
+        lambda *_: values[0],
+        {},
+        routes={"known": compared_with(lambda: values[1])},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        parents=[found, known],
+        key=key,
+        kind=found.step.kind,
+        scope=Scope(case_of=found),
+    )

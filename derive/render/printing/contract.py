@@ -64,6 +64,7 @@ def contract(solution: Solution) -> str:
             for steps in answered
             for step in steps
         },
+        "limits": [list(keys) for keys in derivation.closing],
         "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
         "steps": [_step(page.names_of(step), notation) for step in page.steps],
         "reference": [told.facts for told in solution.compared],

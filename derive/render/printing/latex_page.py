@@ -84,6 +84,10 @@ class _Page:
     def parts(self) -> Sequence[PartPage]:
         return self.document.parts
 
+    def sections(self) -> Sequence[PartPage]:
+        """The parts, and behind them the limiting cases."""
+        return (*self.document.parts, *([self.document.limits] if self.document.limits else []))
+
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
 

@@ -64,15 +64,15 @@ class _Page:
             blocks += ["", self._wrapped((heading, *self.document.strategy))]
         for part in self.document.parts:
             blocks += ["", self._part(part)]
+        blocks += ["", self._part(self.document.limits)] if self.document.limits else []
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
         checked = Text(closing_title(self.document, self.words) + " ")
         blocks += ["", "-" * PAGE_COLUMNS, self._wrapped((checked, *self.document.closing))]
         return "\n".join(blocks) + "\n"
 
     def _part(self, part: PartPage) -> str:
-        heading = self._with_worth(
-            f"({part.label}) {self._inline(part.ask)}", self.words.worth(part.points, part.extra)
-        )
+        label = f"({part.label}) " if part.label else ""
+        heading = self._with_worth(f"{label}{self._inline(part.ask)}", self.words.worth(part.points, part.extra))
         blocks = [heading, "-" * min(columns(heading), PAGE_COLUMNS)]
         for block in part.blocks:
             match block:

@@ -1,39 +1,121 @@
-"""`limit:` of a value and of an equation."""
+"""`limits:` of a problem: what it may say, the steps that it becomes, and what is refused with its place."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from sympy import cos, sin, symbols
+from sympy import sqrt, symbols
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import explicit, scalar
-from tests.stock.described import PENDULUM, edited, messages, solved
+from derive.building.solution import derived, rendered
+from derive.errors import Rejected
+from tests.stock.described import course_with, edited, loaded
 
-WHEEL = edited(
-    PENDULUM,
-    ("{A: [l*sin(theta), -l*cos(theta)]}", "{A: [l*sin(theta), a*cos(omega*t) - l*cos(theta)]}"),
-    ("k: spring constant", "a: length"),
-    ("  gravity: g\n", "  gravity: g\n  results: {slow: {limit: motion_theta, for: omega, to: 0}}\n"),
-    ("answer: equations_of_motion", "answer: slow"),
-)
+l, m, M, g = symbols("l m M g", positive=True)
+
+CART = """\
+title: A pendulum on a cart
+solve: system
+symbols: {l: length, m: mass, M: mass, g: acceleration}
+given:
+  coordinates: {x: length, theta: angle}
+  places: {cart: [x, 0], bob: [x + l*sin(theta), -l*cos(theta)]}
+  particles: {cart: {mass: M, at: cart}, bob: {mass: m, at: bob}}
+  gravity: g
+statement: A bob on a cart.
+parts:
+  - ask: Find the modes.
+    answer: normal_modes
+limits:
+  - {of: frequency, letter: M, to: infinity, is: sqrt(g/l), why: as for a pendulum of length <<l>>}
+  - {of: frequency, letter: m/M, to: infinity}
+  - {of: frequency, where: {m: M}, is: sqrt(2*g/l)}
+"""
 
 
-def test_an_equation_has_a_limit_too(tmp_path: Path) -> None:
-    """Taylor, problem 7.31 and the like: a support that is moved slowly leaves the pendulum as it is."""
-    l, g = symbols("l g", positive=True)
-    found = solved(tmp_path, WHEEL)["slow"]
-    left = explicit(found.value).residual
-    assert equal(left, l * scalar("theta_ddot") + g * sin(scalar("theta"))) and not left.has(cos)
+def page(folder: Path, text: str = CART) -> str:
+    return " ".join(rendered(course_with(folder, text), "trial/one", only={"text"}).texts["text"].split())
+
+
+def test_each_limit_is_a_step_that_the_page_tells_at_its_end(tmp_path: Path) -> None:
+    derivation, *_ = derived(loaded(tmp_path, CART))
+    assert derivation.closing == (("frequency_limit",), ("frequency_limit_2",), ("frequency_case",))
+    shown = {key for keys in derivation.parts for key in keys}
+    assert not shown & {key for keys in derivation.closing for key in keys}
+    values = [derivation.step(key).result for keys in derivation.closing for key in keys]
+    roots = (sqrt(g / l), sqrt(g * m / (M * l)), sqrt(2 * g / l))
+    assert all(equal(*pair) for pair in zip(values, roots, strict=True))
+    text = page(tmp_path)
+    assert "Limiting cases" in text
+    assert "as for a pendulum of length l." in text and "For m = M, ω_0 becomes" in text
+
+
+def test_a_problem_without_limits_has_no_such_section(tmp_path: Path) -> None:
+    assert "Limiting cases" not in page(tmp_path, CART[: CART.index("limits:")])
+
+
+def test_what_only_a_limit_rests_on_is_told_before_it(tmp_path: Path) -> None:
+    energy = edited(
+        CART[: CART.index("limits:")] + "limits: [{of: potential_energy, letter: m, is: -m*g*l*cos(theta)}]\n",
+        ("answer: normal_modes", "answer: kinetic_energy"),
+    )
+    derivation, *_ = derived(loaded(tmp_path, energy))
+    assert "potential_energy" in derivation.keys and "potential_energy" not in derivation.parts[0]
+    text = page(tmp_path, energy)
+    assert text.index("Limiting cases") < text.index("U = ")
 
 
 @pytest.mark.parametrize(
-    ("edit", "said"),
+    ("old", "new", "at", "said"),
     [
-        (("to: 0}", "to: 0, symbol: f}"), "is an equation, which has no letter of its own"),
-        (("for: omega", "for: theta"), "theta changes in the motion"),
+        ("is: sqrt(g/l), ", "is: sqrt(g/(2*l)), ", (14, 50), r"`frequency` then is sqrt\(g\)/sqrt\(l\), not"),
+        ("is: sqrt(g/l), ", "is: g/l, ", (14, 50), "then is"),
+        ("is: sqrt(2*g/l)", "is: sqrt(g/l)", (16, 40), "then is"),
+        ("of: frequency, letter: M,", "of: frequence_2, letter: M,", None, "frequence_2"),
+        ("is: sqrt(g/l), ", "known: kinetic_energy, ", (14, 53), "`frequency_limit` is"),
+        ("is: sqrt(g/l), ", "known: frequency, ", (14, 53), "would say nothing"),
+        ("letter: M,", "letter: Q,", (14, 29), "Q"),
+        ("where: {m: M}", "where: {q: M}", (16, 29), "there is no letter `q`"),
     ],
 )
-def test_what_an_equation_has_no_limit_of(edit: tuple[str, str], said: str, tmp_path: Path) -> None:
-    assert any(said in message for message in messages(tmp_path, edited(WHEEL, edit)))
+def test_what_is_not_so_is_refused_where_it_stands(
+    old: str, new: str, at: tuple[int, int] | None, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(Rejected, match=said) as caught:
+        derived(loaded(tmp_path, edited(CART, (old, new))))
+    place = caught.value.complaints[0].place
+    assert place is not None
+    if at is not None:
+        assert (place.line, place.column) == at
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "{of: frequency}",
+        "{letter: M, to: infinity}",
+        "{of: frequency, letter: M, where: {m: M}}",
+        "{step: frequency, letter: M}",
+        "{of: frequency, where: {m: M}, to: 0}",
+        "frequency",
+    ],
+)
+def test_a_limit_says_of_what_and_in_one_way(wrong: str, tmp_path: Path) -> None:
+    with pytest.raises(Rejected):
+        loaded(tmp_path, edited(CART, ("{of: frequency, letter: m/M, to: infinity}", wrong)))
+
+
+def test_a_known_result_is_compared_by_a_step_of_its_own(tmp_path: Path) -> None:
+    """The rod of a body that is made by itself: a thin cylinder about its centre."""
+    two = edited(
+        CART,
+        ("  gravity: g\n", "  gravity: g\n  results:\n    alone: {value: sqrt(g/l), symbol: Omega}\n"),
+        ("is: sqrt(g/l), ", "known: alone, "),
+    )
+    derivation, *_ = derived(loaded(tmp_path, two))
+    assert derivation.closing[0] == ("frequency_limit", "frequency_limit_known")
+    step = derivation.step("frequency_limit_known")
+    assert (step.rule, step.inputs) == ("limits.known_case", ("frequency_limit", "alone"))
+    text = page(tmp_path, two)
+    assert "in agreement with (" in text

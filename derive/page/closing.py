@@ -1,0 +1,75 @@
+"""The limiting cases at the end of a page: a sentence for each, with its formula in the line where there is room."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from sympy import MatrixBase
+
+from derive.algebra.expansion import Approach
+from derive.algebra.expressions import Relation
+from derive.course.written import LimitKeys
+from derive.page.signs import sign_before
+from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, filled
+from derive.steps.derivation import Derivation
+from derive.steps.step import Step
+
+PUT_IN = "substitution.put_in"  # of which the sentence names what is put into
+Nodes = tuple[Inline, ...]
+
+
+def limiting_cases(
+    derivation: Derivation,
+    limits: Sequence[LimitKeys],
+    words: Phrases,
+    phrase: Callable[[Step], Nodes],
+    told: Callable[[Any], Nodes],
+) -> Iterator[Step | Nodes]:
+    """Steps, which are to be shown as any other, and sentences.
+
+    phrase, told   the words of a step, and those of prose, as the page has them
+    """
+    own = {key for keys in derivation.closing for key in keys}
+    shown = {key for keys in derivation.parts for key in keys} | own
+    yield from (step for step in derivation.steps if step.key not in shown)  # what they alone rest on
+    for keys, given in zip(derivation.closing, limits, strict=True):
+        first, *more = (derivation.step(key) for key in keys)
+        said = _in_the_line(first, phrase(first))
+        behind = [filled(words.phrase(step), {"known": Ref(step.inputs[-1])}) for step in more]
+        behind += [told(given.why.pieces)] if given.why else []
+        if said is None:
+            yield first
+        if said is not None or behind:
+            yield _with_commas([*([said] if said else []), *behind])
+
+
+def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
+    """The sentence of a step with its result in it; nothing for what is too tall, a vector or a tensor."""
+    last = step.chain[-1]
+    if isinstance(last.expr, MatrixBase):
+        return None
+    return tuple(part for node in nodes for part in (_result(step) if isinstance(node, Chain) else (node,)))
+
+
+def _result(step: Step) -> Nodes:
+    last = step.chain[-1]
+    if step.symbol is None or step.rule == PUT_IN:
+        return (Math(last.expr),)
+    match sign_before(last):
+        case "tends":
+            return (Math(Approach(step.symbol, last.expr)),)
+        case "approx":
+            return Math(step.symbol), Text(" ≈ "), Math(last.expr)
+    return (Math(Relation(step.symbol, "=", last.expr)),)
+
+
+def _with_commas(parts: Sequence[Nodes]) -> Nodes:
+    """The parts of one sentence."""
+    nodes: list[Inline] = []
+    for i, part in enumerate(parts):
+        nodes += [Text(", ")] if i else []
+        nodes += part
+    if isinstance(nodes[-1], Text) and nodes[-1].text.rstrip().endswith("."):
+        return tuple(nodes)
+    return (*nodes, Text("."))

@@ -1,0 +1,21 @@
+"""What prose may mention on a page: what is given, axes, coordinates, and each step by its key."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from derive.course.problem import Problem
+from derive.page.wording import AXIS_NAMES, Math, Phrases, given_words, name_of
+from derive.steps.derivation import Derivation
+
+
+def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict[str, Any]:
+    """Each name with what stands in the text for it; what is given comes before a step of its name."""
+    described = problem.described.letters if problem.described else {}
+    names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
+    coordinates = (q for step in derivation.steps for q, _ in step.coordinates)
+    names.update({q.name: (Math(q),) for q in coordinates})
+    names.update({step.key: name_of(step) for step in derivation.steps})
+    for given in problem.givens:
+        names[given.name] = given_words(given, problem.measured, words)
+    return names

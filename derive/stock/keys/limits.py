@@ -1,0 +1,120 @@
+"""`limits:` of a problem: limiting and special cases in which answers are checked, each a step like any other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from sympy import Expr, MatrixBase, Symbol
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, explicit
+from derive.course.declared import INFINITE
+from derive.course.expression import Declared, read_expression
+from derive.course.problem import Problem, deriving
+from derive.course.stock import told_at
+from derive.course.written import LimitKeys
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.errors import Faults, did_you_mean, rejected
+from derive.mechanics import known_case, limiting_case, put_in
+from derive.steps.homogeneity import dimension_table
+from derive.steps.record import Run
+from derive.steps.step import Quantity
+from derive.stock.keys.formulas import OfKnownDimension
+
+
+def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
+    """The steps of each: the limiting case, and behind it what compares it with a known result.
+
+    Each is on a record of its own, beside what the script has left: two limits of one quantity have one letter.
+    """
+    if not problem.limits:
+        return []
+    letters = _letters(problem, known)
+    faults, found, keys = Faults(), [], set(known)
+    for given in problem.limits:
+        beside = replace(run, established=list(run.established), cases=list(run.cases))
+        with faults, deriving(problem, beside):
+            case = _case(given, known, letters, keys)
+            keys.add(case.key)
+            _check_stated(given, case, letters)
+            found.append([case, *_compared(given, case, known, keys)])
+    faults.stop()
+    return found
+
+
+def _letters(problem: Problem, known: Mapping[str, Quantity]) -> dict[str, Declared]:
+    """Every letter of the problem and of its steps, which have the dimension of what they stand for."""
+    table, _ = dimension_table(problem.dimensions, [quantity.step for quantity in known.values()])
+    of_steps = {
+        letter.name: OfKnownDimension(letter.name, letter, "", has=dimension)
+        for letter, dimension in table.items()
+        if isinstance(letter, Symbol) and dimension is not None
+    }
+    return {**of_steps, **{letter.name: letter for letter in problem.letters}}
+
+
+def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared], keys: set[str]) -> Quantity:
+    if given.step is not None:
+        return _named(given.step, known)
+    assert given.of is not None
+    of = _named(given.of, known)
+    key = _free(f"{of.key}_limit" if given.letter else f"{of.key}_case", keys)
+    with told_at(given.of.place):
+        if given.where:
+            become = {_letter(x, letters): _read(value, letters) for x, value in given.where.items()}
+            return put_in(of, become, key=key)
+        assert given.letter is not None
+        to = _read(given.to, letters) if given.to else 0
+        return limiting_case(of, _read(given.letter, letters), to, key=key)
+
+
+def _letter(name: Word, letters: Mapping[str, Declared]) -> Symbol:
+    if name not in letters:
+        rejected("undeclared", f"there is no letter `{name}`", name.place, did_you_mean(name, letters))
+    return letters[name].symbol
+
+
+def _named(name: Word, known: Mapping[str, Quantity]) -> Quantity:
+    if name not in known:
+        help_line = did_you_mean(name, known) or "use the key of a step that the script returns or its answers rest on"
+        rejected("no-such-answer", f"`solve()` returns nothing called `{name}`", name.place, help_line)
+    return known[name]
+
+
+def _free(key: str, taken: Iterable[str]) -> str:
+    """The key, or the first of key_2, key_3, ... that nothing has."""
+    number, found = 1, key
+    while found in set(taken):
+        number += 1
+        found = f"{key}_{number}"
+    return found
+
+
+def _read(node: Tree, letters: Mapping[str, Declared]) -> Expr:
+    if not isinstance(node, Scalar) or node.empty:
+        rejected("wrong-type", "this must be an expression", node.place)
+    return INFINITE[node.text.strip()] if node.text.strip() in INFINITE else read_expression(node, letters)[0]
+
+
+def _check_stated(given: LimitKeys, case: Quantity, letters: Mapping[str, Declared]) -> None:
+    """What the file says that the result then is, is what it is."""
+    if given.stated is None:
+        return
+    stated, value = _read(given.stated, letters), explicit(case.value)
+    value = value.right if isinstance(value, Relation) else value
+    if isinstance(value, MatrixBase):
+        message = f"`{case.key}` is no number; a vector or a tensor is compared with a step, `known`"
+        rejected("wrong-type", message, given.stated.place)
+    if not equal(value, stated):
+        rejected("wrong-limit", f"`{given.of or given.step}` then is {value}, not {stated}", given.stated.place)
+
+
+def _compared(given: LimitKeys, case: Quantity, known: Mapping[str, Quantity], keys: set[str]) -> list[Quantity]:
+    if given.known is None:
+        return []
+    other = _named(given.known, known)
+    key = _free(f"{case.key}_known", keys)
+    keys.add(key)
+    with told_at(given.known.place):
+        return [known_case(case, other, key=key)]

@@ -1,0 +1,52 @@
+"""The limiting cases at the end of a page: in the line where there is room, else as any step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from derive.building.solution import derived
+from derive.page.closing import limiting_cases
+from derive.page.wording import Math, Ref, Text, filled, names_of_step, phrases
+from derive.steps.step import Step
+from tests.courses import ROOT
+from tests.stock.described import edited, loaded
+from tests.stock.keys.test_limits import CART
+
+WORDS = phrases(ROOT / "templates")
+
+
+def test_a_number_stands_in_the_line_with_its_sign_and_what_is_added(tmp_path: Path) -> None:
+    problem = loaded(tmp_path, CART)
+    derivation, *_ = derived(problem)
+    found = list(
+        limiting_cases(
+            derivation,
+            problem.limits,
+            WORDS,
+            lambda step: (Text(step.outcome), Text(" ")),
+            lambda pieces: (Text("why"),),
+        )
+    )
+    assert [type(each) for each in found] == [tuple] * 3
+    assert found[0] == (Text("finite"), Text(" "), Text(", "), Text("why"), Text("."))
+    whole = list(limiting_cases(derivation, problem.limits, WORDS, told_in_full, lambda pieces: ()))
+    assert [str(node.expr) for node in whole[0] if isinstance(node, Math)][-1].startswith("Approach(omega_0")
+
+
+def told_in_full(step: Step) -> tuple[object, ...]:
+    return filled(WORDS.phrase(step), names_of_step(step, WORDS, None))
+
+
+def test_what_is_known_is_named_by_its_number(tmp_path: Path) -> None:
+    known = edited(
+        CART,
+        ("  gravity: g\n", "  gravity: g\n  results:\n    alone: {value: sqrt(g/l), symbol: Omega}\n"),
+        ("is: sqrt(g/l), ", "known: alone, "),
+    )
+    problem = loaded(tmp_path, known)
+    derivation, *_ = derived(problem)
+    steps, sentences = [], []
+    for each in limiting_cases(derivation, problem.limits, WORDS, told_in_full, lambda pieces: ()):
+        (steps if isinstance(each, Step) else sentences).append(each)
+    assert [step.key for step in steps] == ["alone"], "what only the comparison rests on is told first"
+    assert Ref("alone") in sentences[0]
