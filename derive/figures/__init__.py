@@ -3,5 +3,6 @@
 from derive.figures.bodies import *
 from derive.figures.elements import *
 from derive.figures.ghosts import *
+from derive.figures.rigid_bodies import *
 from derive.figures.scenes import *
 from derive.figures.sketches import *

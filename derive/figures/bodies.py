@@ -13,11 +13,11 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import Axis, CentreMark, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, SliceMark, ThinRod
+from derive.figures.surfaces import Cavity, Circle, EllipsoidMark, Polyhedron, Revolved, SliceMark, ThinRod
 from derive.mechanics.bodies.body import Body, OfRadius, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.bodies.solids import ThickShell
+from derive.mechanics.bodies.solids import Ellipsoid, ThickShell
 from derive.steps.step import is_zero
 
 __all__ = ["centre_mark", "outline"]
@@ -55,6 +55,8 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
     if isinstance(body, RoundBody):
         surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
         return [surface, *_measures(body, point)] if named else [surface]
+    if isinstance(body, Ellipsoid):
+        return _ellipsoid(body, point, named)
     in_plane = is_in_plane(body)
     found = _of_parts(body.parts, point, named, in_plane) if hasattr(body, "parts") else _by_its_map(body, point, named)
     if found and named:
@@ -249,6 +251,16 @@ def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
         marks.append(Line(middle + radius * aside, middle, "hidden", label=radius))
     if _is_told(high - low, body):
         marks.append(LengthMark(origin + low * along, origin + high * along, None, radius, label=high - low))
+    return marks
+
+
+def _ellipsoid(body: Ellipsoid, point: Point, named: bool) -> list[Mark]:
+    """With its semi-axes dashed and named, and the axes beyond them."""
+    centre = point.seen(ORIGIN)
+    marks: list[Mark] = [EllipsoidMark(centre, body.semi_axes, **_words(body))]
+    for size, along, name in zip(body.semi_axes, UNIT, AXES, strict=True) if named else ():
+        end = centre + size * along
+        marks += [Line(centre, end, "hidden", label=size), Axis(end, end, along, label=scalar(name))]
     return marks
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from derive.figures.marks import BESIDE, InWords, Mark, Position, Surface
 from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Stroke, Tag
-from derive.figures.space import Spot, Vector, rim
+from derive.figures.space import NOUGHT, Spot, Vector, dot, plus, rim
 
 EVERY = 8  # of the places of a circle, one in so many says how large it is
 
@@ -63,6 +64,49 @@ class SliceMark(Revolved):
 
     def in_words(self) -> InWords:
         return "slice", {"height": self.height, "radius": self.label}
+
+
+@dataclass(frozen=True)
+class EllipsoidMark(Surface):
+    """An ellipsoid with its axes along those of the drawing: its outline, and sections through two axes in front."""
+
+    centre: Position
+    semi_axes: tuple[Any, Any, Any]
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [self._at(numbers, u) for k in range(3) for u in rim(NOUGHT, 1.0, _unit_along(k))[:-1:EVERY]]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        sizes = [paper.numbers.of(size) for size in self.semi_axes]
+        # The normal at the place of the unit vector u has the components u_i/a_i.
+        x, y, z = (e / size for e, size in zip(paper.stance.eye, sizes, strict=True))
+        facing = (x, y, z)
+        outline = paper.spots(*(self._at(paper.numbers, u) for u in rim(NOUGHT, 1.0, facing)))
+        pieces: list[Piece] = [Patch(outline, "solid")]
+        for k in range(3):
+            around = rim(NOUGHT, 1.0, _unit_along(k))
+            runs = _runs(around, [dot(u, facing) >= 0 for u in around])
+            pieces += [Stroke(paper.spots(*(self._at(paper.numbers, u) for u in run)), "thin") for run in runs]
+        return [*pieces, Stroke(outline, "edge")]
+
+    def _at(self, numbers: InNumbers, u: Vector) -> Vector:
+        x, y, z = (share * numbers.of(size) for share, size in zip(u, self.semi_axes, strict=True))
+        return plus(numbers.vector(self.centre), (x, y, z))
+
+
+def _unit_along(k: int) -> Vector:
+    return float(k == 0), float(k == 1), float(k == 2)
+
+
+def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]:
+    """The stretches of a closed curve at which a flag holds."""
+    found: list[list[Vector]] = []
+    for i, (place, flag) in enumerate(zip(places, flags, strict=True)):
+        if flag:
+            if i == 0 or not flags[i - 1]:
+                found.append([])
+            found[-1].append(place)
+    return [run for run in found if len(run) > 1]
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,7 @@ from derive.stock.answering.by_name import ByName
 from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
-from derive.stock.keys.outlines import drawn_turning
+from derive.stock.keys.outlines import drawn_free, drawn_turning
 from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 AXES = "xyz"
@@ -393,6 +393,8 @@ def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, obje
     found = answered(asked, by_name)
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
+    elif described.about in ("centre", CENTRE_OF_MASS):
+        drawn_free(answers, "euler_equations" in asked and not (described.rate or described.start or described.torque))
     return found
 
 

@@ -27,6 +27,7 @@ from derive.mechanics import (
     Cuboid,
     Cylinder,
     Disc,
+    Ellipsoid,
     HalfDisc,
     Hoop,
     Plate,
@@ -390,3 +391,11 @@ def test_axes_of_a_block_begin_at_its_point(about: str) -> None:
     assert ends == {"x": [share * a, 0, 0], "y": [0, share * 2 * a, 0], "z": [0, 0, share * 3 * a]}
     inside = [mark for mark in marks if isinstance(mark, Line)]
     assert len(inside) == (0 if about == "corner" else 3)  # along edges one sees them
+
+
+def test_an_ellipsoid_has_its_half_axes_beside_them() -> None:
+    marks = outline(Ellipsoid((a, 2 * a, 3 * a), M))
+    assert [str(mark.label) for mark in marks if isinstance(mark, Line)] == ["a", "2*a", "3*a"]
+    assert [str(mark.label) for mark in marks if isinstance(mark, Axis)] == ["x", "y", "z"]
+    told = inline_text(alternative(None, drawing("egg", marks), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    assert "an ellipsoid" in told

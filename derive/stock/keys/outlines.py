@@ -7,7 +7,7 @@ from typing import Any
 from sympy import cos
 
 from derive.algebra.expressions import column
-from derive.figures import arc, axis_of_rotation, drawing, outline, vectors_in
+from derive.figures import arc, axis_of_rotation, drawing, outline, principal_outline, vectors_in
 from derive.figures.bodies import is_in_plane, seen_outline
 from derive.figures.marks import PLANE, SPACE, Mark
 from derive.mechanics.bodies.body import Body, RoundBody
@@ -50,3 +50,10 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
     if has_angle:
         answer = answers.asks()["angle_between"]
         drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=answer(), at=at))
+
+
+def drawn_free(answers: Any, turns: bool) -> None:
+    """A body of which the principal moments are known, and as it `turns` in any way its angular velocity and angular
+    momentum: they are in different directions, whatever is asked of them."""
+    vectors = (answers.changing, answers.angular_momentum) if turns else ()
+    drawing("body", principal_outline(answers.described.moments, *vectors))

@@ -1,0 +1,42 @@
+"""A rigid body of which only the principal moments are known: drawn as the ellipsoid that has them, with its axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Add, Expr, Rational, sqrt
+
+from derive.algebra.expressions import AXES, scalar
+from derive.figures.annotations import Arrow, Axis, Line, PointMark
+from derive.figures.bodies import ORIGIN, UNIT
+from derive.figures.marks import Mark
+from derive.figures.surfaces import EllipsoidMark
+from derive.steps.step import Quantity
+
+__all__ = ["principal_outline"]
+
+THICK = Rational(1, 12)  # of the sum of the moments, by which a body is thicker than one that is flat or a line
+LONG = Rational(6, 5), Rational(19, 20)  # of arrows, in terms of the body
+
+
+def principal_outline(moments: Sequence[Any], *vectors: Quantity, name: str = "a rigid body") -> list[Mark]:
+    """A body with these principal moments about its centre of mass, and its principal axes.
+
+    moments   three, about x, y and z
+    vectors   quantities, vectors (3) along these axes, which begin at the centre of mass
+    """
+    sizes = _semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
+    marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=name), PointMark(ORIGIN)]
+    for size, along, axis in zip(sizes, UNIT, AXES, strict=True):
+        marks += [Line(ORIGIN, size * along, "hidden"), Axis(size * along, size * along, along, label=scalar(axis))]
+    for vector, size in zip(vectors, LONG, strict=False):
+        marks.append(Arrow(ORIGIN, vector.value, size, label=vector.symbol))
+    return marks
+
+
+def _semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
+    """Those of a uniform ellipsoid with such moments, but for a common factor: I_x is as b^2 + c^2."""
+    whole = Add(*moments)
+    a, b, c = (sqrt(whole - 2 * moment + THICK * whole) for moment in moments)
+    return a, b, c
