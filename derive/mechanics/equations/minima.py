@@ -164,7 +164,8 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
             Relation(condition.right, "=", condition.left),
         )
     order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
-    if outcome.endswith("order") or border is not None:
+    is_open = outcome == "flat" and order > 0  # there is a derivative, of a sign that is not known
+    if outcome.endswith("order") or border is not None or is_open:
         energy = place.energy.subs(border.left, border.right) if border is not None else place.energy
         there = tidied(derivative(energy, q, order).xreplace({q: place.values[q]}))
         told["higher"] = (there, _coefficient(energy, q, place.values[q], order))

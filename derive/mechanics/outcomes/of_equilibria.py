@@ -193,6 +193,11 @@ def _higher(kind: str) -> Predicate:
     return is_so
 
 
+def _undecided(facts: Judged) -> bool:
+    """No order decides; the sentence tells of the derivative whose sign is not known, where there is one."""
+    return _higher("open" if "higher" in facts.inputs else "flat")(facts)
+
+
 def kind_of_order(value: Expr, facts: Judged) -> str:
     (q,), (place,) = _moving(facts), facts.inputs["place"]
     for order in range(2, 9):
@@ -259,7 +264,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "unstable": _both(_always(-1), _runs_away),
         "stable_by_higher_order": _higher("stable"),
         "unstable_by_higher_order": _both(_higher("unstable"), _nothing_turns_it),
-        "flat": _both(_higher("flat"), _nothing_turns_it),
+        "flat": _both(_undecided, _nothing_turns_it),
         "depends": _both(_depends(None), _runs_away),
         "depends_stable_on_border": _both(_depends("stable"), _runs_away),
         "depends_unstable_on_border": _both(_depends("unstable"), _runs_away),

@@ -146,7 +146,7 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 def under_one_root(number: Expr) -> list[Expr]:
     """Of 7 sqrt(2779)/397 the factors 7 and sqrt(7/397); none where the root of a fraction is no shorter."""
     square = number**2
-    if number.is_Rational or not square.is_Rational or square.q == 1:
+    if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []
     times = Rational(*(Mul(*(Integer(p) ** (n // 2) for p, n in factorint(n).items())) for n in (square.p, square.q)))
     inside = square / times**2
