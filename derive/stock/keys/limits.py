@@ -26,14 +26,16 @@ from derive.stock.keys.formulas import OfKnownDimension
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
     """The steps of each: the limiting case, and behind it what compares it with a known result.
 
-    Each is on a record of its own, beside what the script has left: two limits of one quantity have one letter.
+    Each is on a record of its own, beside what the script has found in general: two limits of one quantity have one
+    letter.
     """
     if not problem.limits:
         return []
     letters = _letters(problem, known)
     faults, found, keys = Faults(), [], set(known)
     for given in problem.limits:
-        beside = replace(run, established=list(run.established), cases=list(run.cases))
+        general = [quantity for quantity, case_of in zip(run.established, run.cases, strict=True) if case_of is None]
+        beside = replace(run, established=general, cases=[None] * len(general))
         with faults, deriving(problem, beside):
             case = _case(given, known, letters, keys)
             keys.add(case.key)
