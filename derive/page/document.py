@@ -30,6 +30,7 @@ from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.names import page_names
 from derive.page.signs import sign_before
+from derive.page.theorems import Theorems
 from derive.page.wording import (
     Chain,
     Inline,
@@ -187,6 +188,7 @@ class _Writer:
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
+        self.theorems = Theorems(words, level)
         self.numbers: dict[str, int] = {}
         self.shown_in: dict[str, str] = {}
         every = [*derivation.steps, *values.values()]
@@ -294,8 +296,7 @@ class _Writer:
                 self._append(blocks, each)
             else:
                 blocks.append(Paragraph(each))
-        heading = (Text(self.words.labels["limits"]),)
-        return PartPage("", heading, None, _punctuated(blocks)) if blocks else None
+        return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
 
     def _found_before(self, part: Question) -> list[Block]:
         """What an earlier part has answered already, with the numbers of the equations."""
@@ -327,6 +328,7 @@ class _Writer:
             self.numbers[step.key] = self.numbers[str(same)]
             return
         nodes = (Chain(),) if goes_on or mode == "hidden" else self._phrase(step)
+        blocks.extend(Paragraph(told) for told in self.theorems.before(step))
         self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
         lines = self._lines(step, mode)
         if framed and step.grade is Grade.DEFINITION and not lines[-1].reason:

@@ -20,6 +20,7 @@ _SHAPE: dict[str, Any] = {
     "rules": {_ANY: _TABLE},
     "routes": {_ANY: _TABLE},
     "reasons": {_ANY: _TABLE},
+    "theorems": _TABLE,
     "terms": _TABLE,
     "drawings": _TABLE,
     "grades": _TABLE,

@@ -95,6 +95,7 @@ class Phrases:
     rules: Mapping[str, Mapping[str, str]]
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
+    theorems: Mapping[str, str]
     terms: Mapping[str, str]
     drawings: Mapping[str, str]
     grades: Mapping[str, str]

@@ -1,0 +1,89 @@
+"""Theorems in their general form, which a page tells once, before the first step that uses one.
+
+Each is a formula of names: no step, since it is about no body or system of the problem; what a step makes of it is
+checked there. `tests/mechanics/test_theorems.py` puts bodies and motions into the formulas.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from sympy import MatAdd, Symbol
+
+from derive.algebra.expressions import (
+    BodyRate,
+    CarriedRate,
+    Cross,
+    Factors,
+    Partial,
+    Relation,
+    Terms,
+    TimeRate,
+    rate,
+    scalar,
+    vector,
+)
+
+__all__ = ["THEOREMS", "Theorem"]
+
+M, r, L, q = Symbol("M", positive=True), Symbol("r", positive=True), scalar("L"), scalar("q")
+G, OMEGA = vector("G"), vector("omega")
+MULTIPLIER, CONSTRAINT = scalar("lambda_k"), scalar("f_k")
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """A theorem that a phrase tells by its name.
+
+    formula   what it says
+    letters   what else the phrase names
+    used_by   rules of the steps that use it, each with the outcomes in which it does; none for all of them
+    source    book and section
+    """
+
+    name: str
+    formula: Relation
+    used_by: Mapping[str, frozenset[str]]
+    source: str
+    letters: Mapping[str, Any] = field(default_factory=dict)
+
+    def is_used_by(self, rule: str, outcome: str) -> bool:
+        return rule in self.used_by and (not self.used_by[rule] or outcome in self.used_by[rule])
+
+
+ALWAYS: frozenset[str] = frozenset()
+
+THEOREMS = (
+    Theorem(
+        "parallel_axes",
+        Relation(
+            scalar("J_ij"),
+            "=",
+            Terms(
+                scalar("I_ij"),
+                Factors(M, Terms(Factors(r**2, scalar("delta_ij")), -scalar("r_i") * scalar("r_j"))),
+            ),
+        ),
+        {"inertia.entry_moved": ALWAYS, "assembly.part_tensor": frozenset({"moved", "turned_moved"})},
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+        {"total": scalar("J_ij"), "centre": scalar("I_ij"), "way": vector("r")},
+    ),
+    Theorem(
+        "rotating_axes",
+        Relation(CarriedRate(G, OMEGA), "=", MatAdd(BodyRate(G), Cross(OMEGA, G))),
+        {"free_rotation.rate_in_space": ALWAYS, "rotation.torque": ALWAYS},
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
+        {"any": G, "turning": OMEGA},
+    ),
+    Theorem(
+        "multipliers",
+        Relation(
+            Terms(TimeRate(Partial(L, rate(q)), q), -Partial(L, q)), "=", Factors(MULTIPLIER, Partial(CONSTRAINT, q))
+        ),
+        {"forced.equation_of_motion": frozenset({"kept", "both"})},
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+        {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
+    ),
+)

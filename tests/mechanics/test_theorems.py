@@ -1,0 +1,69 @@
+"""Theorems in their general form: bodies and motions put into the formulas, which must then be true."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+from sympy import Expr, Function, Integer, Matrix, Symbol, cos, diff, eye, sin, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import explicit, scalar
+from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_to
+from derive.mechanics.theorems import THEOREMS, Theorem
+
+BY_NAME = {theorem.name: theorem for theorem in THEOREMS}
+a, b, c, M, t = symbols("a b c M t", positive=True)
+
+
+def put_in(theorem: Theorem, values: dict[str, Expr]) -> Expr:
+    """Left minus right, with values for letters by their names."""
+    residual = explicit(theorem.formula.residual)
+    return residual.xreplace({s: values[s.name] for s in residual.free_symbols if s.name in values})
+
+
+def test_parallel_axes_hold_for_a_block_about_its_corner_entry_by_entry() -> None:
+    block = Cuboid((a, b, c), M)
+    J = inertia_tensor(block, about="corner", key="J")
+    centre = centre_of_mass(block)
+    I, r = moved_to(J, centre).value, centre.value
+    for i, j in product(range(3), repeat=2):
+        values = {"J_ij": J.value[i, j], "I_ij": I[i, j], "M": M, "delta_ij": eye(3)[i, j]}
+        values |= {"r": sqrt((r.T * r)[0]), "r_i": r[i], "r_j": r[j]}
+        left = put_in(BY_NAME["parallel_axes"], values)
+        assert equal(left, Integer(0))
+
+
+def test_the_rate_in_space_is_that_in_turning_axes_and_what_turning_adds() -> None:
+    """A vector known by its components in axes that turn about z, differentiated by its components in space."""
+    w = Symbol("omega", positive=True)
+    turned = Matrix([[cos(w * t), -sin(w * t), 0], [sin(w * t), cos(w * t), 0], [0, 0, 1]])
+    inside = Matrix([t, t**2, 1])
+    in_space = turned.T * diff(turned * inside, t)
+    formula = BY_NAME["rotating_axes"].formula
+    assert [type(part).__name__ for part in formula.right.args] == ["BodyRate", "Cross"]
+    omega, vector = formula.right.args[1].args
+    assert (omega.name, vector.name) == ("omega", "G"), "the order of the product is its sign"
+    assert equal(in_space, diff(inside, t) + Matrix([0, 0, w]).cross(inside))
+
+
+def test_a_positive_multiplier_pushes_towards_a_larger_constraint() -> None:
+    """A bead held at the height q = 0 by f = q: L = m q'^2/2 - m g q, and the force that holds it is + m g."""
+    theorem, (m, g) = BY_NAME["multipliers"], symbols("m g", positive=True)
+    coordinate = Function("q")(t)
+    lagrangian = m * coordinate.diff(t) ** 2 / 2 - m * g * coordinate
+    left = diff(diff(lagrangian, coordinate.diff(t)), t) - diff(lagrangian, coordinate)
+    held = left.subs(coordinate.diff(t, 2), 0)
+    right = theorem.formula.right
+    multiplier, slope = right.args
+    assert (multiplier.name, slope.args[0].name, slope.args[1].name) == ("lambda_k", "f_k", "q")
+    assert held == m * g, "so that lambda df/dq = m g with df/dq = 1"
+    assert theorem.letters["multiplier"] == scalar("lambda_k")
+
+
+@pytest.mark.parametrize("theorem", THEOREMS, ids=lambda theorem: theorem.name)
+def test_each_theorem_says_where_it_is_from_and_who_uses_it(theorem: Theorem) -> None:
+    assert theorem.used_by and "section" in theorem.source
+    rule, outcomes = next(iter(theorem.used_by.items()))
+    assert theorem.is_used_by(rule, next(iter(outcomes), "generic"))
+    assert not theorem.is_used_by("no.rule", "generic")
