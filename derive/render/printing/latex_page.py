@@ -16,9 +16,10 @@ from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Ways
-from derive.page.document import Display, Document, Equations, Illustration, PartPage
+from derive.page.document import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark, filled
 from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_latex
+from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.lines import Printed, printed_lines
 from derive.render.printing.templates import filled_template
@@ -28,6 +29,7 @@ from derive.render.rendered import Tex
 # About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
+NARROW = 26  # less than half of a line, in characters
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,18 @@ class Fragments:
     solution: Tex
     sheet: Tex
     report: Tex
+
+
+Blocks = tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Drawings, and the sentences with their displays before and after them; one alone has some of them beside it."""
+
+    before: tuple[Blocks, ...] = ()
+    drawings: tuple[Illustration, ...] = ()
+    after: tuple[Blocks, ...] = ()
 
 
 NOT_TYPESET = Fragments(*[Tex("")] * 4)
@@ -122,13 +136,24 @@ class _Page:
         """For bookmarks, which are no TeX."""
         return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
 
+    def passages(self, part: PartPage) -> Sequence[Passage]:
+        return passages_of(part.blocks)
+
     def display(self, display: Display) -> Tex:
         """The rows of a chain; a page ends between steps, or far from both ends of a long one."""
-        steps = [self._step(group, stop) for group, stop in zip(display.groups, display.stops, strict=True)]
+        steps: list[str] = []
+        tall: list[bool] = []
+        for group, stop in zip(display.groups, display.stops, strict=True):
+            printed = printed_lines(group, self.notation)
+            tall.append(_is_tall_and_narrow(printed))
+            if tall[-2:] == [True, True]:
+                steps[-1], tall = rf"\sidebyside{{{steps[-1]}}}{{{self._step(printed, stop)}}}", []
+            else:
+                steps.append(self._step(printed, stop))
         return Tex("\n\\nextstep\n".join(steps))
 
-    def _step(self, group: Equations, stop: str) -> str:
-        rows = _rows(printed_lines(group, self.notation))
+    def _step(self, printed: Sequence[Printed], stop: str) -> str:
+        rows = _rows(printed)
         set_rows = [self._row(lines, stop if lines is rows[-1] else "") for lines in rows]
         breaks = [r"\inlongstep" if 2 < i < len(rows) - 2 else r"\samestep" for i in range(1, len(rows))]
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
@@ -218,6 +243,37 @@ class _Questions(_Page):
         return escaped(f"{self.words.labels['part']} ({self.document.shown_in.get(key, '')})")
 
 
+def passages_of(blocks: Sequence[Block]) -> list[Passage]:
+    """A part, drawing by drawing, with what goes before each and after it: half of what is between two, at the most."""
+    passages = [Passage()]
+    for sentence in _sentences(blocks):
+        first, last = sentence[0], passages[-1]
+        if not isinstance(first, Illustration) and last.drawings:
+            passages[-1] = replace(last, after=(*last.after, sentence))
+        elif not isinstance(first, Illustration):
+            passages[-1] = replace(last, before=(*last.before, sentence))
+        elif last.after:
+            half = len(last.after) // 2
+            passages[-1:] = [replace(last, after=last.after[:half]), Passage(last.after[half:], (first,))]
+        else:
+            passages[-1] = replace(last, drawings=(*last.drawings, first))
+    return passages
+
+
+def _sentences(blocks: Sequence[Block]) -> list[Blocks]:
+    """What stands together: the words before a display, the display, and the words that go on with its sentence."""
+    sentences: list[Blocks] = []
+    for block in blocks:
+        last = sentences[-1][-1] if sentences else None
+        to_its_display = isinstance(block, Display) and isinstance(last, Paragraph)
+        goes_on = isinstance(block, Paragraph) and isinstance(last, Display) and last.end == ","
+        if to_its_display or goes_on:
+            sentences[-1] = (*sentences[-1], block)
+        else:
+            sentences.append((block,))
+    return sentences
+
+
 def _rows(lines: Sequence[Printed]) -> list[list[Printed]]:
     """Lines that one frame holds are one row."""
     rows: list[list[Printed]] = []
@@ -228,6 +284,13 @@ def _rows(lines: Sequence[Printed]) -> list[list[Printed]]:
         else:
             rows.append([line])
     return rows
+
+
+def _is_tall_and_narrow(lines: Sequence[Printed]) -> bool:
+    """A vector or a tensor that two may stand side by side with, each with its number."""
+    (line, *others) = lines
+    alone = not others and not line.reason and line.width < NARROW
+    return alone and isinstance(last_of(line.sides[-1][1]), Array)
 
 
 def _sides(line: Printed) -> str:

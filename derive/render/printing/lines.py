@@ -12,7 +12,7 @@ from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
-LINE_WIDTH, TEXT_WIDTH = 76.0, 60.0  # of a line on paper, and of one on a screen
+LINE_WIDTH, TEXT_WIDTH = 74.0, 60.0  # of a line on paper, and of one on a screen
 LINE_INDENT = 4.0  # of a line that goes on
 MOST_SIDES = 4  # of one line
 
@@ -51,6 +51,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         framed = int(i >= framed_from)
         side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
         last = packed[-1] if packed else None
+        indent = width(packed[0].left) if last and last.left is None and packed[0].left is not None else 0
         left = notation.side(line.left) if line.left is not None else None
         goes_on = left is None or left == begun and line.relation == "equals"
         begun = begun if left is None else left
@@ -61,7 +62,8 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             # What is laid out alike is one to the reader.
             packed[-1] = replace(last, sides=(*last.sides[:-1], side), framed=max(last.framed, framed))
             continue
-        room = last is not None and last.width + 2 + width(side[1]) + reason_width(last.reason) <= limit
+        reason_room = max(reason_width(line.reason), reason_width(last.reason)) if last else 0
+        room = last is not None and indent + last.width + 2 + width(side[1]) + reason_room <= limit
         if last and room and len(last.sides) < MOST_SIDES and not (last.reason and line.reason):
             reason, count = last.reason or line.reason, last.framed + framed
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
