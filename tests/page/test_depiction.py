@@ -180,7 +180,7 @@ def test_what_cannot_be_drawn_is_told_at_the_line_of_the_script(tmp_path: Path) 
 
 def test_the_page_of_tex_names_the_files_and_says_what_they_show(block: Rendered) -> None:
     assert r"{block-vectors.pdf}{A drawing in space of a block" in block.latex
-    assert block.latex.count(r"\drawing{") == 1
+    assert block.latex.count(r"\drawingbeside{") == 1
     assert block.latex.count(r"\beside{") == 1
 
 

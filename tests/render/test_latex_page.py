@@ -16,9 +16,9 @@ from derive.course.reference.errata import Erratum
 from derive.page.checks import Checks, Ways
 from derive.page.document import ChainLine, Document, Equations, Paragraph
 from derive.page.wording import DimensionMark, Text, UnitMark
-from derive.render.printing.latex_page import Fragments, dotted, problem_latex, whole_latex
+from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
 from tests.courses import ROOT
-from tests.render.pages import NOTATION, WHOLE, WORDS, M, T, a, display, page
+from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
 
 TEMPLATES = ROOT / "templates"
 
@@ -92,7 +92,7 @@ def test_the_margin_names_a_route_only_if_there_is_room_for_it() -> None:
         for route in ("by halves", "round and round " * 9)
     )
     assert "second route: by halves" in short
-    assert r"\checked{proved}" in long and "round and round" not in long
+    assert r"\checkeddisplay{proved}" in long and "round and round" not in long
 
 
 @pytest.mark.parametrize("evidence", [EvidenceShown.NONE, EvidenceShown.END])
@@ -111,6 +111,29 @@ def test_the_margin_is_empty_unless_it_is_asked_for(evidence: EvidenceShown) -> 
 )
 def test_units_and_dimensions_stand_upright(node: DimensionMark | UnitMark, tex: str) -> None:
     assert tex in solution(page(note=(node,)))
+
+
+def test_two_vectors_stand_side_by_side() -> None:
+    def vectors(count: int, reason: tuple[Text, ...] = ()) -> list[str]:
+        line = ChainLine(T, "equals", column(a, 0, 0), reason)
+        groups = tuple(Equations("mass", (line,), number) for number in range(1, count + 1))
+        return chain(solution(page(replace(display("mass"), groups=groups))))
+
+    both, between, third = vectors(3)
+    assert both.startswith(r"\sidebyside{\row{T}") and r"\eqnumber{2}" in both
+    assert (between, r"\eqnumber{3}" in third) == (r"\nextstep", True)
+    assert r"\sidebyside" not in "".join(vectors(2, (Text("why"),)))
+
+
+def test_a_drawing_takes_the_sentences_before_it_and_after_it() -> None:
+    words = [Paragraph((Text(word),)) for word in "abcd"]
+    shown, goes_on = display("mass"), display("mass", end=",")
+    found = passages_of((words[0], goes_on, words[1], VECTORS, VECTORS, words[2], words[3], shown, VECTORS, shown))
+    assert [(p.before, len(p.drawings), p.after) for p in found] == [
+        (((words[0], goes_on, words[1]),), 2, ((words[2],),)),
+        (((words[3], shown),), 1, ((shown,),)),
+    ]
+    assert passages_of((shown,)) == [Passage(((shown,),))]
 
 
 def framed(*lines: ChainLine) -> list[str]:

@@ -1,0 +1,86 @@
+"""Nothing of a page is cut: TeX's own log of all problems at every level, and rows that are too long made smaller."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from pypdf import PageObject, PdfReader
+
+from derive.building.set_document import set_document
+from derive.building.tex import chosen_engine
+from derive.course.problem_set import problem_set
+from derive.render.rendered import Rendered
+from tests.courses import course_in, rendered_once
+
+PROBLEMS, LEVELS = ("block", "cone", "euler", "slab", "top"), ("brief", "standard", "full")
+LEAST_SCALE = 0.75  # below which letters are too small to read
+TOLERATED = 1.0  # points
+
+Logged = tuple[str, Path]
+
+
+def typeset_with_log(folder: Path, tex: str) -> Logged:
+    source = folder / "page.tex"
+    source.write_text(tex, encoding="utf-8")
+    run = [*chosen_engine("tinytex").command(source.name)]
+    subprocess.run(run, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=True, timeout=120)
+    return (folder / "page.log").read_text(encoding="utf-8", errors="replace"), folder / "page.pdf"
+
+
+def outside(log: str) -> list[str]:
+    """What TeX says of boxes that are wider or higher than they may be."""
+    found = re.findall(r"Overfull \\[hv]box \(([\d.]+)pt too (?:wide|high)\).*", log)
+    return [width for width in found if float(width) > TOLERATED]
+
+
+def scales(log: str) -> list[float]:
+    """By how much rows were made smaller."""
+    rows = re.findall(r"derive: a row is ([\d.]+)pt wide and has ([\d.]+)pt", log)
+    return [float(room) / float(width) for width, room in rows]
+
+
+@pytest.fixture(scope="module")
+def logged(tmp_path_factory: pytest.TempPathFactory) -> Logged:
+    """All problems at all levels, as one document."""
+    pages: list[Rendered] = []
+    for name in PROBLEMS:
+        root = course_in(tmp_path_factory.mktemp(name), problem=name)
+        pages += [rendered_once(root, f"hw9/{name}", level, only=()) for level in LEVELS]
+    return typeset_with_log(tmp_path_factory.mktemp("tex"), set_document(root, problem_set(root, "hw9"), pages))
+
+
+def test_nothing_stands_outside_the_text(logged: Logged) -> None:
+    assert outside(logged[0]) == []
+    assert outside("Overfull \\hbox (1.01pt too wide) detected\nOverfull \\vbox (0.9pt too high) has") == ["1.01"]
+
+
+def test_no_row_of_the_problems_is_too_small_to_read(logged: Logged) -> None:
+    assert [scale for scale in scales(logged[0]) if scale < LEAST_SCALE] == []
+
+
+def places(page: PageObject) -> list[tuple[float, float]]:
+    """Where pieces of text begin."""
+    found: list[tuple[float, float]] = []
+    page.extract_text(visitor_text=lambda text, _, at, *__: found.append((at[4], at[5])) if text.strip() else None)
+    return found
+
+
+def test_every_letter_stands_on_the_paper(logged: Logged) -> None:
+    for number, page in enumerate(PdfReader(logged[1]).pages[:4], 1):
+        width, height = float(page.mediabox.width), float(page.mediabox.height)
+        assert places(page)
+        assert [(x, y) for x, y in places(page) if not (0 < x < width and 0 < y < height)] == [], number
+
+
+@pytest.mark.parametrize(("formula", "smaller"), [(r"\sqrt{%s}", True), ("%s", True), (r"x\mbox{%.0s}", False)])
+def test_a_row_that_does_not_fit_is_made_smaller(formula: str, smaller: bool, tmp_path: Path) -> None:
+    row = formula % "+".join(["a^{2}"] * 26)
+    tex = set_document(course_in(tmp_path), problem_set(tmp_path, "hw9"), [])
+    rows = rf"\chain{{\row{{T}}{{= {row}}}{{.}}{{\why{{since}}}}{{\eqnumber{{1}}}}}}"
+    framed = rf"\chain{{\framedrow{{T}}{{T = {row}}}{{.}}{{}}{{\eqnumber{{2}}}}}}"
+    log, _ = typeset_with_log(tmp_path, tex.replace(r"\end{document}", rows + framed + r"\end{document}"))
+    assert outside(log) == []
+    assert len(scales(log)) == (2 if smaller else 0)
