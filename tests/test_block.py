@@ -239,7 +239,7 @@ def test_wording_can_speak_to_one_outcome_only(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("mode", "present", "absent"),
     [
-        ("result", "r⃗_C = 1/2 a (1, 2, 3)", "r⃗_C = 1/M ∫"),
+        ("result", "r⃗_C = a/2 (1, 2, 3)", "r⃗_C = 1/M ∫"),
         ("hidden", "I_xx = J_xx", "By symmetry the centre of mass"),
     ],
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import ROUND_HALF_EVEN, Decimal
 from typing import Any
 
-from sympy import Expr, Float, Integer, MatrixBase, Rational
+from sympy import Expr, Float, Integer, MatMul, MatrixBase, Rational, cancel
 
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import Amount, Factors, MatrixAmount, Relation, explicit
@@ -97,6 +97,9 @@ def _pairs(shown: Any, exact: Any) -> list[tuple[Any, Expr, Expr]]:
     if isinstance(shown, Factors):  # a rounded number in front of letters
         shown, letters = shown.args
         exact = (exact / letters).cancel()
+    if isinstance(shown, MatMul):  # a vector of rounded numbers, behind letters
+        letters, shown = shown.args
+        exact = (exact / letters).applyfunc(cancel)
     if isinstance(shown, MatrixBase):
         return [(n, factor, e) for n, e in zip(shown, exact, strict=True)]
     return [(shown, factor, exact)]

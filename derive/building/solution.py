@@ -224,7 +224,7 @@ def _value(
     if not problem.measured and not units and not form.figures and is_plain(answer):
         return None
     value = compared or value_of(answer, problem.amounts, *first, figures, more=more)
-    return value or (coefficient_of(answer, figures) if not problem.measured else None)
+    return value or (coefficient_of(answer, figures, bool(form.figures)) if not problem.measured else None)
 
 
 def _kind_of(

@@ -7,6 +7,7 @@ from collections.abc import Mapping as Table
 from collections.abc import Sequence as List
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import pairwise
 
 from derive.course.prose import PROSE, Prose
 from derive.course.schema import (
@@ -18,6 +19,7 @@ from derive.course.schema import (
     key,
     list_of,
     mapping_of,
+    one_of,
     one_or_more,
     read_record,
     record_of,
@@ -26,6 +28,7 @@ from derive.course.schema import (
 from derive.course.units import UNIT_NAMES, read_unit
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, did_you_mean
+from derive.steps.step import Level
 
 _STEP_KEY = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 _POINTS = re.compile(r"[0-9]{1,4}(\.[05])?")
@@ -69,6 +72,13 @@ def _answers(node: Tree, name: str, faults: Faults) -> tuple[Word, ...]:
     return tuple(answers.values())
 
 
+def _level(node: Tree, name: str, faults: Faults) -> Level | None:
+    word = _LEVELS.read(node, name, faults)
+    return Level(word) if word else None
+
+
+_LEVELS = one_of(tuple(Level))
+DETAIL = Reader(_LEVELS.schema, _level, lambda: Level.BRIEF)
 POINTS = Reader({"type": "number", "minimum": 0, "multipleOf": 0.5}, _points)
 
 
@@ -113,6 +123,10 @@ class Question(Record):
     extra: bool = key(
         "`true` where the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
     )
+    detail: Level = key(
+        "`full` or `standard`: an extra part that only pages of that detail show; its steps are derived all the same",
+        DETAIL,
+    )
     forms: Table[str | None, AnswerForm] = key(
         "unit and figures of its numbers, for all answers or by the answer's key",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
@@ -136,10 +150,26 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
         message = "a part that is `extra` carries no points"
         faults.error("points", message, part.places["points"], help="leave `points` out, or `extra`")
         part = replace(part, points=None)
+    if part and part.detail is not Level.BRIEF and not part.extra:
+        message = "what the problem asks for is shown at every detail"
+        faults.error("detail", message, part.places["detail"], help="leave `detail` out, or say `extra: true`")
     return part if part and part.ask else None
 
 
-PARTS = list_of(Reader(_PART.schema, _part), "a list of parts")
+_LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
+
+
+def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
+    """The parts, those that fewer pages show behind the others, so that nothing rests on what a page leaves out."""
+    parts = _LISTED.read(node, name, faults)
+    for part, following in pairwise(parts or ()):
+        if not following.detail.shows(part.detail):
+            message = f"this part is shown at the detail `{part.detail}`, the next one at less"
+            faults.error("detail", message, part.places["detail"], help="put it behind the others")
+    return parts
+
+
+PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 
 
 def points_in_all(

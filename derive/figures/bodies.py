@@ -60,20 +60,9 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
     in_plane = is_in_plane(body)
     found = _of_parts(body.parts, point, named, in_plane) if hasattr(body, "parts") else _by_its_map(body, point, named)
     if found and named:
-        for along, name in list(zip(UNIT, AXES, strict=True))[: 2 if in_plane else 3]:
-            start = _end_on(found, along)
-            found.append(Axis(start, start, along, label=scalar(name)))
+        axes = list(zip(UNIT, AXES, strict=True))[: 2 if in_plane else 3]
+        found += [Axis(ORIGIN, ORIGIN, along, label=scalar(name)) for along, name in axes]
     return found
-
-
-def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Where a thin rod ends that lies on an axis from its origin, which begins there to be seen; else the origin."""
-    for mark in marks:
-        if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
-            _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
-            if all(is_zero(entry) for entry in end.cross(along)) and in_units(end.dot(along)) > 0:
-                return end
-    return ORIGIN
 
 
 def axes_at(body: Body, about: str) -> list[Mark]:

@@ -49,6 +49,7 @@ from derive.mechanics.rotation.cones import *
 from derive.mechanics.rotation.inertia import *
 from derive.mechanics.rotation.principal import *
 from derive.mechanics.rotation.steady import *
+from derive.mechanics.rotation.steady_torque import *
 from derive.mechanics.rotation.tensors import *
 from derive.mechanics.rotation.vectors import *
 from derive.mechanics.systems.blow import *

@@ -34,6 +34,8 @@ def limiting_cases(
     shown = {key for keys in derivation.parts for key in keys} | own
     yield from (step for step in derivation.steps if step.key not in shown)  # what they alone rest on
     for keys, given in zip(derivation.closing, limits, strict=True):
+        if not keys:  # a case in letters that the result no longer has
+            continue
         first, *more = (derivation.step(key) for key in keys)
         said = _in_the_line(first, phrase(first))
         behind = [filled(words.phrase(step), {"known": Ref(step.inputs[-1])}) for step in more]

@@ -129,6 +129,7 @@ class PartPage:
     points: Fraction | None
     blocks: tuple[Block, ...]
     extra: bool = False
+    shown: bool = True  # not where only a page of more detail has it
 
 
 @dataclass(frozen=True)
@@ -152,6 +153,10 @@ class Document:
     strategy: tuple[Inline, ...] = ()
     limits: PartPage | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
+
+    @property
+    def parts_shown(self) -> tuple[PartPage, ...]:
+        return tuple(part for part in self.parts if part.shown)
 
 
 def document_of(
@@ -238,8 +243,6 @@ class _Writer:
             evidence=evidence,
         )
 
-    # --- names ---
-
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
         self.references.note(pieces, names)
@@ -256,10 +259,8 @@ class _Writer:
         assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
         if not assumed:
             return ()
-        conditions = joined([(Math(each),) for each in between_bounds(assumed)], self._and)
+        conditions = joined([(Math(each),) for each in between_bounds(assumed)], self.words.labels["and"])
         return (Text(" "), *filled(self.words.labels["assumed"], {"conditions": conditions}))
-
-    # --- drawings ---
 
     def _illustrations(self) -> list[Illustration]:
         found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
@@ -267,10 +268,10 @@ class _Writer:
         stem = self.problem.id.rpartition("/")[2]
         return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in found]
 
-    # --- parts ---
-
     def _part(self, index: int, part: Question, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
+        if not self.level.shows(part.detail):
+            return PartPage(label, (), None, (), part.extra, shown=False)
         blocks: list[Block] = self._found_before(part)
         ends: dict[str, int] = {}
         answers = self.derivation.answering(part.answers)
@@ -294,6 +295,7 @@ class _Writer:
         for each in limiting_cases(self.derivation, self.problem.limits, self.words, self._phrase, self._told):
             if isinstance(each, Step):
                 self._append(blocks, each)
+                self.before = each
             else:
                 blocks.append(Paragraph(each))
         return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
@@ -302,10 +304,6 @@ class _Writer:
         """What an earlier part has answered already, with the numbers of the equations."""
         before = [step for step in self.derivation.answering(part.answers) if step.key in self.shown_in]
         return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.words)]
-
-    @property
-    def _and(self) -> str:
-        return str(self.words.labels["and"])
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
         """The steps of a part whose last line is framed as its answer, each in its place.
@@ -358,7 +356,7 @@ class _Writer:
         """The numbers that a step puts in for the first time, in the units in which it does."""
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new, self.converted = used - self.converted, self.converted | used
-        return joined(conversions(self.problem, new), self._and)
+        return joined(conversions(self.problem, new), self.words.labels["and"])
 
     def _lines(self, step: Step, mode: str) -> tuple[ChainLine, ...]:
         level = Level.FULL if mode == "full" else self.level
@@ -407,10 +405,10 @@ class _Writer:
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
         inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
         own |= {"variable": Math(inner[0])} if inner else {}
-        references = {name: joined([Ref(key) for key in keys], self._and) for name, keys in found.items()}
+        references = {
+            name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
+        }
         return filled(template, {**self.page_names, **own, **references})
-
-    # --- how it was checked ---
 
     def _routes(self, step: Step) -> tuple[str, ...]:
         return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))

@@ -200,25 +200,30 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
     )
 
 
-def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
+def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """sqrt(42)/28 M a^2 omega^2 as 0.2315 M a^2 omega^2: the irrational number in front of the letters, rounded.
 
-    answer    a scalar with letters; nothing is yielded where it holds a sum, beside which no number stands apart, nor
-              where the number is rational
-    figures   significant figures
+    answer       a scalar with letters; nothing is yielded where it holds a sum, beside which no number stands apart,
+                 nor where the number is rational
+    figures      significant figures
+    of_vectors   whether it may be a vector of numbers times letters, whose numbers may be rational
     Second route: what is left of the result without its letters, as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
     """
-    if isinstance(answer.value, MatrixBase | Relation) or not answer.value.free_symbols or answer.value.has(Add):
+    value = answer.value
+    if isinstance(value, Relation) or not value.free_symbols or (isinstance(value, MatrixBase) and not of_vectors):
         return None
-    number, letters = answer.value.as_independent(*answer.value.free_symbols, as_Add=False)
-    if number.is_Rational:
+    common, rest = factored_matrix(value) if isinstance(value, MatrixBase) else (value, Integer(1))
+    number, letters = common.as_independent(*value.free_symbols, as_Add=False)
+    number = number * rest
+    if letters.has(Add) or number.free_symbols or getattr(number, "is_Rational", False):
         return None
+    rounded = rounded_form(number, figures)
     return establish(
         "numbers.value",
         answer.symbol,
-        lambda: answer.value,
+        lambda: value,
         {},
         routes={"floats": lambda result: _by_floats(number, set(), {}, result / letters)},
         outcome="exact",
@@ -226,7 +231,9 @@ def coefficient_of(answer: Quantity, figures: int) -> Quantity | None:
         scope=Scope(about=answer.subject, case_of=answer),
         key=f"{answer.key}_value",
         kind=answer.step.kind,
-        lines=Lines(after=[Form(Factors(rounded_form(number, figures), letters), "rounded")]),
+        lines=Lines(
+            after=[Form(scaled(letters, rounded) if rest != 1 else Factors(rounded, letters), "rounded")],
+        ),
         parents=[answer],
     )
 

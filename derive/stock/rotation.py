@@ -287,6 +287,9 @@ class Answers:
         acting = self.described.torque
         return euler_equations(rate, acting) if acting else euler_equations(rate)
 
+    def euler_equation(self, axis: str) -> Quantity:
+        return self.equations[AXES.index(axis)]
+
     def _along_principal_axes(self) -> None:
         if not self.inertia_tensor.value.is_diagonal():
             message = "the axes of this body are no principal axes, along which Euler's equations are"
@@ -371,6 +374,7 @@ class Answers:
             "torque": lambda: self.torque,
             "torque_size": lambda: magnitude(self.torque, key="torque_size"),
             "euler_equations": lambda: self.equations,
+            **{f"euler_{axis}": partial(self.euler_equation, axis) for axis in AXES},
             "energy_rate": lambda: self.energy_rate,
             "squared_momentum_rate": lambda: self.squared_momentum_rate,
             "momentum_rate_in_body": lambda: self.rate_in_body,

@@ -1,4 +1,4 @@
-"""A circular cone: its principal moments and axes about its centre of mass, reached from the apex and from the base."""
+"""A circular cone: its principal moments and axes about its centre of mass, by way of its apex."""
 
 from derive.figures import centre_mark, drawing, outline
 from derive.given import *
@@ -12,12 +12,12 @@ def solve(radius: Length, height: Length, mass: Mass):
     I = moved_to(J, cone.centre)  # parallel axes
     drawing("from_apex", outline(cone, sliced=True), centre_mark(cone))
 
+    moments = principal_moments(I)
+    axes = principal_axes(moments)  # I e = I_k e
+
     J_base = inertia_tensor(cone, about="base", coordinates="cartesian", symbol="J'", key="base_tensor")
     centre = centre_of_mass(cone, origin="base", coordinates="cartesian", symbol="r'_C", key="centre_from_base")
     again = moved_to(J_base, centre, symbol="I'", key="tensor_from_base")
     drawing("from_base", outline(cone, about="base", sliced=True), centre_mark(cone, about="base"))
 
-    moments = principal_moments(I)
-    axes = principal_axes(moments)  # I e = I_k e
-
-    return I, agreement(I, again), moments, *axes, isotropic_where(moments, height)
+    return moments, *axes, isotropic_where(moments, height), agreement(I, again)

@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Integer, Matrix, Rational, acos, cos, pi, sqrt, symbols
 
-from derive.algebra.expressions import Amount, Factors, MatrixAmount
+from derive.algebra.expressions import Amount, Factors, MatrixAmount, scaled
 from derive.algebra.rounding import Rounded, decimal_text, off_by_more_than_half_a_unit, rounded, rounded_form
 
 a = symbols("a", positive=True)
@@ -120,6 +120,13 @@ def test_a_rounded_number_before_letters_is_checked_against_the_exact_one() -> N
     exact = sqrt(42) / 28 * a**2
     assert off_by_more_than_half_a_unit(exact, Factors(rounded_form(sqrt(42) / 28, 4), a**2)) is None
     assert off_by_more_than_half_a_unit(exact, Factors(rounded_form(sqrt(42) / 27, 4), a**2)) is not None
+
+
+def test_a_vector_of_rounded_numbers_behind_letters_is_checked_entry_by_entry() -> None:
+    exact = a**2 / 28 * Matrix([-5, 4, -1])
+    right, wrong = (Matrix([Rational(-5, 28), x, Rational(-1, 28)]) for x in (Rational(1, 7), Rational(1, 8)))
+    assert off_by_more_than_half_a_unit(exact, scaled(a**2, rounded_form(right, 4))) is None
+    assert off_by_more_than_half_a_unit(exact, scaled(a**2, rounded_form(wrong, 4))) is not None
 
 
 def test_a_number_without_figures_must_be_exact() -> None:

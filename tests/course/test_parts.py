@@ -88,3 +88,23 @@ def test_what_is_asked_beyond_the_homework_carries_no_points(tmp_path: Path) -> 
 )
 def test_an_extra_part_with_points_is_refused_at_the_points(instead: str, told: str, tmp_path: Path) -> None:
     assert faults(tmp_path, edited(("form: {unit: degree, figures: 4}", instead))) == [told]
+
+
+@pytest.mark.parametrize(
+    ("instead", "told"), [("detail: full", "25 detail"), ("extra: true\n    detail: most", "26 wrong-type")]
+)
+def test_only_what_is_asked_beyond_the_homework_waits_for_a_page_of_more_detail(
+    instead: str, told: str, tmp_path: Path
+) -> None:
+    waiting = edited(("form: {magnitude: {unit: N m}}", "extra: true\n    detail: full"))
+    assert [part.detail for part in load_problem(at(tmp_path, waiting), "hw9/block").parts] == [
+        "brief",
+        "brief",
+        "full",
+    ]
+    assert faults(tmp_path, edited(("form: {magnitude: {unit: N m}}", instead))) == [told]
+
+
+def test_a_part_that_every_page_shows_does_not_stand_behind_one_that_waits(tmp_path: Path) -> None:
+    waiting = edited(("form: {unit: degree, figures: 4}", "extra: true\n    detail: full"))
+    assert faults(tmp_path, waiting) == ["23 detail"]

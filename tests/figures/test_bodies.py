@@ -399,10 +399,3 @@ def test_an_ellipsoid_has_its_half_axes_beside_them() -> None:
     assert [str(mark.label) for mark in marks if isinstance(mark, Axis)] == ["x", "y", "z"]
     told = inline_text(alternative(None, drawing("egg", marks), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
     assert "an ellipsoid" in told
-
-
-def test_the_axis_along_a_rod_begins_at_its_end() -> None:
-    s = Symbol("s", real=True)
-    marks = outline(Wire((s, 0, 0), {s: (0, a)}, mass=M))
-    starts = {str(mark.label): list(mark.start) for mark in marks if isinstance(mark, Axis)}
-    assert starts == {"x": [a, 0, 0], "y": [0, 0, 0], "z": [0, 0, 0]}

@@ -9,7 +9,7 @@ import pytest
 from sympy import Expr, Integer, Symbol, cos, sin, symbols
 
 from derive.algebra.equality import Grade
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Factors, Relation, Terms, explicit
 from derive.errors import Rejected
 from derive.mechanics import coordinate, rate_under
 from derive.steps.establish import Scope, establish
@@ -94,8 +94,25 @@ def test_each_equation_is_multiplied_by_what_the_quantity_needs() -> None:
     found = rate_under(turning, pulls)
     assert found.value == 0
     assert [found_sum.key for found_sum in found.parents[:1]] == ["l_z_sum"]
-    products = {p.key: dict(p.step.roles)["factor"] for p in found.parents[0].parents}
-    assert products == {"l_z_x": -y.symbol, "l_z_y": x.symbol}
+    products = [p.step for p in found.parents[0].parents if p.step.rule == "conservation.product"]
+    assert {p.key: dict(p.roles)["factor"] for p in products} == {"l_z_x": -y.symbol, "l_z_y": x.symbol}
+    assert {p.outcome for p in products} == {"one_of_several"}
+    told = dict(found.parents[0].step.roles)
+    assert (told["factor_1"], told["factor_2"]) == (-y.symbol, x.symbol)
+
+
+def test_the_coefficients_of_a_common_product_stand_together_in_the_sum() -> None:
+    A, B, C = symbols("A B C", positive=True)
+    u, v, w = (coordinate(name, "angular speed") for name in ("u", "v", "w"))
+    letters = SimpleNamespace(letters={**u.letters, **v.letters, **w.letters})
+    own = {"x": (A, u, B - C, v, w), "y": (B, v, C - A, u, w), "z": (C, w, A - B, u, v)}
+    euler = [
+        equation(moment * at.rate - left * p.symbol * q.symbol, letters, key=key)
+        for key, (moment, at, left, p, q) in own.items()
+    ]
+    energy = named("T", (A * u.symbol**2 + B * v.symbol**2 + C * w.symbol**2) / 2, letters)
+    (gathered,) = (form for form in rate_under(energy, euler).parents[0].step.chain if form.because == "gathered")
+    assert gathered.expr.right == Factors(Terms(B - C, C - A, A - B), u.symbol * v.symbol * w.symbol)
 
 
 def test_what_does_not_move_needs_no_equation() -> None:

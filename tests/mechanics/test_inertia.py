@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from sympy import Matrix, Rational, diag, eye, symbols, zeros
 
 from derive.errors import Rejected
-from derive.mechanics import Cuboid, inertia_tensor, moved_to
+from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_from_centre, moved_to
 from tests.mechanics.block import M, a, b, c, known_block, outcomes, values
 
 GENERAL = {"sides": (a, b, c), "axis": "z"}
@@ -21,6 +21,21 @@ sizes = st.fractions(min_value=Rational(1, 50), max_value=50, max_denominator=50
 def test_block_about_its_centre_has_the_moments_of_the_tables() -> None:
     tabulated = M / 12 * diag(b**2 + c**2, a**2 + c**2, a**2 + b**2)
     assert (values(**GENERAL)["inertia_tensor"] - tabulated).expand() == zeros(3)
+
+
+def test_mirror_planes_leave_three_integrals_about_the_centre_and_none_about_a_corner() -> None:
+    block = Cuboid((a, b, c), M)
+    central, corner = inertia_tensor(block), inertia_tensor(block, about="corner", key="corner_tensor")
+    found = {q.key: q.step.outcome for q in central.parents if q.step.rule == "inertia.entry"}
+    assert found == {f"inertia_tensor_{axis * 2}": "mirrored" for axis in "xyz"}
+    assert (central.value - M / 12 * diag(b**2 + c**2, a**2 + c**2, a**2 + b**2)).expand() == zeros(3)
+    assert len([q for q in corner.parents if q.step.rule == "inertia.entry"]) == 6
+
+
+def test_a_tensor_of_three_integrals_is_moved_to_a_corner_with_all_its_products() -> None:
+    block = Cuboid((a, b, c), M)
+    moved = moved_from_centre(inertia_tensor(block), centre_of_mass(block, "corner"))
+    assert (moved.value - inertia_tensor(block, "corner", key="corner_tensor").value).expand() == zeros(3)
 
 
 def test_block_of_sides_one_two_three_has_moments_13_10_5() -> None:

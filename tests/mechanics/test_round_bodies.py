@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 import pytest
-from sympy import Matrix, Rational, diag, integrate, pi, simplify, sqrt, symbols, zeros
+from sympy import Integral, Matrix, Rational, cos, diag, integrate, pi, simplify, sin, sqrt, symbols, zeros
 
 from derive.algebra.equality import Grade
 from derive.errors import Rejected
@@ -244,7 +244,7 @@ def test_the_centre_of_a_ball_is_where_it_is_counted_from() -> None:
 
 
 def test_in_cylindrical_coordinates_a_ball_has_no_chords() -> None:
-    """The radius of its cross-section is a limit there, but no integral along a chord is taken."""
+    """The radius of its cross-section is a limit there, and the disc is integrated at once."""
     reasons = {
         coordinates: {
             form.because for q in inertia_tensor(Ball(R, M), coordinates=coordinates).parents for form in q.step.chain
@@ -252,7 +252,21 @@ def test_in_cylindrical_coordinates_a_ball_has_no_chords() -> None:
         for coordinates in ("cartesian", "cylindrical")
     }
     assert "chords" in reasons["cartesian"]
-    assert not {"chords", "discs"} & reasons["cylindrical"]
+    assert "chords" not in reasons["cylindrical"]
+    assert all("discs" in found for found in reasons.values())
+
+
+@pytest.mark.parametrize("about", ["apex", "base", "centre"])
+def test_a_cone_has_its_slices_by_polar_coordinates_from_each_of_its_points(about: str) -> None:
+    region = CONE.region(CONE.point(about))
+    z, theta, s = region.names
+    radius, edge = region.section or (None, None)
+    assert region.position[:2] == [s * cos(theta), s * sin(theta)]
+    assert region.limits[2] == (s, 0, radius)
+    assert str(radius) == ("r" if about == "apex" else "r'")
+    mass = Integral(M / CONE.size * region.element, *reversed(region.with_section_put_in().limits)).doit()
+    assert (mass - M).expand() == 0
+    assert edge is not None and edge.has(z)
 
 
 def test_only_the_cross_section_of_a_ball_is_found_by_pythagoras() -> None:

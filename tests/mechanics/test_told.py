@@ -27,26 +27,35 @@ FROM_CENTRE: dict[str, Any] = {
 KEEPING = {"momentum": a * rate(q) + R, "value": g, "coordinate": q}
 
 
-class Cone:
-    reference, height = "apex", h
-
-
 class Centre:
     name = "centre"
 
 
 def cylindrical(**changed: Any) -> Judged:
-    told = {"along": z, "edge": R * z / h, "x_is": r * cos(theta), "y_is": r * sin(theta), "element": r, "radius": r}
-    return Judged(pi * R**2 * h / 3, told | changed, subject=Subject(body=Cone()), words={"start": "apex"})
+    told = {"x_is": r * cos(theta), "y_is": r * sin(theta), "element": r, "names": [z, theta, r]}
+    words = FROM_CENTRE["words"] | {"polar": "centre"}
+    return Judged(R * z / h, told | changed, **(FROM_CENTRE | {"words": words}))
 
 
 @pytest.mark.parametrize(
-    "wrong",
-    [{"x_is": -r * cos(theta)}, {"y_is": r}, {"x_is": r * sin(theta), "y_is": r * cos(theta)}, {"edge": 0 * r}],
+    "wrong", [{"x_is": -r * cos(theta)}, {"y_is": r}, {"x_is": r * sin(theta), "y_is": r * cos(theta)}]
 )
-def test_cylindrical_coordinates_are_judged_by_their_element_and_the_volume(wrong: dict[str, Any]) -> None:
-    assert told_rightly("bodies.volume", "cylindrical", cylindrical())
-    assert not told_rightly("bodies.volume", "cylindrical", cylindrical(**wrong))
+def test_cylindrical_coordinates_are_judged_by_their_element(wrong: dict[str, Any]) -> None:
+    assert told_rightly("bodies.section_radius", "straight", cylindrical())
+    assert not told_rightly("bodies.section_radius", "straight", cylindrical(**wrong))
+
+
+class Cone:
+    ends = (Integer(0), h)
+
+    @staticmethod
+    def radius_at(height: Any) -> Any:
+        return R * height / h
+
+
+@pytest.mark.parametrize(("volume", "right"), [(pi * R**2 * h / 3, True), (pi * R**2 * h / 2, False)])
+def test_a_volume_is_judged_by_its_cross_sections(volume: Any, right: bool) -> None:
+    assert told_rightly("bodies.volume", "cylindrical", Judged(volume, {}, subject=Subject(body=Cone()))) == right
 
 
 def test_two_roles_of_a_rotation_cannot_be_exchanged() -> None:

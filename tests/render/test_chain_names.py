@@ -20,7 +20,8 @@ def test_a_letter_beside_a_vector_of_the_same_name_is_not_taken_for_it() -> None
     torque = page.names_of(next(step for step in steps if step.key == "torque"))
     assert torque.text(omega) == "omega"
     assert torque.text(ex.vector("omega")) == "omega_"
-    assert set(torque.names) == {"omega_", "L"}
+    moments = {f"I_{axis * 2}" for axis in "xyz"}
+    assert set(torque.names) == {"omega_", "L", "omega_x", "omega_y", "omega_z", *moments}
 
 
 def test_two_names_that_are_alike_in_one_chain_are_told_apart() -> None:

@@ -74,6 +74,12 @@ def test_a_part_beyond_the_homework_is_marked_where_points_stand() -> None:
     assert heading.endswith("[extra]") and columns(heading) == PAGE_COLUMNS
 
 
+def test_a_part_that_waits_for_more_detail_is_not_on_the_page() -> None:
+    parts = page().parts
+    waiting = replace(page(), parts=(*parts, replace(parts[0], label="z", shown=False)))
+    assert shown(waiting) == shown(page())
+
+
 def test_a_drawing_without_a_number_has_no_caption() -> None:
     lines = shown(page(replace(VECTORS, number=None)))
     assert "[figure: Two vectors]" in lines

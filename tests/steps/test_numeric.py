@@ -108,6 +108,14 @@ def test_a_rational_coefficient_a_sum_a_vector_and_a_plain_number_have_none(key:
     assert coefficient_of(known_block()[key], 4) is None
 
 
+def test_a_vector_of_rational_numbers_is_rounded_behind_its_letters_where_that_is_asked() -> None:
+    found = coefficient_of(known_block()["torque"], 4, of_vectors=True)
+    assert found is not None
+    letters, numbers = found.step.result.args
+    assert ([decimal_text(n) for n in numbers], letters) == (["-0.1786", "0.1429", "-0.03571"], M * a**2 * omega**2)
+    assert found.value == known_block()["torque"].value
+
+
 c = Symbol("c", positive=True)
 NEAR = [Rational(39_999, 1000), 40 - Rational(1, 10**12), 40 + Rational(1, 10**30)]
 

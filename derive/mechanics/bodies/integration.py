@@ -4,7 +4,7 @@ The integrand is a sum of products, and each term separates into integrals that 
 variable where the limits are constant, nested where they depend on a variable further out. The lines are: split, the
 innermost antiderivatives in brackets, their values, and so outwards; then the products, and the mass collected.
 
-Over a solid of revolution in Cartesian coordinates the lines are a teacher's: chords, then discs, then the axis.
+Over a solid of revolution the lines are a teacher's: discs, in Cartesian coordinates along their chords, then the axis.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from sympy import Add, Expr, Integer, Integral, Mul, Poly, Pow, Rational, Symbol, cos, factor, factor_terms, pi, sin
+from sympy import Add, Expr, Integer, Integral, Mul, Poly, Pow, Rational, Symbol, cos, factor_terms, pi, sin
 
 from derive.algebra.expressions import Bracket, Factors, Group, Terms, bound, explicit
 from derive.algebra.integrals import antiderivative, definite
@@ -208,25 +208,33 @@ def _has_chords(region: Region) -> bool:
 
 
 def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """First along the chord, then over the disc by y = r sin u, then along the axis."""
-    z_limit, y_limit, x_limit = region.limits
-    chords = [factor_terms(c) for c in Add.make_args(factor_terms(explicit(Integral(integrand, x_limit))).expand())]
-    turned = [_by_angle(chord, y_limit, region) for chord in chords]
-    discs = [explicit(Integral(chord, y_limit)) for chord in chords]
-    discs = list(Add.make_args(Add(*discs).expand()))
+    """First over the disc at each height, which is what holds for every solid of revolution, then along the axis."""
+    z_limit, *within = region.limits
+    by_chords = _by_chords(region, integrand, front) if region.element == 1 else []
+    discs = list(Add.make_args(explicit(Integral(integrand, *reversed(within))).expand()))
     along = [bound(disc, dict([region.section] if region.section else [])) for disc in discs]
-    split = [_collected((Nested(_from_the_tip(factor(disc), z_limit), (z_limit,)),)) for disc in along]
+    split = [_collected((Nested(_from_the_tip(disc, z_limit), (z_limit,)),)) for disc in along]
     return [
-        Form(Factors(front, Integral(_sum(chords), y_limit, z_limit)), "chords", Level.STANDARD),
-        *([Form(Factors(front, Integral(_sum(turned), z_limit)), "turned", Level.STANDARD)] if all(turned) else []),
-        Form(Factors(front, Integral(_sum(discs), z_limit)), "discs", Level.STANDARD),
+        *by_chords,
+        Form(_times(front, [Integral(_sum(discs), z_limit)]), "discs", Level.STANDARD),
         _line(front, split, Nested.written, "section", Level.STANDARD),
-        _line(front, split, _with_power_bracket, "antiderivative", Level.STANDARD),
+        _line(front, split, _with_power_bracket, "antiderivative", Level.FULL),
         Form(
             _times(front, _lasting([Mul(*(_one_further(part) for part in term)) for term in split])),
             "multiplied",
             Level.STANDARD,
         ),
+    ]
+
+
+def _by_chords(region: Region, integrand: Expr, front: Expr) -> list[Form]:
+    """Over the disc in Cartesian coordinates: along its chords, then by y = r sin u."""
+    z_limit, y_limit, x_limit = region.limits
+    chords = [factor_terms(c) for c in Add.make_args(factor_terms(explicit(Integral(integrand, x_limit))).expand())]
+    turned = [_by_angle(chord, y_limit, region) for chord in chords]
+    return [
+        Form(_times(front, [Integral(_sum(chords), y_limit, z_limit)]), "chords", Level.FULL),
+        *([Form(_times(front, [Integral(_sum(turned), z_limit)]), "turned", Level.FULL)] if all(turned) else []),
     ]
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Symbol, Tuple, eye, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Integral, Symbol, Tuple, eye, sin, sqrt
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import MassIntegral, bound, column, scalar, vector
@@ -77,6 +77,13 @@ class Region:
     def names(self) -> tuple[Symbol, ...]:
         return tuple(x for x, _, _ in self.limits)
 
+    @property
+    def has_mirrors(self) -> bool:
+        """Whether it lies between opposite limits of x, of y and of z, so that the plane across each is a mirror."""
+        names = self.names
+        opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
+        return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
+
     def integral(self, integrand: Expr) -> Integral:
         """The integral of a function of the coordinates, not yet carried out."""
         return Integral(integrand * self.element, *reversed(self.limits))
@@ -86,6 +93,23 @@ class Region:
         inward = [Tuple(*limit) for limit in reversed(self.limits)]
         whole: MassIntegral = MassIntegral(integrand, vector("r"), density, self.position, self.element, *inward)
         return whole
+
+    def with_named_section(self, taken: Collection[Symbol], primed: str = "") -> Region:
+        """The same in cylindrical coordinates, the distance from the axis called s and a limit of it that varies along
+        the axis r.
+
+        taken    letters that neither can have
+        primed   the mark behind r, if one
+        """
+        z, angle, (out, lower, upper) = self.limits
+        if not upper.has(z[0]):
+            return self
+        (s, named) = coordinates(("s", "r"), {*taken, z[0], angle[0]})
+        r = Symbol(named.name + primed, nonnegative=True)
+        position = ImmutableDenseMatrix(self.position.xreplace({out: s}))
+        if position[1] == -s * sin(angle[0]):  # counted the other way round, which changes no limit of a whole turn
+            position = ImmutableDenseMatrix([position[0], -position[1], position[2]])
+        return Region((z, angle, (s, lower, r)), position, self.element.xreplace({out: s}), section=(r, upper))
 
     def with_section_put_in(self) -> Region:
         """The same region, its limits written with what the radius of the cross-section stands for."""
@@ -107,14 +131,19 @@ def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]
     return [scalar(name) for name in found]
 
 
-def round_by_chords(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point) -> Region:
-    """All points within radius_at(z) of the body's z axis, z between two ends, by x, y and z from a point."""
+def round_by_chords(
+    radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point, primed: str = ""
+) -> Region:
+    """All points within radius_at(z) of the body's z axis, z between two ends, by x, y and z from a point.
+
+    primed   the mark behind the letter of the radius, if one
+    """
     taken = {letter for end in ends for letter in end.free_symbols | radius_at(end).free_symbols}
     z, x, y = coordinates("zxy", taken)
     _check_sign(radius_at, ends)
     edge = radius_at(point.along_body(z))
     varies = edge.has(z)
-    r = Symbol(coordinates("r", taken)[0].name, nonnegative=True) if varies else edge
+    r = Symbol(coordinates("r", taken)[0].name + primed, nonnegative=True) if varies else edge
     a, b = (point.axes.T * point.position)[:2]
     chord = sqrt(r**2 - (y + b) ** 2)
     limits = ((z, *point.interval(*ends)), (y, -r - b, r - b), (x, -chord - a, chord - a))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Poly, Rational, Symbol, cos, diag, diff, pi, sin, sqrt
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body, Hollow, OfHeight, OfRadius, RoundBody, require_order
@@ -56,8 +56,12 @@ class RoundSolid(RoundBody):
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         if coordinates == "cartesian":
-            return round_by_chords(self.radius_at, self.ends, point)
-        return super().region(point)
+            return round_by_chords(self.radius_at, self.ends, point, self._primed(point))
+        return super().region(point).with_named_section(self.letters, self._primed(point))
+
+    def _primed(self, point: Point) -> str:
+        """The mark of what is counted from elsewhere than where its own axes begin."""
+        return "" if point.name == self.reference else "'"
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
         """Two expressions that are equal where (r, z), in its own axes, is on its edge."""
@@ -353,35 +357,19 @@ def volume(body: Cone) -> Quantity:
     """
     start = body.point(body.reference)
     region = body.region(start)
-    _, theta, r = region.names
     return establish(
         "bodies.volume",
         Symbol("V" if Symbol("V", positive=True) not in body.mass.free_symbols else "V_0", positive=True),
         lambda *_: region.integral(Integer(1)),
-        {"along": region.names[0]},
-        telling=Telling(
-            formulas={
-                "edge": (region.limits[2][2], _edge_at(body, start, region.names[0])),
-                "x_is": (r * cos(theta), region.position[0]),
-                "y_is": (r * sin(theta), region.position[1]),
-            },
-            words={"start": start.name},
-            judged_by={"element": region.element, "radius": r},
-        ),
+        {},
+        parents=body.radii(start, region),
+        telling=Telling(judged_by={"element": region.element, "radius": region.names[2]}),
         lines=Lines(between=worked_integral(region, Integer(1), Integer(1), Integer(1)), put_in=None),
         routes={"pappus": lambda value: (value, _by_pappus(body))},
         outcome="cylindrical",
         kind="volume",
         scope=Scope(about=Subject(body=body)),
     )
-
-
-def _edge_at(body: RoundSolid, point: Point, z: Expr) -> Expr:
-    """The radius at z from a point, as the condition of the edge has it: solved for what makes its two sides equal."""
-    r = Symbol("r_edge", nonnegative=True)
-    left, right = body.edge_condition(point.along_body(z), r)
-    per_radius, rest = Poly(left - right, r).all_coeffs()
-    return -rest / per_radius
 
 
 def _by_pappus(body: Cone) -> Expr:
@@ -401,6 +389,7 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
     """The radius of the cross-section at z from a point of the axis: R (h - z)/h, or sqrt(R^2 - z^2)."""
     symbol, value = region.section or (None, None)
     z = region.names[0]
+    polar = _polar_coordinates(region)
     return establish(
         "bodies.section_radius",
         symbol,
@@ -411,6 +400,18 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
         kind="length",
         lines=Lines(put_in=None),
         scope=Scope(coordinates={z: "length"}, about=Subject(body=body, point=point)),
-        telling=Telling(words={"start": point.name}),
-        key="section_radius",
+        telling=Telling(
+            words={"start": point.name, **({"polar": point.name} if polar else {})},
+            formulas=polar,
+            judged_by={"element": region.element, "names": list(region.names)},
+        ),
+        key="section_radius" if point.name == body.reference else f"section_radius_from_{point.name}",
     )
+
+
+def _polar_coordinates(region: Region) -> dict[str, tuple[Expr, Expr]]:
+    """x = s cos theta and y = s sin theta, of a region that is told by them."""
+    if region.element == 1:
+        return {}
+    _, theta, s = region.names
+    return {"x_is": (s * cos(theta), region.position[0]), "y_is": (s * sin(theta), region.position[1])}

@@ -55,8 +55,9 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     common, factors = _multipliers(own_rate, equations, list(motion))
     of_body = quantity.fact(RateByParticles)
     acting = next((torque for equation in equations if (torque := equation.fact(Acting))), None)
-    products = _products(quantity, equations, factors, motion)
-    known = [_sum(quantity, products, motion)] if len(products) > 1 else products
+    needed = [(equation, factor) for equation, factor in zip(equations, factors, strict=True) if factor != 0]
+    products = [_product(quantity, equation, factor, motion, len(needed)) for equation, factor in needed]
+    known = [_sum(quantity, products, needed, motion)] if len(products) > 1 else products
 
     in_time = by_functions_of_time(quantity.value, moving)
     taken_off = common * Add(*(_equation(equation).residual for equation in known))  # zero along the motion
@@ -66,7 +67,9 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
         TimeRate(quantity.symbol, *moving),
         lambda q: TimeRate(q, *moving),
         {"quantity": quantity},
-        lines=Lines(between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)], motion=motion),
+        lines=Lines(
+            between=[Form(tidied(own_rate.expand()), "chain_rule", Level.BRIEF)], put_in=Level.FULL, motion=motion
+        ),
         routes={
             "functions_of_time": compared_with(lambda: bound(in_time, motion)),
             "sum": compared_with(lambda: in_time - taken_off),
@@ -124,16 +127,13 @@ def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequenc
     return common, [factor / common for factor in factors]
 
 
-def _products(
-    quantity: Quantity, equations: Sequence[Quantity], factors: Sequence[Expr], motion: Mapping[Symbol, Expr]
-) -> list[Quantity]:
-    """Each equation that is needed, times its factor."""
-    needed = [(equation, factor) for equation, factor in zip(equations, factors, strict=True) if factor != 0]
-    return [_product(quantity, equation, factor, motion) for equation, factor in needed]
+def _product(
+    quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr], of_many: int
+) -> Quantity:
+    """An equation of motion times a factor, multiplied out.
 
-
-def _product(quantity: Quantity, equation: Quantity, factor: Expr, motion: Mapping[Symbol, Expr]) -> Quantity:
-    """An equation of motion times a factor, multiplied out."""
+    Outcomes: alone, one_of_several (which are added up).
+    """
     written = equation.value
     return establish(
         "conservation.product",
@@ -147,7 +147,8 @@ def _product(quantity: Quantity, equation: Quantity, factor: Expr, motion: Mappi
             "motion": lambda value: _sides(value, motion),
             "divided": lambda value: _divided(value, factor, written, motion),
         },
-        telling=Telling(judged_by={"written": written}),
+        outcome="alone" if of_many == 1 else "one_of_several",
+        telling=Telling(judged_by={"written": written, "of_many": Integer(of_many)}),
         parents=[equation],
         key=f"{quantity.key}_{equation.key}",
     )
@@ -178,26 +179,59 @@ def _times(factor: Expr, side: Expr) -> Expr:
     return Integer(0) if side == 0 else Factors(factor, side)
 
 
-def _sum(quantity: Quantity, products: Sequence[Quantity], motion: Mapping[Symbol, Expr]) -> Quantity:
-    """The sum of the products, collected."""
+def _sum(
+    quantity: Quantity,
+    products: Sequence[Quantity],
+    of: Sequence[tuple[Quantity, Expr]],
+    motion: Mapping[Symbol, Expr],
+) -> Quantity:
+    """The sum of the products, collected.
+
+    Outcomes: plain, cancel (the terms without a rate do), remain.
+    """
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
+    moving = _moving([quantity, *products])
     return establish(
         "conservation.sum",
         None,
         lambda: Relation(Terms(*_added(sides[0])), "=", Terms(*_added(sides[1]))),
         {},
         lines=Lines(
-            arranged=lambda value: _by_sides(value, _moving([quantity, *products])), law=Level.FULL, put_in=None
+            between=_gathered(of, moving, list(motion)) if not any(sides[1]) else [],
+            arranged=lambda value: _by_sides(value, moving),
+            law=Level.FULL,
+            put_in=None,
         ),
         routes={
             "motion": lambda value: _sides(value, motion),
             "one_by_one": lambda value: _one_by_one(value, products),
         },
         outcome=_left_over(sides[0], list(motion)),
-        telling=Telling(judged_by={"highest": list(motion), "products": sides[0]}),
-        parents=list(products),
+        telling=Telling(
+            formulas={f"factor_{i}": (factor, factor) for i, (_, factor) in enumerate(of, 1)},
+            points_to={f"equation_{i}": equation for i, (equation, _) in enumerate(of, 1)},
+            judged_by={"highest": list(motion), "products": sides[0]},
+        ),
+        parents=[*(equation for equation, _ in of), *products],
         key=f"{quantity.key}_sum",
     )
+
+
+def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
+    """The terms with highest rates = (c_1 + c_2 + ...) times the one product of components that the others have."""
+    with_rates, rest = [], []
+    for equation, factor in of:
+        number, moved = factor.as_independent(*moving, as_Add=False)
+        for term in Add.make_args(equation.value.left):
+            if term.has(*highest):
+                with_rates.append(factor * term)
+                continue
+            own, product = term.as_independent(*moving, as_Add=False)
+            rest.append((-own if number == 1 else Factors(number, -own), moved * product))
+    if len({product for _, product in rest}) != 1:
+        return []
+    right = Factors(Terms(*(coefficient for coefficient, _ in rest)), rest[0][1])
+    return [Form(Relation(by_products(Add(*with_rates), moving), "=", right), "gathered", Level.STANDARD)]
 
 
 def _added(sides: Sequence[Expr]) -> list[Expr]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, Mul, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Symbol
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
@@ -79,7 +79,7 @@ def put_in(
             law=Level.STANDARD if again is None else Level.FULL,
             put_in=None,
             arranged=lambda _: result,
-            means={} if name is None or isinstance(name, Symbol) else meaning(name, result),
+            means={} if name is None or isinstance(name, Symbol | MatrixSymbol) else meaning(name, result),
         ),
         routes={
             "at_once": lambda found: (found, _at_once(explicit(of.value), told)),

@@ -86,6 +86,13 @@ def _entry(*pairs: str, round_body: bool = False) -> Predicate:
     return is_so
 
 
+def _is_mirrored(facts: Judged) -> bool:
+    """A moment of a body of which nothing that is odd in x, in y or in z is left by integration."""
+    body, point = facts.subject.body, facts.subject.point
+    odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
+    return _entry("xx", "yy", "zz")(facts) and all(is_zero(each) for each in odd)
+
+
 def _is_round(facts: Judged) -> bool:
     """Whether the particles of the body have the same moment about x and y, and no product, seen from its centre."""
     body = facts.subject.body
@@ -196,6 +203,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "inertia.entry": {
         "moment": _entry("xx", "yy", "zz"),
         "product": _entry("xy", "xz", "yz"),
+        "mirrored": _is_mirrored,
         "across": _entry("xx", round_body=True),
         "along": _entry("zz", round_body=True),
     },

@@ -140,7 +140,10 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "in_general": lambda facts: not is_zero(facts.result) and is_zero(facts.inputs["torque"]),
         "driven": lambda facts: not is_zero(facts.inputs["torque"]),
     },
-    "conservation.product": {"generic": _times_its_factor},
+    "conservation.product": {
+        "alone": lambda facts: facts.inputs["of_many"] == 1 and _times_its_factor(facts),
+        "one_of_several": lambda facts: facts.inputs["of_many"] > 1 and _times_its_factor(facts),
+    },
     "conservation.sum": {word: _sum_left(word) for word in ("plain", "cancel", "remain")},
     "conservation.rate_under": {"conserved": vanishes, "changes": lasts},
     "steady.constant_angular_velocity": {"generic": lasts, "momentary": lasts},

@@ -11,7 +11,7 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from sympy import Integer, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, pi, sin, tan
+from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, pi, sin, tan
 
 from derive.algebra.expressions import TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
@@ -32,18 +32,30 @@ def _of_their_kinds(facts: Judged, outcome: str) -> bool:
     return all(q.step.kind == _KINDS.get(role, q.step.kind) for role, q in facts.quantities.items())
 
 
-def _cylindrical(facts: Judged, outcome: str) -> bool:
-    """x = r cos, y = r sin: their area element is that of the integral, and x is r in the first direction."""
-    along, edge, x, y = (facts.inputs[role] for role in ("along", "edge", "x_is", "y_is"))
-    r, body = facts.inputs["radius"], facts.subject.body
-    angles = sorted((x.free_symbols | y.free_symbols) - {r}, key=str)
-    if len(angles) != 1 or not isinstance(along, Symbol) or along in {r, *angles}:
+def _of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
+    """Euler's equations are named where the axes are principal ones."""
+    along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
+    return _of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)
+
+
+def _volume_of_its_sections(facts: Judged, outcome: str) -> bool:
+    """The areas of the cross-sections, added up over the height, give the volume."""
+    body, z = facts.subject.body, Symbol("z_along", real=True)
+    sections = integrate(pi * body.radius_at(z) ** 2, (z, *body.ends))
+    return is_zero(sections - explicit(facts.result))
+
+
+def _section_as_told(facts: Judged, outcome: str) -> bool:
+    """x = s cos, y = s sin, where they are told: their area element is that of the integral, and x is s at the first
+    direction."""
+    if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
-    (theta,) = angles
-    area = diff(x, r) * diff(y, theta) - diff(x, theta) * diff(y, r)
-    sections = integrate(pi * edge**2, (along, 0, body.height))
-    from_start = facts.words["start"] == body.reference and is_zero(x.subs(theta, 0) - r)
-    return from_start and is_zero(area - facts.inputs["element"]) and is_zero(sections - explicit(facts.result))
+    if "x_is" in facts.inputs:
+        (_, theta, s), x, y = facts.inputs["names"], facts.inputs["x_is"], facts.inputs["y_is"]
+        area = diff(x, s) * diff(y, theta) - diff(x, theta) * diff(y, s)
+        if not is_zero(area - facts.inputs["element"]) or not is_zero(x.subs(theta, 0) - s):
+            return False
+    return _counted_from_its_point(facts, outcome)
 
 
 def _letters_of(value: Any) -> set[Any]:
@@ -132,6 +144,8 @@ def _rate_of_the_component(facts: Judged, outcome: str) -> bool:
 
 def _inward_or_outward(facts: Judged, outcome: str) -> bool:
     """The tensor exceeds that about the centre of mass, or is less than the other: it depends on where one starts."""
+    if "entry" not in facts.quantities:  # a product that vanishes at the centre of mass
+        return outcome == "outward"
     point = facts.quantities["entry"].subject.point
     return point is None or (point.name in {"centre", "centre_of_mass"}) == (outcome == "outward")
 
@@ -227,6 +241,13 @@ def _lag_as_written(facts: Judged, outcome: str) -> bool:
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
 
 
+def _sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
+    """Each equation that is named, times the factor that is named with it, adds up to the result."""
+    named = [role for role in facts.quantities if role.startswith("equation_")]
+    products = (facts.inputs[f"factor_{role[9:]}"] * explicit(facts.quantities[role].value).residual for role in named)
+    return is_zero(explicit(facts.result).residual - sum(products, Integer(0)))
+
+
 def _rates_of_its_equations(facts: Judged, outcome: str) -> bool:
     """Each of the equations that are named is that of its component: the third says that the last is constant."""
     letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
@@ -246,9 +267,9 @@ _TABLE: dict[str, Told] = {
     "equilibria.rest": _steady_as_its_potential,
     "rotation.kinetic_energy": _of_their_kinds,
     "rotation.angular_momentum": _of_their_kinds,
-    "rotation.torque": _of_their_kinds,
+    "rotation.torque": _of_their_kinds_by_euler,
     "free_rotation.rate_in_body": _of_their_kinds,
-    "bodies.volume": _cylindrical,
+    "bodies.volume": _volume_of_its_sections,
     "roots.together": _equation_in_its_unknown,
     "roots.one_of_two": _says_its_bound,
     "conditions.where": _word_of_its_mark,
@@ -256,7 +277,7 @@ _TABLE: dict[str, Told] = {
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
     "bodies.centre_of_mass": _counted_from_its_point,
-    "bodies.section_radius": _counted_from_its_point,
+    "bodies.section_radius": _section_as_told,
     "equations.at": _for_a_vector,
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
@@ -269,6 +290,7 @@ _TABLE: dict[str, Told] = {
     "steady.frequency_squared": _taken_out_by_its_condition,
     "linear_motion.steady_amplitude": _swings_of_its_equation,
     "linear_motion.lag": _lag_as_written,
+    "conservation.sum": _sum_of_the_equations_times_their_factors,
     "wobble.body_cone_rate": _rates_of_its_equations,
 }
 

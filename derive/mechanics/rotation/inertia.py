@@ -35,7 +35,7 @@ from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.tensors import shape_of
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Level, Quantity, compared_with, entry_name
+from derive.steps.step import Level, Quantity, compared_with, entry_name, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["agreement", "inertia_tensor", "moment_of_inertia", "moved_from_centre", "moved_to"]
@@ -44,6 +44,7 @@ Moment: TypeAlias = Quantity
 Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
+MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # what mirror planes across the axes leave
 ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # what symmetry about the z axis leaves: across it and along it
 
 
@@ -59,7 +60,8 @@ def inertia_tensor(
     body         mass M
     about        a point that the body has: "centre", "corner", "apex", ...; axes those of the body
     coordinates  "cartesian" or "cylindrical", where the body has both
-    Each of the six entries is a step of its own; of a body that is round about z, the two that symmetry leaves.
+    Each of the six entries is a step of its own; of a body that is round about z, the two that symmetry leaves; of one
+    that is its own image in the plane across each axis, the three moments.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the body's equimomental particles, whose
     centre of mass is the body's; of a body told by a map, over its cells in numbers.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; of a
@@ -93,10 +95,15 @@ def inertia_tensor(
         kind="moment of inertia",
         lines=Lines(put_in=None),
         facts=[OfBody(body), AboutPoint(point)],
-        telling=Telling(words={"about": point.name, **_edged(body)}),
+        telling=Telling(words={"about": point.name, **_edged(body), **_mirrored(pairs)}),
         key=key,
         scope=Scope(about=Subject(body=body, point=point)),
     )
+
+
+def _mirrored(pairs: tuple[Pair, ...]) -> dict[str, str]:
+    """Whether mirror planes have left the moments alone, as the sentence of the first of them says."""
+    return {"mirrored": "centre"} if pairs == MIRRORED else {}
 
 
 def _edged(body: Body) -> dict[str, str]:
@@ -152,8 +159,11 @@ def moment_seen(body: Body, axis: str, about: str, symbol: str, key: str, seen: 
 
 
 def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
-    """The entries to be worked out: of a round body seen from its axis, I_yy is I_xx and the products vanish."""
-    return ROUND if body.is_round and point.position[0] == point.position[1] == 0 else PAIRS
+    """The entries to be worked out: of a round body seen from its axis, I_yy is I_xx and the products vanish; these do
+    as well where the plane across each axis is a mirror of the body."""
+    if body.is_round and point.position[0] == point.position[1] == 0:
+        return ROUND
+    return MIRRORED if body.is_of_particles and body.region(point).has_mirrors else PAIRS
 
 
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
@@ -192,20 +202,18 @@ def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
     """The symmetric tensor of its entries; what is not among them symmetry about z gives."""
     at = dict(zip(pairs, found, strict=True))
     if pairs == ROUND:
-        at |= {(1, 1): at[(0, 0)], (0, 1): Integer(0), (0, 2): Integer(0), (1, 2): Integer(0)}
-    return ImmutableDenseMatrix(3, 3, lambda i, j: at[(min(i, j), max(i, j))])
+        at |= {(1, 1): at[(0, 0)]}
+    return ImmutableDenseMatrix(3, 3, lambda i, j: at.get((min(i, j), max(i, j)), Integer(0)))
 
 
 def _round_shape(tensor: Any) -> str:
     return "round_isotropic" if tensor[0, 0] == tensor[2, 2] else "round"
 
 
-def _entry_outcome(pair: Pair) -> str:
+def _entry_outcome(pair: Pair, pairs: tuple[Pair, ...]) -> str:
+    if pairs == ROUND:
+        return "along" if pair == (2, 2) else "across"
     return "moment" if pair[0] == pair[1] else "product"
-
-
-def _round_entry_outcome(pair: Pair) -> str:
-    return "along" if pair == (2, 2) else "across"
 
 
 def _entry_by_integration(
@@ -213,7 +221,7 @@ def _entry_by_integration(
 ) -> Quantity:
     """One entry, J_xx = rho integral of (y^2 + z^2) dV or J_xy = -rho integral of x y dV."""
     named = f"{'xyz'[pair[0]]}{'xyz'[pair[1]]}"
-    weight, is_round = entry_weight(region, pair), pairs_left_by_symmetry(body, point) == ROUND
+    weight, pairs = entry_weight(region, pair), pairs_left_by_symmetry(body, point)
     integral = over_mass(body, region, weight)
     return establish(
         "inertia.entry",
@@ -222,7 +230,7 @@ def _entry_by_integration(
         integral.inputs,
         lines=integral.lines,
         routes=body.another_way(lambda r: _entry_by_moments(r, pair), point),
-        outcome=_round_entry_outcome(pair) if is_round else _entry_outcome(pair),
+        outcome="mirrored" if pairs == MIRRORED else _entry_outcome(pair, pairs),
         kind="moment of inertia",
         parents=[definition, body.density, *body.radii(point, region)],
         key=f"{key}_{named}",
@@ -360,21 +368,21 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     other = centre.needed(CountedFrom).start
     outward = target == other
     sign = 1 if outward else -1
-    is_round = pairs_left_by_symmetry(body, other) == ROUND
+    pairs = pairs_left_by_symmetry(body, other)
     entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
-    if entry is None:
+    if entry is None and (i == j or not is_zero(there.value[i, j])):
         message = f"the entries of `{there.key}` are no steps of their own"
         raise Rejected(Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` finds it elsewhere'))
     # From a point of the axis of a round body, the distance along the axis is all there is.
-    apart = [k for k in range(3) if k != i and not (is_round and centre.value[k] == 0)]
+    apart = [k for k in range(3) if k != i and not (pairs == ROUND and centre.value[k] == 0)]
 
-    def law(at_start: Expr, mass: Expr, c: Any) -> Expr:
+    def law(mass: Expr, c: Any, *at_start: Expr) -> Expr:
         c = _components(c)
         if i == j:
             squares = [c[k] ** 2 for k in apart]
             shift = squares[0] if len(squares) == 1 else Terms(*squares)
-            return Terms(at_start, sign * Factors(mass, shift)) if squares else at_start
-        return Terms(at_start, -sign * Factors(mass, c[i], c[j]))
+            return Terms(*at_start, sign * Factors(mass, shift)) if squares else at_start[0]
+        return Terms(*at_start, -sign * Factors(mass, c[i], c[j])) if at_start else -sign * Factors(mass, c[i], c[j])
 
     def directly() -> Expr:
         return body.over_mass(lambda at: sum((x**2 for x in at), Integer(0)) * int(i == j) - at[i] * at[j], target)
@@ -383,9 +391,9 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
         "inertia.entry_moved",
         entry_name(name, i, j),
         law,
-        {"entry": entry, "mass": body.mass, "centre": centre},
+        {"mass": body.mass, "centre": centre, **({"entry": entry} if entry is not None else {})},
         routes={"integration": compared_with(directly)},
-        outcome="outward" if outward else _round_entry_outcome(pair) if is_round else _entry_outcome(pair),
+        outcome="outward" if outward else _entry_outcome(pair, pairs),
         kind="moment of inertia",
         lines=Lines(put_in=Level.STANDARD),
         parents=[there],

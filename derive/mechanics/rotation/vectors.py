@@ -1,4 +1,4 @@
-"""Rotation of a rigid body: angular velocity, energy, angular momentum, torque. All vectors in body axes."""
+"""Rotation of a rigid body: angular velocity, energy, angular momentum, angles. All vectors in body axes."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Pow, Rational, acos, atan2, cos, pi, sin
+from sympy import Expr, ImmutableDenseMatrix, Integer, Pow, Rational, acos, atan2, cos, pi, sin
 
 from derive.algebra.expressions import (
     BodyRate,
-    CarriedRate,
     Cross,
     Dot,
     Factors,
@@ -42,7 +41,6 @@ __all__ = [
     "cosine_between",
     "kinetic_energy",
     "spin",
-    "torque",
 ]
 
 
@@ -222,7 +220,7 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
     return {"about": point, "point": point}
 
 
-def _whether_zero(v: Any) -> str:
+def whether_zero(v: Any) -> str:
     """`zero`, `generic` if it is zero for no values of its letters, `in_general` if that is not known."""
     if is_zero(v):
         return "zero"
@@ -283,7 +281,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
         applied,
         {"inertia": inertia, "omega": omega},
         routes={"moments": by_moments},
-        outcome=lambda L: "parallel" if (how := _whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
+        outcome=lambda L: "parallel" if (how := whether_zero(tidied(Cross(omega.value, L)))) == "zero" else how,
         key=key,
         kind="angular momentum",
         telling=Telling(words=words),
@@ -403,46 +401,3 @@ def _angle_itself(angle: Expr) -> Expr:
         return tidied(angle)
     within = (inner.args[0], pi - inner.args[0])
     return inner.args[0] if all(strict_sign_within(each) == 1 for each in within) else tidied(angle)
-
-
-def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
-    """Torque that keeps L turning with the body: tau = dL/dt = omega x L.
-
-    omega      vector (3), 1/s, body axes, constant
-    momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
-    Second route: carry L round the axis by a rotation matrix and differentiate.
-    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
-    Errors: omega or L changes, or is that of one moment; L belongs to another rotation than omega.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
-    """
-    require_kind("torque", "omega", omega, "angular speed")
-    require_kind("torque", "momentum", momentum, "angular momentum")
-    require_constant("torque", "angular velocity", omega, "`rate_in_space` is dL/dt for one that changes")
-    require_constant(
-        "torque", "angular momentum in the body", momentum, "`rate_in_space` is dL/dt for one that changes"
-    )
-    if omega.fact(Momentary) is not None:
-        message = f"`torque` keeps a steady rotation up, but `{omega.key}` is that of one moment"
-        raise Rejected(Complaint("wrong-argument", message))
-    about = momentum.needed(AboutPoint).point.name
-    (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
-    carried = CarriedRate(momentum.value, omega.value)
-    return establish(
-        "rotation.torque",
-        vector(symbol),
-        Cross,
-        {"omega": omega, "momentum": momentum},
-        lines=Lines(
-            before=[
-                Form(CarriedRate(momentum.symbol, omega.symbol), "law"),
-                Form(MatAdd(BodyRate(momentum.symbol), Cross(omega.symbol, momentum.symbol)), "moving_axes"),
-            ],
-            between=[Form(scaled(tidied(f * g), Cross(u, v)), "collected", Level.STANDARD)],
-            put_in=Level.FULL,
-        ),
-        routes={"carried_round": compared_with(lambda: carried)},
-        outcome=_whether_zero,
-        key=key,
-        kind="torque",
-        telling=Telling(words={"about": about, "point": about}),
-    )

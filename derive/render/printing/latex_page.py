@@ -96,11 +96,11 @@ class _Page:
         return Tex(escaped(self.words.worth(part.points, part.extra)))
 
     def parts(self) -> Sequence[PartPage]:
-        return self.document.parts
+        return self.document.parts_shown
 
     def sections(self) -> Sequence[PartPage]:
         """The parts, and behind them the limiting cases."""
-        return (*self.document.parts, *([self.document.limits] if self.document.limits else []))
+        return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()

@@ -62,7 +62,7 @@ class _Page:
         if self.document.strategy:
             heading = Text(self.words.labels["strategy"] + " ")
             blocks += ["", self._wrapped((heading, *self.document.strategy))]
-        for part in self.document.parts:
+        for part in self.document.parts_shown:
             blocks += ["", self._part(part)]
         blocks += ["", self._part(self.document.limits)] if self.document.limits else []
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []

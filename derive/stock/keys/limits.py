@@ -24,7 +24,8 @@ from derive.stock.keys.formulas import OfKnownDimension
 
 
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
-    """The steps of each: the limiting case, and behind it what compares it with a known result.
+    """The steps of each: the limiting case, and behind it what compares it with a known result; none of a case in
+    letters that the result no longer has, since something else is given for them.
 
     Each is on a record of its own, beside what the script has found in general: two limits of one quantity have one
     letter.
@@ -32,11 +33,15 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
     if not problem.limits:
         return []
     letters = _letters(problem, known)
-    faults, found, keys = Faults(), [], set(known)
+    found: list[list[Quantity]] = []
+    faults, keys = Faults(), set(known)
     for given in problem.limits:
         general = [quantity for quantity, case_of in zip(run.established, run.cases, strict=True) if case_of is None]
         beside = replace(run, established=general, cases=[None] * len(general))
         with faults, deriving(problem, beside):
+            if not _is_there(given, known, letters):
+                found.append([])
+                continue
             case = _case(given, known, letters, keys)
             keys.add(case.key)
             _check_stated(given, case, letters)
@@ -69,6 +74,14 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
         assert given.letter is not None
         to = _read(given.to, letters) if given.to else 0
         return limiting_case(of, _read(given.letter, letters), to, key=key)
+
+
+def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
+    """Whether the result has the letters of the case: where something else is given in place of one, there is none."""
+    if given.of is None:
+        return True
+    told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}
+    return bool(told <= explicit(_named(given.of, known).value).free_symbols)
 
 
 def _letter(name: Word, letters: Mapping[str, Declared]) -> Symbol:

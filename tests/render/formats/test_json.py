@@ -27,14 +27,14 @@ from tests.test_transcripts import PAGES
 # page -> at least so many pairs, and what there must be among them; none is left out
 PAIRS: dict[str, tuple[int, set[str]]] = {
     "block": (80, {"equal", "left side", "rounded"}),
-    "cone": (75, {"equal", "relation"}),
+    "cone": (70, {"equal", "relation"}),
     "euler": (30, {"equal", "left side", "relation", "motion"}),
     "slab": (36, {"equal", "left side", "relation", "series"}),
     "slab-numbers": (36, {"equal", "left side", "relation", "rounded"}),
     "top": (55, {"equal", "left side", "relation", "rounded"}),
 }
 TURNED = {"Gt(": "Lt(", "Lt(": "Gt(", "Ge(": "Le(", "Le(": "Ge("}
-WAYS = ("rounded", "series", "motion")
+WAYS = ("rounded", "series", "limit", "motion")
 
 
 def roots(text: Any) -> list[str]:
@@ -101,7 +101,7 @@ def same(before: Any, here: Any, form: dict[str, Any], how: str, root: int) -> b
     if how == "relation":
         factor = read(form["factor"], {}, {}, root)
         return agree(before, factor * here) and all(at(factor, seed) != [0] for seed in range(3))
-    if how == "series":
+    if how in ("series", "limit"):
         x, place = (sympify(form[key]) for key in ("variable", "place"))
         rest = [diff(before - here, x, n).subs(x, place) for n in range(form["order"] + 1)]
         return all(agree(each, each * 0) for each in rest)

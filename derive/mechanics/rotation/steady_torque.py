@@ -1,0 +1,94 @@
+"""The torque of a steady rotation, which is what is left of Euler's equations. All vectors in body axes."""
+
+from __future__ import annotations
+
+from sympy import MatAdd
+
+from derive.algebra.expressions import (
+    AXES,
+    BodyRate,
+    CarriedRate,
+    Cross,
+    Factors,
+    Terms,
+    column,
+    component_names,
+    scaled,
+    vector,
+)
+from derive.algebra.tidy import factored_matrix, tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.facts import AboutPoint
+from derive.mechanics.rotation.vectors import Momentary, RateOfTurning, whether_zero
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.record import require_constant
+from derive.steps.step import Form, Level, Quantity, compared_with, require_kind
+
+__all__ = ["torque"]
+
+
+def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = "torque") -> Quantity:
+    """Torque that keeps L turning with the body: tau = dL/dt = omega x L.
+
+    omega      vector (3), 1/s, body axes, constant
+    momentum   vector (3), kg m^2/s, same axes, about a fixed point or the centre of mass, constant in the body
+    Second route: carry L round the axis by a rotation matrix and differentiate.
+    Outcomes: zero (omega is along a principal axis), generic (never zero), in_general (it depends on the letters).
+    Errors: omega or L changes, or is that of one moment; L belongs to another rotation than omega.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
+    """
+    require_kind("torque", "omega", omega, "angular speed")
+    require_kind("torque", "momentum", momentum, "angular momentum")
+    require_constant("torque", "angular velocity", omega, "`rate_in_space` is dL/dt for one that changes")
+    require_constant(
+        "torque", "angular momentum in the body", momentum, "`rate_in_space` is dL/dt for one that changes"
+    )
+    if omega.fact(Momentary) is not None:
+        message = f"`torque` keeps a steady rotation up, but `{omega.key}` is that of one moment"
+        raise Rejected(Complaint("wrong-argument", message))
+    about = momentum.needed(AboutPoint).point.name
+    (f, u), (g, v) = (factored_matrix(q.value) for q in (omega, momentum))
+    carried = CarriedRate(momentum.value, omega.value)
+    inertia = momentum.needed(RateOfTurning).inertia
+    by_euler = _by_euler(omega, inertia)
+    level = Level.FULL if by_euler else Level.STANDARD
+    return establish(
+        "rotation.torque",
+        vector(symbol),
+        Cross,
+        {"omega": omega, "momentum": momentum},
+        lines=Lines(
+            before=[
+                Form(CarriedRate(momentum.symbol, omega.symbol), "law"),
+                Form(MatAdd(BodyRate(momentum.symbol), Cross(omega.symbol, momentum.symbol)), "moving_axes"),
+            ],
+            between=[*by_euler, Form(scaled(tidied(f * g), Cross(u, v)), "collected", level)],
+            put_in=None if by_euler else Level.FULL,
+        ),
+        routes={"carried_round": compared_with(lambda: carried)},
+        outcome=whether_zero,
+        key=key,
+        kind="torque",
+        parents=_moments(inertia),
+        telling=Telling(
+            words={"about": about, "point": about, **({"euler": about} if by_euler else {})},
+            judged_by={"inertia": inertia.value},
+        ),
+    )
+
+
+def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
+    """Along principal axes: ((I_z - I_y) omega_y omega_z, ...), what Euler's equations leave of a steady rotation."""
+    if not inertia.value.is_diagonal():
+        return []
+    named = {parent.key[-2:]: parent.symbol for parent in _moments(inertia)}
+    I = [named.get(axis * 2, inertia.value[k, k]) for k, axis in enumerate(AXES)]
+    w = component_names(omega.symbol.name)
+    parts = [Factors(Terms(I[k - 1], -I[k - 2]), w[k - 2], w[k - 1]) for k in range(3)]
+    return [Form(column(*parts), "euler", Level.STANDARD)]
+
+
+def _moments(inertia: Quantity) -> list[Quantity]:
+    """The steps that are entries of the diagonal."""
+    keys = {f"{inertia.key}_{axis * 2}" for axis in AXES}
+    return [parent for parent in inertia.parents if parent.key in keys]
