@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import MatAdd, Symbol
+from sympy import Expr, MatAdd, Symbol
 
 from derive.algebra.expressions import (
     BodyRate,
@@ -20,7 +20,6 @@ from derive.algebra.expressions import (
     Partial,
     Relation,
     Terms,
-    TimeRate,
     rate,
     scalar,
     vector,
@@ -28,7 +27,7 @@ from derive.algebra.expressions import (
 
 __all__ = ["THEOREMS", "Theorem"]
 
-M, r, L, q = Symbol("M", positive=True), Symbol("r", positive=True), scalar("L"), scalar("q")
+M, r, q = Symbol("M", positive=True), Symbol("r", positive=True), scalar("q")
 G, OMEGA = vector("G"), vector("omega")
 MULTIPLIER, CONSTRAINT = scalar("lambda_k"), scalar("f_k")
 
@@ -37,14 +36,14 @@ MULTIPLIER, CONSTRAINT = scalar("lambda_k"), scalar("f_k")
 class Theorem:
     """A theorem that a phrase tells by its name.
 
-    formula   what it says
+    formula   what it says, or the term that it adds to a law which the step itself has
     letters   what else the phrase names
     used_by   rules of the steps that use it, each with the outcomes in which it does; none for all of them
     source    book and section
     """
 
     name: str
-    formula: Relation
+    formula: Relation | Expr
     used_by: Mapping[str, frozenset[str]]
     source: str
     letters: Mapping[str, Any] = field(default_factory=dict)
@@ -79,11 +78,14 @@ THEOREMS = (
     ),
     Theorem(
         "multipliers",
-        Relation(
-            Terms(TimeRate(Partial(L, rate(q)), q), -Partial(L, q)), "=", Factors(MULTIPLIER, Partial(CONSTRAINT, q))
-        ),
+        MULTIPLIER * Partial(CONSTRAINT, q),  # what Lagrange's equation of q has on its right
         {"forced.equation_of_motion": frozenset({"kept", "both"})},
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-        {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
+        {
+            "coordinate": q,
+            "multiplier": MULTIPLIER,
+            "constraint": CONSTRAINT,
+            "between_rates": MULTIPLIER * Partial(CONSTRAINT, rate(q)),  # as of rolling
+        },
     ),
 )

@@ -8,7 +8,7 @@ import pytest
 from sympy import Expr, Function, Integer, Matrix, Symbol, cos, diff, eye, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import explicit, scalar
+from derive.algebra.expressions import Partial, explicit, scalar
 from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_to
 from derive.mechanics.theorems import THEOREMS, Theorem
 
@@ -54,9 +54,7 @@ def test_a_positive_multiplier_pushes_towards_a_larger_constraint() -> None:
     lagrangian = m * coordinate.diff(t) ** 2 / 2 - m * g * coordinate
     left = diff(diff(lagrangian, coordinate.diff(t)), t) - diff(lagrangian, coordinate)
     held = left.subs(coordinate.diff(t, 2), 0)
-    right = theorem.formula.right
-    multiplier, slope = right.args
-    assert (multiplier.name, slope.args[0].name, slope.args[1].name) == ("lambda_k", "f_k", "q")
+    assert theorem.formula == scalar("lambda_k") * Partial(scalar("f_k"), scalar("q")), "with a plus sign"
     assert held == m * g, "so that lambda df/dq = m g with df/dq = 1"
     assert theorem.letters["multiplier"] == scalar("lambda_k")
 

@@ -69,5 +69,6 @@ WHOLE = page(
     display("mass", "energy", routes=("by halves",)),
     VECTORS,
     strategy=(Text("Mind every step."),),
+    limits=PartPage("", (Text("Limiting cases"),), None, (Paragraph((Text("A light one flies."),)),)),
     note=(Text("Mind the gap."),),
 )

@@ -66,6 +66,13 @@ def test_the_strategy_stands_between_the_statement_and_the_first_part() -> None:
     assert r"\strategy" not in solution(page())
 
 
+def test_limiting_cases_stand_behind_the_parts_without_a_letter_of_their_own() -> None:
+    tex = solution(WHOLE)
+    heading = tex.index(r"\closinghead{Limiting cases}")
+    assert tex.index(r"\ask{a}") < heading < tex.index("A light one flies.") < tex.index(r"\closing{")
+    assert r"\closinghead" not in solution(page()) and "flies" not in str(fragments(WHOLE).sheet)
+
+
 def test_a_part_beyond_the_homework_is_marked_on_the_page_and_on_the_sheet() -> None:
     extra = replace(page(), parts=(replace(page().parts[0], points=None, extra=True),))
     assert r"}{extra}" in solution(extra) and r"}{extra}" in str(fragments(extra).sheet)

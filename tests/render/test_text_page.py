@@ -26,7 +26,7 @@ def test_everything_on_a_page_stands_in_its_order() -> None:
         "A block & its T", "See Problem 2 first.", "[figure: Some axes 50% of a]", "\nStrategy. Mind every step.\n",
         "(a) Find T as in (2)", "\nSo\n",
         "(1)", "[from (1)]", "[tidied]", "(2)", "[figure: Two vectors]", "Figure 1. Both & true.",
-        "Mind the gap.", "Nothing.",
+        "\nLimiting cases\n", "A light one flies.", "Mind the gap.", "Nothing.",
     ):  # fmt: skip
         assert piece in text[at:], piece
         at = text.index(piece, at) + len(piece)
