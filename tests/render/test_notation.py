@@ -13,6 +13,7 @@ from sympy import (
     ImmutableDenseMatrix,
     Integer,
     Integral,
+    Mul,
     Rational,
     Symbol,
     acos,
@@ -379,3 +380,8 @@ def test_every_letter_of_a_formula_is_printed(expr: Expr) -> None:
     assume(is_ordinary(expr) and str(explicit(expr)) != "nan")
     shown = tex(expr)
     assert all(latex(NOTATION.layout(letter)) in shown for letter in expr.free_symbols)
+
+
+def test_a_product_of_numbers_alone_is_a_fraction() -> None:
+    """As it stands before a matrix, where nothing else is left of the common factor."""
+    assert plain(NOTATION.layout(Mul(Rational(1, 2), Rational(1, 3), evaluate=False))) == "1/6"

@@ -174,7 +174,7 @@ class Notation:
             return self._factors([*number_above, *letters])
         if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
-        if not number_above and self._is_letter_before_functions(letters):
+        if letters and not number_above and self._is_letter_before_functions(letters):
             return self._factors_behind(Fraction(self.layout(letters[0]), self._factors(number_below)), letters[1:])
         number = Fraction(self._factors(number_above), self._factors(number_below))
         if len(letters) == 1:
