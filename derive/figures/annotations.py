@@ -190,7 +190,7 @@ class Weight(Arrow):
         line, *_ = found = super().pieces(paper)
         (x, y), (u, v) = line.spots
         along = direction(*line.spots)
-        half = 0.5 * (u - x), 0.5 * (v - y)
+        half = 0.85 * (u - x), 0.85 * (v - y)  # as far as its tip
         beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
         return [beside if isinstance(piece, Tag) else piece for piece in found]
 

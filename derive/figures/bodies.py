@@ -6,18 +6,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from sympy import Expr, Integer, Rational, sqrt
+from sympy import Add, Expr, Integer, Rational, pi, sqrt
 
 from derive.algebra.expressions import AXES, column, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import Axis, CentreMark, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.surfaces import Cavity, Circle, EllipsoidMark, Polyhedron, Revolved, SliceMark, ThinRod
+from derive.figures.surfaces import Cavity, Circle, EllipsoidMark, Polyhedron, Revolved, SliceMark, ThinRod, TorusMark
 from derive.mechanics.bodies.body import Body, OfRadius, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
+from derive.mechanics.bodies.general import Solid
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.bodies.solids import Ellipsoid, ThickShell
+from derive.mechanics.bodies.solids import Ellipsoid, ThickShell, Torus
 from derive.steps.step import is_zero
 
 __all__ = ["centre_mark", "outline"]
@@ -55,14 +56,27 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
     if isinstance(body, RoundBody):
         surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
         return [surface, *_measures(body, point)] if named else [surface]
-    if isinstance(body, Ellipsoid):
-        return _ellipsoid(body, point, named)
+    if isinstance(body, Torus):
+        return _torus(body, point, named)
+    if (semi_axes := semi_axes_of(body)) is not None:
+        return _ellipsoid(body, semi_axes, point, named)
     in_plane = is_in_plane(body)
     found = _of_parts(body.parts, point, named, in_plane) if hasattr(body, "parts") else _by_its_map(body, point, named)
     if found and named:
-        axes = list(zip(UNIT, AXES, strict=True))[: 2 if in_plane else 3]
-        found += [Axis(ORIGIN, ORIGIN, along, label=scalar(name)) for along, name in axes]
+        for along, name in list(zip(UNIT, AXES, strict=True))[: 2 if in_plane else 3]:
+            start = _end_on(found, along)
+            found.append(Axis(start, start, along, label=scalar(name)))
     return found
+
+
+def _end_on(marks: Sequence[Mark], along: Position) -> Position:
+    """Where a thin rod ends that lies on an axis from its origin, which begins there to be seen; else the origin."""
+    for mark in marks:
+        if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
+            _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
+            if all(is_zero(entry) for entry in end.cross(along)) and in_units(end.dot(along)) > 0:
+                return end
+    return ORIGIN
 
 
 def axes_at(body: Body, about: str) -> list[Mark]:
@@ -254,14 +268,40 @@ def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
     return marks
 
 
-def _ellipsoid(body: Ellipsoid, point: Point, named: bool) -> list[Mark]:
+def semi_axes_of(body: Body) -> tuple[Expr, Expr, Expr] | None:
+    """Those of an ellipsoid about its origin, also of one that is told by its map as a ball that is stretched."""
+    if isinstance(body, Ellipsoid):
+        return body.semi_axes
+    place, limits = body.map() if isinstance(body, Solid) else (None, ())
+    if place is None or [tuple(ends) for _, *ends in limits] != [(0, 1), (0, pi), (0, 2 * pi)]:
+        return None
+    r, *angles = (letter for letter, *_ in limits)
+    (a, x), (b, y), (c, z) = ((entry / r).as_independent(r, *angles, as_Add=False) for entry in place)
+    is_ball = is_zero(Add(*(each**2 for each in (x, y, z))) - 1) and all(size.is_positive for size in (a, b, c))
+    return (a, b, c) if is_ball else None
+
+
+def _ellipsoid(body: Body, semi_axes: tuple[Expr, Expr, Expr], point: Point, named: bool) -> list[Mark]:
     """With its semi-axes dashed and named, and the axes beyond them."""
     centre = point.seen(ORIGIN)
-    marks: list[Mark] = [EllipsoidMark(centre, body.semi_axes, **_words(body))]
-    for size, along, name in zip(body.semi_axes, UNIT, AXES, strict=True) if named else ():
+    words = {**_words(body), "name": Ellipsoid.name, "measures": (("semi-axes", semi_axes),)}
+    marks: list[Mark] = [EllipsoidMark(centre, semi_axes, **words)]
+    for size, along, name in zip(semi_axes, UNIT, AXES, strict=True) if named else ():
         end = centre + size * along
         marks += [Line(centre, end, "hidden", label=size), Axis(end, end, along, label=scalar(name))]
     return marks
+
+
+def _torus(body: Torus, point: Point, named: bool) -> list[Mark]:
+    """With both radii along y, and the axes beyond it."""
+    centre = point.seen(ORIGIN)
+    marks: list[Mark] = [TorusMark(centre, body.radius, body.section, **_words(body))]
+    if not named:
+        return marks
+    middle, edge = centre + body.radius * Y, centre + (body.radius + body.section) * Y
+    marks += [Line(centre, middle, "hidden", label=body.radius), Line(middle, edge, "hidden", label=body.section)]
+    ends = (centre + (body.radius + body.section) * X, edge, centre)
+    return [*marks, *(Axis(e, e, along, label=scalar(name)) for e, along, name in zip(ends, UNIT, AXES, strict=True))]
 
 
 def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:

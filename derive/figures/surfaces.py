@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from math import hypot
 from typing import Any, ClassVar
 
 from derive.figures.marks import BESIDE, InWords, Mark, Position, Surface
 from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Stroke, Tag
-from derive.figures.space import NOUGHT, Spot, Vector, dot, plus, rim
+from derive.figures.space import NOUGHT, Spot, Vector, dot, hull, plus, rim, unit
 
+UPWARDS = (0.0, 0.0, 1.0)
+SIGHT = 120  # steps on the way to the eye
 EVERY = 8  # of the places of a circle, one in so many says how large it is
 
 
@@ -92,6 +95,59 @@ class EllipsoidMark(Surface):
     def _at(self, numbers: InNumbers, u: Vector) -> Vector:
         x, y, z = (share * numbers.of(size) for share, size in zip(u, self.semi_axes, strict=True))
         return plus(numbers.vector(self.centre), (x, y, z))
+
+
+@dataclass(frozen=True)
+class TorusMark(Surface):
+    """A ring of round cross-section about the z axis; `radius` leads from its centre to the middle of the section."""
+
+    centre: Position
+    radius: Any
+    section: Any
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        centre, big, small = self._sizes(numbers)
+        rings = [(big + small, 0.0), (big, small), (big, -small)]
+        found = (rim(plus(centre, UPWARDS, height), radius, UPWARDS) for radius, height in rings)
+        return [place for ring in found for place in ring[:-1:EVERY]]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        outer, inner = (self._contour(paper, side) for side in (1.0, -1.0))
+        seen = [[self._is_seen(paper, place) for place in side] for side in (outer, inner)]
+        pieces: list[Piece] = [Patch(hull(paper.spots(*outer)), "solid")]
+        if hole := self._hole(paper, [place for place, flag in zip(inner, seen[1], strict=True) if flag]):
+            pieces.append(Patch(hull(hole)))
+        runs = (run for side, flags in zip((outer, inner), seen, strict=True) for run in _runs(side, flags))
+        return [*pieces, *(Stroke(paper.spots(*run), "edge") for run in runs)]
+
+    def _sizes(self, numbers: InNumbers) -> tuple[Vector, float, float]:
+        return numbers.vector(self.centre), numbers.of(self.radius), numbers.of(self.section)
+
+    def _contour(self, paper: Paper, side: float) -> list[Vector]:
+        """Where its surface turns away from the eye: the normal there is across the way to the eye."""
+        centre, big, small = self._sizes(paper.numbers)
+        eye = paper.stance.eye
+        found = []
+        for out in rim(NOUGHT, 1.0, UPWARDS):
+            normal = unit((eye[2] * out[0], eye[2] * out[1], -dot(out, eye)))
+            found.append(plus(plus(centre, out, big), normal, side * small))
+        return found
+
+    def _hole(self, paper: Paper, edge: Sequence[Vector]) -> list[Spot]:
+        """Where one looks through it, between its inner edges behind and in front."""
+        centre, eye = paper.numbers.vector(self.centre), paper.stance.eye
+        behind = [paper.spot(place) for place in edge if dot(plus(place, centre, -1.0), eye) < 0]
+        ends = [x for x, _ in behind]
+        return [spot for spot in paper.spots(*edge) if min(ends) <= spot[0] <= max(ends)] if len(behind) > 2 else []
+
+    def _is_seen(self, paper: Paper, place: Vector) -> bool:
+        """Whether nothing of it is between the place and the eye."""
+        centre, big, small = self._sizes(paper.numbers)
+        for k in range(1, SIGHT):
+            x, y, z = plus(plus(place, paper.stance.eye, 4.0 * big * k / SIGHT), centre, -1.0)
+            if hypot(hypot(x, y) - big, z) < 0.97 * small:
+                return False
+        return True
 
 
 def _unit_along(k: int) -> Vector:

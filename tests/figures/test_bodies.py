@@ -9,14 +9,14 @@ from typing import Any, ClassVar
 
 import pytest
 import sympy
-from sympy import Expr, Rational, Symbol, diag, pi
+from sympy import Expr, Rational, Symbol, diag, pi, symbols
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
 from derive.errors import Rejected
 from derive.figures import centre_mark, drawing, outline, sketch
 from derive.figures.annotations import Axis, LengthMark, Line
-from derive.figures.bodies import is_in_plane, seen_outline
+from derive.figures.bodies import is_in_plane, seen_outline, semi_axes_of
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
 from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, SliceMark, ThinRod
@@ -33,10 +33,12 @@ from derive.mechanics import (
     Plate,
     PointMass,
     Rod,
+    Solid,
     System,
     ThickShell,
     Torus,
     Triangle,
+    Tube,
     Wire,
     X,
     Z,
@@ -339,12 +341,12 @@ def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> N
 @pytest.mark.parametrize(
     "body",
     [
-        Torus(b, a, M),
+        Tube(R / 2, R, h, M),
         Composite(Cuboid((a, a, a), M), minus(Cylinder(R, a, M / 9))),
         Composite(Ball(R, M), Torus(b, a, M).at(0, 0, 3 * R)),
         Wire((R * sympy.cos(theta), R * sympy.sin(theta), 0), {theta: (0, 1)}, mass=M),
     ],
-    ids=["a ring", "a hole with a rim", "a part that is not known", "a bent wire"],
+    ids=["a tube", "a hole with a rim", "a part that is not known", "a bent wire"],
 )
 def test_what_would_be_drawn_wrong_has_no_outline(body: Any) -> None:
     assert seen_outline(body) == []
@@ -399,3 +401,21 @@ def test_an_ellipsoid_has_its_half_axes_beside_them() -> None:
     assert [str(mark.label) for mark in marks if isinstance(mark, Axis)] == ["x", "y", "z"]
     told = inline_text(alternative(None, drawing("egg", marks), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
     assert "an ellipsoid" in told
+
+
+def test_the_axis_along_a_rod_begins_at_its_end() -> None:
+    s = Symbol("s", real=True)
+    marks = outline(Wire((s, 0, 0), {s: (0, a)}, mass=M))
+    starts = {str(mark.label): list(mark.start) for mark in marks if isinstance(mark, Axis)}
+    assert starts == {"x": [a, 0, 0], "y": [0, 0, 0], "z": [0, 0, 0]}
+
+
+def test_a_ball_that_is_stretched_by_its_map_is_an_ellipsoid() -> None:
+    r, u, v = symbols("r u v", real=True)
+    limits = {r: (0, 1), u: (0, pi), v: (0, 2 * pi)}
+    sphere = (r * sympy.sin(u) * sympy.cos(v), r * sympy.sin(u) * sympy.sin(v), r * sympy.cos(u))
+    egg = Solid((a * sphere[0], 2 * a * sphere[1], h * sphere[2]), limits, mass=M)
+    assert semi_axes_of(egg) == (a, 2 * a, h)
+    assert semi_axes_of(Solid((a * sphere[0], a * sphere[1] * r, a * sphere[2]), limits, mass=M)) is None
+    assert semi_axes_of(CONE) is None
+    assert [str(mark.label) for mark in outline(Torus(R, R / 4, M)) if isinstance(mark, Line)] == ["R", "R/4"]

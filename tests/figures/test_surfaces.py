@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import hypot
+from math import hypot, radians, sin
+from typing import Any
 
 import pytest
 from sympy import Rational, sqrt, symbols
 
 from derive.algebra.expressions import column
+from derive.figures import drawing
 from derive.figures.pieces import Patch, Stroke
-from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, ThinRod
+from derive.figures.surfaces import Cavity, Circle, EllipsoidMark, Polyhedron, Revolved, ThinRod, TorusMark
 from derive.render.drawing.camera import Numbers
 from tests.figures.scenery import pieces_of, plane
 
@@ -67,3 +69,22 @@ def test_what_is_cut_out_is_a_dashed_outline_that_hides_nothing() -> None:
     assert isinstance(line, Stroke) and line.pen == "hidden" and line.spots[0] == line.spots[-1]
     assert Cavity(ball).in_words() == ("cavity", {"name": "a ball", "measures": (("radius", R),)})
     assert Cavity(replace(ball, name="")).in_words() is None
+
+
+@pytest.mark.parametrize(("section", "holes"), [(R / 5, 1), (R / 2, 0)], ids=["through", "at its far side"])
+def test_one_looks_through_a_thin_ring_and_not_through_a_thick_one(section: Any, holes: int) -> None:
+    pieces = pieces_of(drawing("ring", TorusMark(ORIGIN, R, section)))
+    assert [piece.fill for piece in pieces if isinstance(piece, Patch)] == ["solid", *["blank"] * holes]
+    outline = next(piece for piece in pieces if isinstance(piece, Patch)).spots
+    wide, high = (max(s[k] for s in outline) - min(s[k] for s in outline) for k in (0, 1))
+    size = float(section / R)
+    # From an elevation of 18 degrees the middle circle is an ellipse, and the outline is as far from it as the section.
+    assert high / wide == pytest.approx((sin(radians(18)) + size) / (1 + size), rel=0.01)
+
+
+def test_an_ellipsoid_reaches_its_half_axes_and_no_further() -> None:
+    egg = EllipsoidMark(ORIGIN, (R, 2 * R, h))
+    places = egg.places(NUMBERS)
+    assert [max(place[k] for place in places) for k in range(3)] == pytest.approx([2, 4, 3])
+    x, y, z = zip(*places, strict=True)
+    assert all((a / 2) ** 2 + (b / 4) ** 2 + (c / 3) ** 2 == pytest.approx(1) for a, b, c in zip(x, y, z, strict=True))

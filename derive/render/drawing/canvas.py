@@ -9,7 +9,7 @@ from typing import Any
 
 from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot
-from derive.render.drawing.labels import placed
+from derive.render.drawing.labels import Placed, placed
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
 from derive.render.drawing.mathtext import Span, runs
 from derive.render.drawing.sheets import (
@@ -68,14 +68,24 @@ FILLS = {"blank": BLANK, "body": "#DFE5EC", "solid": "#EFF2F6", "line": LINE, "i
 
 def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Letters = letters_of) -> Sheet:
     """The pieces with their labels on a sheet of their size."""
-    names = {piece.label: _runs(piece.label, notation) for piece in pieces if isinstance(piece, Tag)}
-    known = letters({run.text for each in names.values() for run in each})
-    labels = {label: _label([(known[run.text], run.bold) for run in each]) for label, each in names.items()}
+    labels = _labels(pieces, notation, letters)
     stand = placed(pieces, lambda label: labels[label].size)
     shapes = shapes_of(pieces) + [shape for each in stand for shape in labels[each.label].shapes_at(each.corner)]
     spots = [spot for piece in pieces if not isinstance(piece, Tag) for spot in _reached(piece)]
     spots += [spot for each in stand for spot in (each.extent[:2], each.extent[2:])]
     return sheet_of_shapes(shapes, with_margin(extent_of(spots)), alt)
+
+
+def labels_of(pieces: Sequence[Piece], notation: Notation, letters: Letters = letters_of) -> list[Placed]:
+    """Where the labels of a drawing stand on its sheet."""
+    labels = _labels(pieces, notation, letters)
+    return placed(pieces, lambda label: labels[label].size)
+
+
+def _labels(pieces: Sequence[Piece], notation: Notation, letters: Letters) -> dict[Any, _Label]:
+    names = {piece.label: _runs(piece.label, notation) for piece in pieces if isinstance(piece, Tag)}
+    known = letters({run.text for each in names.values() for run in each})
+    return {label: _label([(known[run.text], run.bold) for run in each]) for label, each in names.items()}
 
 
 def with_margin(extent: Extent) -> Extent:

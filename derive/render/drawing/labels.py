@@ -107,7 +107,9 @@ def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[t
     for share in (0.0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6):
         beside = _moved(tag.spot, way, share)
         for side in (1.0, -1.0):
-            yield 6.0 * abs(share) + (side < 0) * 2.0, _box(_moved(beside, normal, side * away), width, height)
+            for further in (0.0, 4.0, 9.0):
+                cost = 6.0 * abs(share) + (side < 0) * 2.0 + 1.2 * further
+                yield cost, _box(_moved(beside, normal, side * (away + further)), width, height)
 
 
 def _moved(spot: Spot, way: Spot, share: float) -> Spot:

@@ -2,54 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from sympy import cos
+from sympy import Expr, cos
 
-from derive.algebra.expressions import column
-from derive.figures import arc, axis_of_rotation, drawing, outline, principal_outline, vectors_in
+from derive.algebra.expressions import column, vector
+from derive.algebra.tidy import tidied
+from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, principal_outline, vectors_in
 from derive.figures.bodies import is_in_plane, seen_outline
 from derive.figures.marks import PLANE, SPACE, Mark
 from derive.mechanics.bodies.body import Body, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
-from derive.mechanics.bodies.regions import Point
+from derive.mechanics.bodies.solids import Torus
 from derive.steps.step import is_zero
-from derive.stock.keys.directions import Axis
 
 
 def drawn(body: Body) -> None:
     """Its outline, under its name; of a body that lies in a plane as it is seen there."""
     if marks := seen_outline(body):
-        drawing(body.called.replace(" ", "_") or "body", marks, view=PLANE if is_in_plane(body) else SPACE)
+        thin = {body.section: body.radius / 4} if isinstance(body, Torus) and body.section.is_Symbol else {}
+        key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
+        drawing(key, marks, view=view, values=thin)
 
 
-def _inclination(along: Axis, at: Point) -> list[Mark]:
-    """The arc from one of the body's axes to that of the rotation, where the angle between them is a letter."""
-    if along.is_name:
-        return []
-    components = along.components
+def _inclination(components: Sequence[Expr]) -> list[Mark]:
+    """The arc from one of the body's axes to a direction, where the angle between them is a letter."""
     for k in (2, 0, 1):
         angle = next((f.args[0] for f in components[k].atoms(cos) if f.args[0].is_Symbol), None)
-        if angle is not None and is_zero(components[k] - cos(angle)) and is_zero(1 - sum(c**2 for c in components)):
+        if angle is None:
+            continue
+        size = tidied(components[k] / cos(angle))
+        if not size.has(angle) and is_zero(size**2 - sum(c**2 for c in components)):
             own = column(*(int(i == k) for i in range(3)))
-            return [arc(own, column(*components), label=angle, at=at)]
+            return [arc(own, column(*components), label=angle)]
     return []
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
-    """A body with the axis about which it turns, and with its angular momentum where that angle is asked for."""
+    """A body with its axes at the point about which it turns, and the axis of that or, at one moment, its angular
+    velocity; and with its angular momentum where that angle is asked for."""
     body, described = answers.body, answers.described
     if not isinstance(body, RoundBody | EdgedBody):
         return
+    at = body.point(answers.about).name
+    shown = outline(body, at)
     if not described.along:
-        drawing("body", outline(body))
+        start = column(*described.start) if described.start else None
+        turns = [] if start is None else [arrow(start, label=vector("omega")), *_inclination(described.start)]
+        drawing("body", shown, turns)
         return
-    at = body.point(answers.about)
-    turning = axis_of_rotation(body.direction(described.along.named), at, rate=described.rate)
-    drawing("body", outline(body), turning, *_inclination(described.along, at))
+    turning = axis_of_rotation(body.direction(described.along.named), rate=described.rate)
+    along = () if described.along.is_name else described.along.components
+    drawing("body", shown, turning, _inclination(along) if along else [])
     if has_angle:
         answer = answers.asks()["angle_between"]
-        drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=answer(), at=at))
+        drawing("vectors", vectors_in(body, answers.spin, answers.angular_momentum, angle=answer(), about=at))
 
 
 def drawn_free(answers: Any, turns: bool) -> None:

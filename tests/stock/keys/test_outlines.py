@@ -6,8 +6,9 @@ from pathlib import Path
 
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import AngleMark
+from derive.figures.annotations import AngleMark, Arrow, Axis
 from derive.figures.marks import Drawing
+from derive.figures.surfaces import EllipsoidMark
 from derive.steps.record import Run
 from tests.figures.machines import of
 from tests.stock.bodies import CONE, CONE_IS
@@ -16,7 +17,8 @@ from tests.stock.described import course_with, edited, loaded
 
 def test_a_body_with_an_outline_is_drawn_and_another_is_not(tmp_path: Path) -> None:
     assert "[figure:" in rendered(course_with(tmp_path, CONE), "trial/one", only={"text"}).texts["text"]
-    text = edited(CONE, (CONE_IS, "{shape: torus, radius: R, section: R/2, mass: M}"), ("  about: apex\n", ""))
+    tube = "{shape: tube, inner: R/2, outer: R, height: h, mass: M}"
+    text = edited(CONE, (CONE_IS, tube), ("  about: apex\n", ""))
     assert "[figure:" not in rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
 
 
@@ -45,3 +47,50 @@ def test_the_angle_of_an_axis_of_rotation_is_drawn_where_it_is_a_letter(tmp_path
     assert arcs(tmp_path, LEANING) == ["alpha"]
     for along in ("[1, 0, 1]", "[2*sin(alpha), 0, cos(alpha)]", "x"):
         assert arcs(tmp_path, edited(LEANING, ("[sin(alpha), 0, cos(alpha)]", along))) == []
+
+
+THROWN = edited(
+    LEANING,
+    ("  body: {shape: rod, length: l, mass: M}\n", "  body: {shape: disc, radius: l, mass: M}\n"),
+    ("  rate: omega\n  along: [sin(alpha), 0, cos(alpha)]\n", "  start: [omega*sin(alpha), 0, omega*cos(alpha)]\n"),
+)
+
+
+def test_a_body_that_turns_freely_has_its_angular_velocity_at_one_moment(tmp_path: Path) -> None:
+    run = Run()
+    run_solve(loaded(tmp_path, THROWN), run)
+    (drawn,) = run.drawings
+    assert isinstance(drawn, Drawing)
+    assert [str(mark.label) for mark in of(drawn, Arrow)] == ["omega"]
+    assert [str(mark.label) for mark in of(drawn, AngleMark)] == ["alpha"]
+
+
+def test_the_axes_of_a_body_begin_where_it_turns(tmp_path: Path) -> None:
+    block = ("{shape: rod, length: l, mass: M}", "{shape: cuboid, sides: [l, l, 2*l], mass: M}")
+    run = Run()
+    run_solve(loaded(tmp_path, edited(LEANING, block, ("[sin(alpha), 0, cos(alpha)]", "z"))), run)
+    (drawn,) = run.drawings
+    assert isinstance(drawn, Drawing)
+    ends = {str(mark.label): str(mark.start.T) for mark in of(drawn, Axis)}
+    assert ends == {"x": "Matrix([[l/2, 0, 0]])", "y": "Matrix([[0, l/2, 0]])", "z": "Matrix([[0, 0, l]])"}
+
+
+MOMENTS = """\
+title: A free body
+solve: rotation
+symbols: {A: moment of inertia, C: moment of inertia}
+given:
+  moments: [A, A, C]
+statement: A body turns.
+parts:
+  - ask: What are its equations of motion?
+    answer: euler_equations
+"""
+
+
+def test_a_body_known_by_its_moments_is_drawn_and_its_momentum_where_it_turns_in_any_way(tmp_path: Path) -> None:
+    run = Run()
+    run_solve(loaded(tmp_path, MOMENTS), run)
+    (drawn,) = run.drawings
+    assert isinstance(drawn, Drawing)
+    assert (len(of(drawn, Arrow)), len(of(drawn, EllipsoidMark)), drawn.keys) == (2, 1, ())
