@@ -101,12 +101,12 @@ def established_in(run: Run) -> list[Established]:
     found: list[Established] = []
     evidence_of = derive.steps.establish.evidence_of_routes
 
-    def noted(key: str, result: Any, routes: Mapping[str, Route]) -> Any:
+    def noted(key: str, rule: str, result: Any, routes: Mapping[str, Route]) -> Any:
         asking = sys._getframe(1).f_locals  # those of `establish`
         if routes:
             moving = frozenset(asking["scope"].coordinates)
-            found.append(Established(run.name, asking["rule"], key, result, dict(routes), moving))
-        return evidence_of(key, result, routes)
+            found.append(Established(run.name, rule, key, result, dict(routes), moving))
+        return evidence_of(key, rule, result, routes)
 
     with patch.object(derive.steps.establish, "evidence_of_routes", noted):
         run.solved()

@@ -17,6 +17,8 @@ import pytest
 
 import derive.mechanics
 import derive.steps.numeric
+from derive.algebra.equality import Compared
+from derive.steps.second_ways import CHECKS, OTHERWISE, ROUTES, is_decided, sort_of
 from derive.steps.step import Quantity
 from tests.courses import ROOT
 from tests.mechanics.block import a, known_block
@@ -385,6 +387,21 @@ def test_every_rule_has_words_for_each_second_route() -> None:
     }
     told = {(rule, claim) for rule, routes in WORDS.routes.items() for claim in routes}
     assert claims == told
+
+
+def test_of_each_second_way_it_is_decided_whether_it_is_a_route_through_the_physics_or_a_check() -> None:
+    told = {(rule, claim) for rule, routes in WORDS.routes.items() for claim in routes}
+    assert sorted(way for way in told if not is_decided(*way)) == []
+    assert {claim for _, claim in told} >= ROUTES | CHECKS
+    assert set(OTHERWISE) <= told
+
+
+def test_the_rules_that_are_told_to_have_checks_only_have_no_route() -> None:
+    text = (ROOT / "docs" / "soundness.md").read_text(encoding="utf-8")
+    told = re.findall(r"`(\w+\.\w+)`", text.partition("## What has checks only")[2].partition("## ")[0])
+    sorts = {rule: {sort_of(rule, claim) for claim in WORDS.routes[rule]} for rule in told}
+    assert len(told) > 50
+    assert all(found == {Compared.CHECK} for found in sorts.values())
 
 
 def test_a_definition_is_a_definition_and_everything_else_has_a_route() -> None:

@@ -80,10 +80,12 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What a piece of evidence is about: two lines of a chain, a second route, or nothing but what a name means."""
+    """What a piece of evidence is about: two lines of a chain, the result by another route through the physics, the
+    result put to a test, or nothing but what a name means."""
 
     LINES = "lines"
     ROUTE = "route"
+    CHECK = "check"
     NOTHING = "nothing"
 
 

@@ -17,7 +17,7 @@ from derive.render.rendered import Rendered, Tex
 
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
-    "routes", "routes_proved", "agree", "agree_to_figures", "errata",
+    "routes", "routes_proved", "checks", "agree", "agree_to_figures", "errata", "remarks",
 )  # fmt: skip
 
 
@@ -86,7 +86,7 @@ def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[st
     """The table of how the set was checked: a line for each problem, and their sums."""
     rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
     sums = {name: sum(counts[name] for _, counts in rows) for name in COUNTED}
-    return [*rows, (words.labels["checked_page"]["all"], sums)] if len(rows) > 1 else rows
+    return [*rows, (words.labels["report_page"]["all"], sums)] if len(rows) > 1 else rows
 
 
 def _total(problems: Sequence[Listed]) -> str:

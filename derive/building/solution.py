@@ -118,7 +118,7 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
         derivation, values, known, run = derived(problem, memory)
     compared = comparisons(problem, known)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.remark() for c in compared), tuple(run.drawings))
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
     if not failures:
         with suppress(ValueError, RecursionError):  # what JSON cannot hold is derived again next time
             cache.keep_data(key, solved.to_data())

@@ -12,8 +12,9 @@ from typing import Any
 
 from derive.building.cache import digest, engine_digest
 from derive.course.problem import Problem
-from derive.course.reference.comparison import Remark
+from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
+from derive.course.reference.quotes import Remark
 from derive.course.reference.statements import reference_path
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Recorded
@@ -27,7 +28,7 @@ class Solved:
 
     derivation: Derivation
     values: Mapping[str, Step]
-    compared: tuple[Remark, ...]
+    compared: tuple[Told, ...]
     drawings: tuple[Recorded, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
@@ -36,7 +37,10 @@ class Solved:
             "derivation": to_json(self.derivation),
             "answers": list(self.values),
             "values": to_json(Derivation(tuple(self.values.values()), ())),
-            "compared": [[t.facts, t.here, t.erratum and t.erratum.encoded()] for t in self.compared],
+            "compared": [
+                [t.facts, t.here, t.erratum and t.erratum.encoded(), t.remark and t.remark.to_data()]
+                for t in self.compared
+            ],
             "drawings": drawings_to_data(self.drawings),
         }
 
@@ -45,7 +49,10 @@ class Solved:
         """What `to_data` gave; nothing if the data are of any other shape."""
         try:
             values = from_json(data["values"])
-            told = tuple(Remark(f, here, Erratum.decoded(e) if e else None) for f, here, e in data["compared"])
+            told = tuple(
+                Told(facts, here, Erratum.decoded(erratum) if erratum else None, Remark(**remark) if remark else None)
+                for facts, here, erratum, remark in data["compared"]
+            )
             answers = dict(zip(data["answers"], values.steps, strict=True))
             return cls(from_json(data["derivation"]), answers, told, drawings_from_data(data["drawings"]))
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from derive.course.reference.statements import GroupKeys, OwnKeys
+from derive.course.reference.keys import DocumentKeys, GroupKeys, OwnKeys
 from derive.course.schema import object_schema, schema_for_editors
 from derive.course.stock import stock_names, stock_script
 from derive.course.written import ProblemKeys
@@ -19,7 +19,8 @@ def problem_schema() -> str:
 
 def reference_schema() -> str:
     """Of what a document states about the problems of a set."""
-    groups = {"type": "array", "items": object_schema(GroupKeys), "minItems": 1}
+    items = {"anyOf": [object_schema(DocumentKeys), object_schema(GroupKeys)]}
+    groups = {"type": "array", "items": items, "minItems": 1}
     return schema_for_editors("What a document states", groups)
 
 

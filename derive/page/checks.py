@@ -1,43 +1,57 @@
-"""How a problem was checked, counted: what its closing note and the last page of its set tell.
+"""How a problem was checked, counted and step by step: what its closing note and the report of its set tell.
 
-A step counts by the least sure of its lines and by the surest of its second routes. A second route counts for every
-result that it was taken to.
+A step counts by the least sure of its lines and by the surest of its second routes and checks. Each of these counts for
+every result that it was taken to; a check, which puts a result to a test, is no second route and is counted apart.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade
+from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Grade
 from derive.course.names import EvidenceShown
-from derive.course.reference.comparison import Remark
+from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
+from derive.course.reference.quotes import Remark
 from derive.page.wording import Inline, Phrases, filled
 from derive.steps.step import Step
 
 
 @dataclass(frozen=True)
-class Ways:
-    """Second routes in words, and the steps, all of one rule, to whose results they were taken."""
+class Row:
+    """Steps that follow each other, are of one rule and were checked alike: how many lines were compared, and in words
+    the second routes that were taken and the checks that were made."""
 
     steps: tuple[str, ...]
+    rule: str
+    grade: Grade
+    lines: int
     routes: tuple[str, ...]
+    checks: tuple[str, ...]
+
+    def is_like(self, other: Row) -> bool:
+        return replace(self, steps=(), lines=0) == replace(other, steps=(), lines=0)
+
+    def with_more(self, other: Row) -> Row:
+        return replace(self, steps=(*self.steps, *other.steps), lines=self.lines + other.lines)
 
 
 @dataclass(frozen=True)
 class Checks:
-    """The counts, the second routes, and what is wrong in the source document."""
+    """The counts, the table of the steps, and what is wrong in the source document."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]
     routes: Mapping[Grade, int]
-    ways: tuple[Ways, ...]
+    checks: Mapping[Grade, int]
+    rows: tuple[Row, ...]
     agree: int
     agree_to_figures: int
     errata: tuple[Erratum, ...]
+    remarks: tuple[Remark, ...] = ()
 
     @property
     def compared(self) -> int:
@@ -51,9 +65,11 @@ class Checks:
             "lines": sum(self.lines.values()),
             "routes": sum(self.routes.values()),
             "routes_proved": self.routes.get(Grade.PROVED, 0),
+            "checks": sum(self.checks.values()),
             "agree": self.agree,
             "agree_to_figures": self.agree_to_figures,
             "errata": len(self.errata),
+            "remarks": len(self.remarks),
         }
 
     def closing(self, words: Phrases, evidence: EvidenceShown) -> tuple[Inline, ...]:
@@ -65,6 +81,7 @@ class Checks:
             "lines_by_grade": _by_grade(self.lines, words.grades),
             "routes": sum(self.routes.values()),
             "routes_by_grade": _by_grade(self.routes, words.grades),
+            "checks": sum(self.checks.values()),
             "steps_by_grade": _by_grade(self.steps, _columns_of_steps(words)),
             "compared": self.compared,
             "agree": self.agree + self.agree_to_figures,
@@ -73,32 +90,43 @@ class Checks:
         return filled(words.labels["closing"], names)
 
 
-def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Remark]) -> Checks:
+def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -> Checks:
     """What was done for these steps, and how the source document compares."""
     steps = list(steps)
     evidence = [(step, e) for step in steps for e in step.evidence]
     lines = [e for _, e in evidence if e.compared is Compared.LINES]
-    routes = [(step, e) for step, e in evidence if e.compared is Compared.ROUTE]
+    routes = [e for _, e in evidence if e.compared is Compared.ROUTE]
+    checks = [e for _, e in evidence if e.compared is Compared.CHECK]
     outcomes = [told.outcome for told in compared]
     return Checks(
         steps=Counter(step.grade for step in steps),
         lines=Counter(e.grade for e in lines),
-        routes=Counter(e.grade for _, e in routes),
-        ways=_ways(routes, words),
+        routes=Counter(e.grade for e in routes),
+        checks=Counter(e.grade for e in checks),
+        rows=_rows(steps, words),
         agree=outcomes.count("agrees"),
         agree_to_figures=sum(outcome.startswith("agrees to") for outcome in outcomes),
         errata=tuple(told.erratum for told in compared if told.erratum),
+        remarks=tuple(told.remark for told in compared if told.remark),
     )
 
 
-def _ways(routes: Sequence[tuple[Step, Evidence]], words: Phrases) -> tuple[Ways, ...]:
-    told: dict[Step, list[str]] = {}
-    for step, evidence in routes:
-        told.setdefault(step, []).append(words.route(step, evidence.claim))
-    alike: dict[tuple[str, tuple[str, ...]], list[str]] = {}
-    for step, said in told.items():
-        alike.setdefault((step.rule, tuple(said)), []).append(step.key)
-    return tuple(Ways(tuple(keys), said) for (_, said), keys in alike.items())
+def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
+    """The second routes to the result of a step, or the checks of it, in words."""
+    return tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
+
+
+def _rows(steps: Sequence[Step], words: Phrases) -> tuple[Row, ...]:
+    rows: list[Row] = []
+    for step in steps:
+        lines = sum(e.compared is Compared.LINES for e in step.evidence)
+        routes, checks = (second_ways_of(step, sort, words) for sort in (Compared.ROUTE, Compared.CHECK))
+        row = Row((step.key,), step.rule, step.grade, lines, routes, checks)
+        if rows and rows[-1].is_like(row):
+            rows[-1] = rows[-1].with_more(row)
+        else:
+            rows.append(row)
+    return tuple(rows)
 
 
 def _by_grade(counts: Mapping[Grade, int], words: Mapping[str, str]) -> str:
@@ -106,6 +134,5 @@ def _by_grade(counts: Mapping[Grade, int], words: Mapping[str, str]) -> str:
 
 
 def _columns_of_steps(words: Phrases) -> dict[str, str]:
-    """The words by which the table of the set's last page counts steps: a definition is only named there."""
-    _, columns = next(iter(words.labels["checked_page"]["columns"].items()))
-    return dict(zip(("proved", "sampled", "approximation", "definition"), columns, strict=True))
+    """The words by which steps are counted: a definition is only named."""
+    return {**words.grades, Grade.DEFINITION: words.labels["named"]}

@@ -13,18 +13,18 @@ from typing import Any
 from sympy import Integral, preorder_traversal
 
 from derive.algebra.dimensions import Dimension
-from derive.algebra.equality import LEAST_SURE_FIRST, Grade
+from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Grade
 from derive.algebra.expressions import Amount, Relation
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem
-from derive.course.reference.comparison import Remark
+from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.abbreviations import says_again, shortened
 from derive.page.assumptions import between_bounds
-from derive.page.checks import Checks, checks_of
+from derive.page.checks import Checks, checks_of, second_ways_of
 from derive.page.closing import limiting_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
@@ -85,6 +85,7 @@ class Display:
     grades: frozenset[Grade] = frozenset()
     routes: tuple[str, ...] = ()
     end: str = "."
+    checks: tuple[str, ...] = ()
 
     @property
     def grade(self) -> Grade:
@@ -93,7 +94,8 @@ class Display:
 
     def with_more(self, other: Display) -> Display:
         """The lines of both; the margin names the first step's routes."""
-        return Display((*self.groups, *other.groups), self.grades | other.grades, self.routes or other.routes)
+        routes, checks = (self.routes or other.routes), (self.checks or other.checks)
+        return Display((*self.groups, *other.groups), self.grades | other.grades, routes, checks=checks)
 
     @property
     def stops(self) -> tuple[str, ...]:
@@ -165,7 +167,7 @@ def document_of(
     values: Mapping[str, Step],
     words: Phrases,
     level: Level,
-    compared: Sequence[Remark] = (),
+    compared: Sequence[Told] = (),
     others: Mapping[str, int] | None = None,
     drawings: Sequence[Recorded] = (),
     evidence: EvidenceShown = EvidenceShown.NONE,
@@ -212,7 +214,7 @@ class _Writer:
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.asked = {step.key for step in answered}
 
-    def document(self, compared: Sequence[Remark], evidence: EvidenceShown) -> Document:
+    def document(self, compared: Sequence[Told], evidence: EvidenceShown) -> Document:
         problem = self.problem
         self.references.check_title(problem.title.mentions, self.page_names)
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
@@ -333,7 +335,8 @@ class _Writer:
             lines = (*lines[:-1], replace(lines[-1], reason=(Text(self.words.labels["by_definition"]),)))
         equations = Equations(step.key, lines, self.numbers[step.key], _results(step, lines) if framed else 0)
         before, after = around_chain(nodes)
-        display = Display((equations,), frozenset({step.grade}), self._routes(step))
+        routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
+        display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
         if not before and blocks and isinstance(blocks[-1], Display):
             blocks[-1] = blocks[-1].with_more(display)
         else:
@@ -409,9 +412,6 @@ class _Writer:
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
         }
         return filled(template, {**self.page_names, **own, **references})
-
-    def _routes(self, step: Step) -> tuple[str, ...]:
-        return tuple(words for e in step.evidence if (words := self.words.route(step, e.claim)))
 
 
 def _results(step: Step, lines: Sequence[ChainLine]) -> int:

@@ -38,6 +38,7 @@ class Explanation:
     needed: tuple[Need, ...]
     lines: Mapping[str, int]
     routes: tuple[tuple[str, str], ...]
+    checks: tuple[tuple[str, str], ...]
     sentence: str
     own_words: Place | None
     outcomes: tuple[str, ...]
@@ -60,6 +61,7 @@ class Explanation:
             "grade": self.step.grade.value,
             "lines": dict(self.lines),
             "routes": [{"words": words, "grade": grade} for words, grade in self.routes],
+            "checks": [{"words": words, "grade": grade} for words, grade in self.checks],
             "outcome": self.step.outcome,
             "outcomes": list(self.outcomes),
             "sentence": str(self.sentence),
@@ -76,14 +78,18 @@ def explanation_of(
 ) -> Explanation:
     asked = _asked(problem, derivation, values)
     shown_in = next((_label(i) for i, keys in enumerate(derivation.parts) if step.key in keys), "")
-    evidence = [e for e in step.evidence if e.compared is Compared.ROUTE]
+    ways = {
+        sort: tuple((words.route(step, e.claim), e.grade.value) for e in step.evidence if e.compared is sort)
+        for sort in (Compared.ROUTE, Compared.CHECK)
+    }
     named = names_of_step(step, words, None) if shown_in else ()
     return Explanation(
         step=step,
         part=shown_in or asked.get(step.key, ""),
         needed=tuple(sorted(_needs(step, asked, derivation.steps), key=lambda need: need.part)),
         lines=Counter(e.grade.value for e in step.evidence if e.compared is Compared.LINES),
-        routes=tuple((words.route(step, e.claim), e.grade.value) for e in evidence),
+        routes=ways[Compared.ROUTE],
+        checks=ways[Compared.CHECK],
         sentence=words.phrase(step),
         own_words=_own_words(step, problem),
         outcomes=tuple(words.rules[step.rule]),
@@ -166,7 +172,8 @@ class _Teller:
         counts = self.listed([f"{count} {grades[grade]}" for grade, count in self.of.lines.items()])
         compared = [self.line("lines", count=sum(self.of.lines.values()), counts=counts)] if self.of.lines else []
         routes = [self.line("route", words=words, grade=grades[grade]) for words, grade in self.of.routes]
-        return [self.line("grade", grade=grades[self.step.grade.value]), *compared, *routes]
+        checks = [self.line("check", words=words, grade=grades[grade]) for words, grade in self.of.checks]
+        return [self.line("grade", grade=grades[self.step.grade.value]), *compared, *routes, *checks]
 
     def wording(self) -> list[tuple[Inline, ...]]:
         stock = self.line("sentence", place=self.of.sentence_at, sentence=" ".join(self.of.sentence.split()))

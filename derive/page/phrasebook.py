@@ -27,10 +27,11 @@ _SHAPE: dict[str, Any] = {
     "labels": {
         _ANY: _TEXT,
         "points": [_TEXT],
+        "rules": _TABLE,
         "explain": _TABLE,
         "explain_headings": [_TEXT],
         "explain_columns": [_TEXT],
-        "checked_page": {_ANY: _TEXT, "intro": [_TEXT], "columns": {_ANY: [_TEXT]}},
+        "report_page": {_ANY: _TEXT, "intro": [_TEXT], "columns": {_ANY: [_TEXT]}, "row": [_TEXT]},
     },
 }
 

@@ -15,6 +15,7 @@ from derive.algebra.equality import Compared, Evidence, Grade, Verdict, equal
 from derive.algebra.expressions import Relation, Truncated, bound, component_names, explicit
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Unverified
+from derive.steps.second_ways import sort_of
 from derive.steps.step import NUMBERS, Form, Level, Quantity, Route
 
 BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
@@ -78,8 +79,8 @@ def check_last_line(
         raise refused(key, "what it hands on is not its last line", shown, result, verdict)
 
 
-def evidence_of_routes(key: str, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
-    return [route_evidence(key, claim, route(result)) for claim, route in routes.items()]
+def evidence_of_routes(key: str, rule: str, result: Any, routes: Mapping[str, Route]) -> list[Evidence]:
+    return [route_evidence(key, claim, route(result), sort_of(rule, claim)) for claim, route in routes.items()]
 
 
 def names_in(exprs: Sequence[Any], bindings: Mapping[Any, Any]) -> tuple[tuple[Any, Any], ...]:
@@ -132,8 +133,10 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
     return Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "within half a unit of the last place")
 
 
-def route_evidence(key: str, claim: str, found: tuple[Any, Any] | Verdict) -> Evidence:
-    """A route gives two values to compare, or has compared them itself, as one in numbers does."""
+def route_evidence(
+    key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
+) -> Evidence:
+    """A route, or a check, gives two values to compare, or has compared them itself, as one in numbers does."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found
@@ -141,8 +144,9 @@ def route_evidence(key: str, claim: str, found: tuple[Any, Any] | Verdict) -> Ev
         left, right = (explicit(value) for value in found)
         verdict = equal(left, right)
     if not verdict:
-        raise refused(key, f"its second route `{claim}` disagrees", left, right, verdict)
-    return Evidence(claim, Compared.ROUTE, verdict.grade, verdict.detail)
+        what = "second route" if compared is Compared.ROUTE else "check"
+        raise refused(key, f"its {what} `{claim}` disagrees", left, right, verdict)
+    return Evidence(claim, compared, verdict.grade, verdict.detail)
 
 
 def refused(key: str, what: str, left: Any, right: Any, verdict: Verdict) -> Unverified:

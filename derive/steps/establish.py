@@ -4,7 +4,7 @@ A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish(
 
     (a) each line of the chain equals the line before it, the first the left side where that is an expression, and the
         last is the value that is handed on;
-    (b) every second, physical route to the result agrees with it;
+    (b) every second route to the result, and every check of it, agrees with it;
     (c) what the inputs are about fits together, and the word that chooses the sentence is true of the result.
 
 A verb states its law once, as a function. `establish` calls it with the *names* of its inputs, which gives the
@@ -143,7 +143,8 @@ def establish(
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
     definition  that the law says what a name means, so that there is no second route
-    routes      claim -> function of the result, giving two values that must be equal
+    routes      claim -> function of the result, giving two values that must be equal; of each claim
+                `derive.steps.second_ways` says whether it is another route through the physics or a check
     outcome     a word, or a function of the result that gives one; it selects the phrase
     parents     what it rests on besides its inputs
     facts       what the quantity hands on besides its value
@@ -171,7 +172,7 @@ def establish(
     evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **lines.means})
     evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
     check_last_line(key, chain, result, bindings, lines.motion)
-    evidence += evidence_of_routes(key, result, routes or {})
+    evidence += evidence_of_routes(key, rule, result, routes or {})
     _check_told(key, telling.formulas)
     if not routes:
         evidence.append(_unsupported(key, rule, definition))

@@ -12,7 +12,8 @@ import pytest
 from derive.course.parts import AnswerForm, Question
 from derive.course.problem import load_problem
 from derive.course.problem_set import SetKeys
-from derive.course.reference.statements import EntryKeys, ErratumKeys, GroupKeys, OwnKeys, stated_groups
+from derive.course.reference.keys import DocumentKeys, EntryKeys, ErratumKeys, GroupKeys, OwnKeys
+from derive.course.reference.statements import stated_groups
 from derive.course.schema import FIGURES, TEXT, Record, key, list_of, mapping_of, object_schema, one_of, read_record
 from derive.course.stock import stock_names, stock_script
 from derive.course.written import DrawingKeys, ProblemKeys
@@ -35,7 +36,7 @@ from tests.courses import ROOT
 
 DOCUMENTED = {
     "README.md": (ProblemKeys, Question, AnswerForm, DrawingKeys, SetKeys),
-    "docs/references.md": (GroupKeys, EntryKeys, ErratumKeys),
+    "docs/references.md": (DocumentKeys, GroupKeys, EntryKeys, ErratumKeys),
     "docs/yaml-alone.md": (
         OwnKeys,
         *(stock_script(name).keys for name in stock_names()),

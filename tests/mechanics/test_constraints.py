@@ -61,7 +61,7 @@ def test_at_rest_a_constraint_carries_the_weight_and_a_rod_turns_by_its_moments(
         assert equal(again.value, Relation(2 * l * q_ddot + 3 * g * sin(q), "=", 0))
         assert again.step.outcome == "again"
         other = motion(l * sin(q), -l * cos(q), THETA)
-        with pytest.raises(Unverified, match="its second route `found_before` disagrees"):
+        with pytest.raises(Unverified, match="its check `found_before` disagrees"):
             put_in(turning, *forces, again=other, key="wrong")
 
 

@@ -34,8 +34,8 @@ def step(key: str, *claims: str, definition: bool = False) -> Step:
     return made.step
 
 
-def told(outcome: str, erratum: Any = None) -> Any:
-    return SimpleNamespace(outcome=outcome, erratum=erratum)
+def told(outcome: str, erratum: Any = None, remark: Any = None) -> Any:
+    return SimpleNamespace(outcome=outcome, erratum=erratum, remark=remark)
 
 
 class OwnWords:
@@ -50,18 +50,20 @@ def counted(*steps: Step, compared: Any = ()) -> Checks:
 
 
 def test_steps_lines_and_routes_are_counted_apart() -> None:
-    counts = counted(step("one", "halves", "sum"), step("two", "sum"), step("named", definition=True)).counts()
+    counts = counted(step("one", "particles", "sum"), step("two", "work"), step("named", definition=True)).counts()
     assert (counts["steps_proved"], counts["steps_definition"], counts["steps_sampled"]) == (2, 1, 0)
-    assert (counts["routes"], counts["routes_proved"]) == (3, 3)
+    assert (counts["routes"], counts["routes_proved"], counts["checks"]) == (2, 2, 1)
     assert counts["lines"] == sum(len(s.chain) - 1 for s in (step("one", "sum"), step("two", "sum"), step("x", "sum")))
 
 
-def test_results_of_one_rule_that_had_the_same_routes_are_told_together() -> None:
-    ways = counted(step("one", "sum"), step("two", "sum"), step("three", "sum", "halves")).ways
-    assert [(way.steps, way.routes) for way in ways] == [
-        (("one", "two"), ("by sum",)),
-        (("three",), ("by sum", "by halves")),
+def test_neighbours_of_one_rule_that_were_checked_alike_are_one_row() -> None:
+    rows = counted(step("one", "work"), step("two", "work"), step("three", "work", "sum"), step("four", "work")).rows
+    assert [(row.steps, row.routes, row.checks) for row in rows] == [
+        (("one", "two"), ("by work",), ()),
+        (("three",), ("by work",), ("by sum",)),
+        (("four",), ("by work",), ()),
     ]
+    assert rows[0].lines == 2 * rows[2].lines
 
 
 def test_statements_are_counted_by_how_they_compare() -> None:
@@ -71,6 +73,12 @@ def test_statements_are_counted_by_how_they_compare() -> None:
     assert checks.compared == 4
 
 
+def test_remarks_are_counted_apart_from_what_was_compared() -> None:
+    remark = object()
+    checks = counted(compared=[told("remark", remark=remark), told("agrees")])
+    assert (checks.remarks, checks.compared, checks.counts()["remarks"]) == ((remark,), 1, 1)
+
+
 def test_nothing_at_all_counts_nothing() -> None:
     assert set(counted().counts().values()) == {0}
 
@@ -78,7 +86,7 @@ def test_nothing_at_all_counts_nothing() -> None:
 def test_every_grade_that_a_step_may_have_is_a_column(words: Phrases) -> None:
     counts = counted().counts()
     assert {f"steps_{grade.value}" for grade in LEAST_SURE_FIRST[1:]} <= set(counts)
-    (_, columns), *_ = words.labels["checked_page"]["columns"].items()
+    (_, columns), *_ = words.labels["report_page"]["columns"].items()
     assert len(columns) == len(LEAST_SURE_FIRST[1:])
 
 

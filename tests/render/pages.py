@@ -54,7 +54,7 @@ def page(*blocks: Any, **changed: Any) -> Document:
         "illustrations": (AXES,),
         "parts": (part,),
         "note": (),
-        "checks": Checks({}, {}, {}, (), 0, 0, ()),
+        "checks": Checks({}, {}, {}, {}, (), 0, 0, ()),
         "closing": (Text("Nothing."),),
         "numbers": NUMBERS,
         "symbols": {"mass": M, "energy": T, "law": None},

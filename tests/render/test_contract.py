@@ -76,7 +76,7 @@ def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
         assert list(step) == ["key", "rule", "symbol", "outcome", "inputs", "names", "chain", "evidence"]
         assert list(step["symbol"]) == ["sympy", "latex", "formula"]
         assert all(list(form)[:4] == ["sympy", "latex", "because", "level"] for form in step["chain"])
-        assert all(list(evidence) == ["claim", "grade", "detail"] for evidence in step["evidence"])
+        assert all(list(evidence) == ["claim", "compared", "grade", "detail"] for evidence in step["evidence"])
     assert [key for part in page["parts"] for key in part["answers"]] == list(page["answers"])
     keys = [step["key"] for step in page["steps"]]
     assert all(name in keys[:i] for i, step in enumerate(page["steps"]) for name in step["inputs"])

@@ -10,10 +10,7 @@ import pytest
 from sympy import symbols
 
 from derive.algebra.dimensions import Dimension
-from derive.algebra.expressions import column
 from derive.course.names import EvidenceShown
-from derive.course.reference.errata import Erratum
-from derive.page.checks import Checks, Ways
 from derive.page.document import ChainLine, Document, Equations, Paragraph
 from derive.page.wording import DimensionMark, Text, UnitMark
 from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
@@ -160,20 +157,6 @@ def test_a_long_result_is_in_one_frame_of_several_lines() -> None:
     assert alone.startswith(r"\framedrow{T}{\begin{aligned}T &= b_{0}") and "b_{39}" in alone
     assert alone.count(r"\\") == goes_on.count(r"\\") >= 1
     assert goes_on.startswith(r"\row{}{= \inframe{\begin{aligned} &b_{0}") and r"\inframe" not in first
-
-
-def test_what_was_checked_names_steps_by_their_symbols_and_errata_by_what_is_printed() -> None:
-    ways = (Ways(("energy", "mass", "law"), ("by halves",)),)
-    errata = (
-        Erratum("energy", "2", "a slip", M * a, M * a**2),
-        Erratum("law", None, "a sign", M - a, M + a),
-        Erratum("mass", None, "swapped", column(a, 0, 0), column(0, a, 0)),
-    )
-    tex = str(fragments(replace(WHOLE, checks=Checks({}, {}, {}, ways, 0, 0, errata))).report)
-    assert r"\mbox{$T$}" in tex and "by halves" in tex
-    assert "printed $T = Ma$, right $T = Ma^{2}$; a slip." in tex
-    assert "$M-a = 0$" in tex, "an equation is stated by what vanishes in it"
-    assert "$M = (a" in tex.replace(r"\left", "").replace(r"\bigl", ""), "a vector stands in a line"
 
 
 def test_a_whole_document_has_the_facts_that_its_template_asks_for(tmp_path: Path) -> None:

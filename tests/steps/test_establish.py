@@ -48,14 +48,14 @@ def test_a_right_law_gives_a_quantity_that_knows_its_step() -> None:
 def test_a_wrong_law_is_refused_with_both_values_and_a_point() -> None:
     complaint = refusal_of(lambda: sum_of_squares(law=lambda p, q: (p + q) ** 2))
     assert complaint.code == "unverified"
-    assert complaint.message == "`sum_of_squares`: its second route `squares` disagrees"
+    assert complaint.message == "`sum_of_squares`: its check `squares` disagrees"
     assert complaint.notes[0].startswith("by the law")
     assert "a = " in complaint.notes[-1] and "b = " in complaint.notes[-1]
 
 
 def test_a_wrong_second_route_is_refused() -> None:
     complaint = refusal_of(lambda: sum_of_squares(routes={"wrong": compared_with(lambda: a**2 - b**2)}))
-    assert complaint.message == "`sum_of_squares`: its second route `wrong` disagrees"
+    assert complaint.message == "`sum_of_squares`: its check `wrong` disagrees"
 
 
 def test_every_second_route_must_agree() -> None:

@@ -144,7 +144,7 @@ def test_a_value_that_differs_by_little_is_refused(monkeypatch: pytest.MonkeyPat
         monkeypatch.setattr(numbers, "bound", lambda expr, values, slip=slip: bound(expr, values) * slip)
         with pytest.raises(Unverified) as refused:
             near_critical(value, NEAR[0])
-        assert "its second route `floats` disagrees" in refused.value.complaints[0].message
+        assert "its check `floats` disagrees" in refused.value.complaints[0].message
 
 
 @pytest.mark.parametrize("width", [*NEAR, Integer(40)], ids=str)

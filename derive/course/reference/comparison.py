@@ -9,6 +9,7 @@ value of one step:
     erratum              the document is wrong: `states` is refuted and `right` agrees
     differs              refuted, at a point; or an erratum that is none
     unknown step         no step has that key
+    remark               nothing is compared: what the document claims is quoted, with what there is to say of it
 
 Each side of a chain is compared, and counts as one comparison.
 """
@@ -25,6 +26,7 @@ from derive.algebra.ranges import within
 from derive.course.problem import Problem, run_solve
 from derive.course.reference.agreement import given_values, verdict_on
 from derive.course.reference.errata import Erratum, erratum_of
+from derive.course.reference.quotes import Remark
 from derive.course.reference.statements import Entry, Statement, stated_groups
 from derive.errors import Complaint, DeriveError, Place, did_you_mean
 from derive.steps.derivation import returned_quantities, with_ancestors
@@ -32,12 +34,13 @@ from derive.steps.step import Quantity
 
 
 @dataclass(frozen=True)
-class Remark:
+class Told:
     """What a page and its JSON say of a comparison."""
 
     facts: dict[str, Any]
     here: bool
     erratum: Erratum | None = None
+    remark: Remark | None = None
 
     @property
     def outcome(self) -> str:
@@ -57,19 +60,22 @@ class Comparison:
     erratum: Erratum | None = None
     here: bool = True  # pinned to what the problem now gives, so that its page may speak of it
 
-    def remark(self) -> Remark:
-        return Remark(self.facts(), self.here, self.erratum)
+    def told(self) -> Told:
+        return Told(self.facts(), self.here, self.erratum, self.entry.remark)
 
     def facts(self) -> dict[str, Any]:
         """The entry in the JSON of a solution."""
         return {
             "problem": self.problem,
             "part": self.entry.part,
+            "document": self.entry.document,
+            "line": self.entry.line,
             "answer": self.entry.answer,
-            "states": self.entry.states.text,
+            "states": self.entry.states.text if self.entry.states else None,
             "outcome": self.outcome,
             "grade": self.grade.value if self.grade else None,
             "detail": self.detail,
+            "remark": self.entry.remark.why if self.entry.remark else None,
         }
 
 
@@ -117,13 +123,19 @@ def _derived_again(pinned: Problem) -> Steps:
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     """The sides of a chain as entries of their own; what states a relation stays whole."""
     step = steps.get(entry.answer)
-    if step is None or isinstance(step.value, Relation):
+    if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
+    again = replace(entry, remark=None)  # of a chain the first side brings the remark
     sides = zip(entry.states.sides, entry.states.marks, strict=True)
-    return [replace(entry, states=Statement((side,), (mark,), side.text, side.place)) for side, mark in sides]
+    return [
+        replace(again if i else entry, states=Statement((side,), (mark,), side.text, side.place))
+        for i, (side, mark) in enumerate(sides)
+    ]
 
 
 def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
+    if entry.states is None:
+        return Comparison(pinned.id, entry, "remark", None, "nothing to compare")
     step = steps.get(entry.answer)
     if step is None:
         message = f"no step is called `{entry.answer}`"
@@ -131,7 +143,7 @@ def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
         return Comparison(pinned.id, entry, "unknown step", None, message, fault)
     verdict = verdict_on(entry.states, step, entry, pinned)
     if entry.right is None:
-        return _agreement(entry, step, verdict, pinned)
+        return _agreement(entry, step, verdict, pinned, entry.states.place)
     if verdict:
         message = f"the document is right about `{entry.answer}`, so this is no erratum"
         fault = _fault("no-erratum", message, entry.states.place, verdict.detail)
@@ -144,9 +156,9 @@ def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
     return _difference(entry, step, right, pinned, "`right`", entry.right.place)
 
 
-def _agreement(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem) -> Comparison:
+def _agreement(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem, place: Place) -> Comparison:
     if not verdict:
-        return _difference(entry, step, verdict, pinned, "what the document states", entry.states.place)
+        return _difference(entry, step, verdict, pinned, "what the document states", place)
     figures = min(entry.figures, default=0)
     outcome = f"agrees to {figures} figure{'s' * (figures > 1)}" if figures else "agrees"
     return Comparison(pinned.id, entry, outcome, verdict.grade, verdict.detail)

@@ -16,30 +16,39 @@ from derive.course.reference.statements import Entry, Stated, Statement
 
 @dataclass(frozen=True)
 class Erratum:
-    """`printed` and `right` are two values of the step `answer`; decimals keep the figures they are printed with."""
+    """`printed` and `right` are two values of the step `answer`; decimals keep the figures they are printed with.
+
+    `quote` and `instead` are the same in the document's own letters, prose with formulas between dollar signs; they are
+    empty where it was not transcribed as it stands. `line` is where it stands.
+    """
 
     answer: str
     part: str | None
     why: str
     printed: Any
     right: Any
+    line: int | None = None
+    quote: str = ""
+    instead: str = ""
 
     def encoded(self) -> dict[str, Any]:
         """As data, for the steps that are kept between builds."""
-        words = {"answer": self.answer, "part": self.part, "why": self.why}
+        words: dict[str, Any] = {"answer": self.answer, "part": self.part, "why": self.why}
+        words |= {"line": self.line, "quote": self.quote, "instead": self.instead}
         return {**words, "printed": encoded(self.printed), "right": encoded(self.right)}
 
     @classmethod
     def decoded(cls, kept: dict[str, Any]) -> Erratum:
         words = (kept["answer"], kept["part"], kept["why"])
-        return cls(*words, decoded(kept["printed"]), decoded(kept["right"]))
+        values = (decoded(kept["printed"]), decoded(kept["right"]))
+        return cls(*words, *values, kept["line"], kept["quote"], kept["instead"])
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
     """The erratum that an entry of the reference states, in the letters of the problem, by their names."""
-    assert entry.right is not None
+    assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
-    return Erratum(entry.answer, entry.part, entry.why, printed, right)
+    return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:

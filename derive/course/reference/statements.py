@@ -16,29 +16,19 @@ from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import TIME
 from derive.course.declared import declared_letters
 from derive.course.expression import Declared, read_expression
-from derive.course.parts import UNIT
 from derive.course.problem import Problem, pinned_by
 from derive.course.problem_set import mapping_in, problem_ids
+from derive.course.reference.keys import DocumentKeys, EntryKeys, GroupKeys, OwnKeys
+from derive.course.reference.quotes import Remark, unquotable
 from derive.course.schema import (
-    FIGURES,
     MAX_FIGURES,
-    SCALAR,
     TEXT,
-    Reader,
-    Record,
-    as_written,
     check_keys,
-    key,
     keys_of,
-    list_of,
-    mapping_of,
-    one_or_more,
     read_record,
-    record_of,
     wrong_type,
 )
 from derive.course.units import Unit, read_unit
-from derive.course.written import GIVEN, SYMBOLS, VALUES, SortOfLetter
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml
 from derive.errors import Faults, Place, did_you_mean
 
@@ -89,11 +79,15 @@ class Statement:
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of the file; `figures` has one number for each entry of the value, `unit` is of all of them."""
+    """One entry of the file; `figures` has one number for each entry of the value, `unit` is of all of them.
+
+    `quote` is what the document prints and `instead` what it should, in its own letters; `states` is missing
+    where there is only a remark.
+    """
 
     answer: str
     part: str | None
-    states: Statement
+    states: Statement | None
     right: Statement | None
     why: str
     figures: tuple[int, ...]
@@ -101,79 +95,11 @@ class Entry:
     place: Place = field(repr=False)
     put_in: tuple[str, ...] = ()
     times: Statement | None = None
-
-
-SCALAR_TEXT = Reader(SCALAR.schema, TEXT.read)
-_ANY_VALUE = as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 3, "maxItems": 3}]})
-
-
-@dataclass(frozen=True)
-class ErratumKeys(Record):
-    """The keys of `erratum:`."""
-
-    why: Word | None = key("what is wrong, in a few words", TEXT, required=True)
-    right: Tree | None = key("the value that it should state", _ANY_VALUE, required=True)
-
-
-@dataclass(frozen=True)
-class EntryKeys(Record):
-    """The keys of one of `entries:`."""
-
-    part: Word | None = key("the part of the document", SCALAR_TEXT)
-    answer: Word | None = key("the key of the step that has this value", TEXT, required=True)
-    states: Tree | None = key("the value: an expression, 3 of them, or 3 rows of 3", _ANY_VALUE)
-    latex: Tree | None = key(
-        "the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared", SCALAR
-    )
-    to: Tree | None = key(
-        "decimals agree to so many figures; a list has one number for each entry, or for each of two branches",
-        as_written(one_or_more(FIGURES.schema)),
-    )
-    unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
-    put_in: Tree | None = key(
-        "letters for which the document has put in numbers; those of `values` are put in on both sides",
-        as_written(one_or_more(TEXT.schema)),
-        called="with",
-    )
-    times: Tree | None = key("the document's equation is the derived one multiplied by this", SCALAR)
-    erratum: ErratumKeys | None = key(
-        "the document is wrong here", record_of(ErratumKeys, "an erratum", "a mapping with `why` and `right`", "`{}`")
-    )
-
-
-_ENTRY = record_of(EntryKeys, "an entry", "a mapping with `answer` and `states` or `latex`")
-
-
-@dataclass(frozen=True)
-class GroupKeys(Record):
-    """The keys of a group."""
-
-    problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
-    symbols: dict[Word, SortOfLetter] = key(
-        "letters of the document and their kinds, also those that steps bring in", SYMBOLS
-    )
-    given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
-    letters: dict[Word, Tree] = key(
-        "letters of the document that are called otherwise here: `I_1: I_xx`",
-        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
-    )
-    values: dict[Word, Tree] = key("numbers for letters, put in where a stated value lacks the letter", VALUES)
-    entries: tuple[EntryKeys, ...] = key(
-        "the values that the document states", list_of(_ENTRY, "a list of entries"), required=True
-    )
-
-
-@dataclass(frozen=True)
-class OwnKeys(Record):
-    """The keys of `reference:` in a problem's own file, whose letters and givens are those of the problem."""
-
-    source: Word | None = key("the book and its section, or the document", TEXT, required=True)
-    symbols: dict[Word, SortOfLetter] = key("letters that steps bring in, and their kinds", SYMBOLS)
-    letters: dict[Word, Tree] = key(
-        "letters of the source that are called otherwise here: `I_1: I_xx`",
-        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
-    )
-    entries: tuple[EntryKeys, ...] = key("the values that the source states", list_of(_ENTRY, "a list of entries"))
+    line: int | None = None
+    quote: str = ""
+    instead: str = ""
+    remark: Remark | None = None
+    document: str = ""
 
 
 def reference_path(problem: Problem) -> str:
@@ -197,7 +123,11 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
         wrong_type(faults, "a reference", "a list of groups, each with `problem`, `given` and `entries`", node)
     ids = problem_ids(problem.root)
     items = node.items if isinstance(node, Sequence) else ()
-    groups = [group for item in items if (group := _group(item, problem, ids, faults))]
+    document = ""
+    if items and isinstance(items[0], Mapping) and items[0].get("document") is not None:
+        document = read_record(DocumentKeys, items[0], "a document", faults).document or ""
+        items = items[1:]
+    groups = [group for item in items if (group := _group(item, problem, ids, document, faults))]
     faults.stop()
     return [*own, *groups]
 
@@ -210,10 +140,12 @@ def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
     described = problem.described.letters if problem.described else {}
     symbols = {**problem.symbols, **described, **declared_letters(group.symbols, faults)}
     pinned = replace(problem, symbols=symbols)
-    return pinned, _entries(group, pinned, faults)
+    return pinned, _entries(group, pinned, group.source or "", faults, has_lines=False)
 
 
-def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tuple[Problem, list[Entry]] | None:
+def _group(
+    node: Tree, problem: Problem, ids: list[str], document: str, faults: Faults
+) -> tuple[Problem, list[Entry]] | None:
     if not isinstance(node, Mapping):
         wrong_type(faults, "a group", "a mapping with `problem`, `given` and `entries`", node)
         return None
@@ -230,11 +162,13 @@ def _group(node: Tree, problem: Problem, ids: list[str], faults: Faults) -> tupl
         script = problem.script if "given" in group.places else None
         pins = pinned_by(group.symbols, group.values, group.given, group.places, script, faults)
         pinned = replace(problem, places=group.places, **vars(pins))
-        return pinned, _entries(group, pinned, faults)
+        return pinned, _entries(group, pinned, document, faults)
     return None
 
 
-def _entries(group: GroupKeys | OwnKeys, pinned: Problem, faults: Faults) -> list[Entry]:
+def _entries(
+    group: GroupKeys | OwnKeys, pinned: Problem, document: str, faults: Faults, has_lines: bool = True
+) -> list[Entry]:
     # No more is assumed of a letter than that it is real, for a component that steps bring in may be negative; what
     # the derivation knows of it comes back when the two are compared.
     known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
@@ -242,7 +176,10 @@ def _entries(group: GroupKeys | OwnKeys, pinned: Problem, faults: Faults) -> lis
     numbers = {measured.symbol.name for measured in pinned.measured}
     printed = {**letters, **_called_otherwise(group.letters, letters, faults)}
     reader = _EntryReader(letters, printed, numbers, faults)
-    return [entry for written in group.entries if (entry := reader.entry(written))]
+    for written in group.entries:
+        if document and has_lines and written.line is None and (written.erratum or written.remark):
+            faults.error("missing-key", f"this needs `line`: where `{document}` has it", written.places[""])
+    return [replace(entry, document=document) for written in group.entries if (entry := reader.entry(written))]
 
 
 def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
@@ -283,10 +220,35 @@ class _EntryReader:
         with self.faults:
             unit = read_unit(written.unit, written.unit.place) if written.unit else None
         figures = _figures(written.to, states, self.faults)
+        quote, instead = self.quotes(written)
+        remark = Remark(written.part, written.line, quote, written.remark) if written.remark else None
+        if remark and not quote and "quote" not in written.values_at:
+            self.faults.error("missing-key", "a remark needs `quote`: what the document prints", written.places[""])
+        if written.answer is None and (states is not None or not remark):
+            message = f"an entry needs `answer`: {keys_of(EntryKeys)['answer'].meaning}"
+            self.faults.error("missing-key", message, written.places[""])
+        if remark and written.answer is None and states is None:
+            place = written.places["remark"]
+            return Entry("", written.part, None, None, "", (), None, place, line=written.line, remark=remark)
         if written.answer is None or states is None:
             return None
-        place = written.answer.place
-        return Entry(written.answer, written.part, states, right, why, figures, unit, place, put_in, factor)
+        entry = Entry(
+            written.answer, written.part, states, right, why, figures, unit, written.answer.place, put_in, factor
+        )
+        return replace(entry, line=written.line, quote=quote, instead=instead, remark=remark)
+
+    def quotes(self, entry: EntryKeys) -> tuple[str, str]:
+        """What the document prints and what it should, in its own letters, where it was transcribed as it stands."""
+        should = entry.erratum.right if entry.erratum else None
+        told = [entry.latex, should if entry.latex is not None else None]
+        printed, right = (f"${' '.join(x.text.split())}$" if isinstance(x, Scalar) else "" for x in told)
+        if entry.erratum is None and entry.remark is None:
+            return "", ""
+        for text in (printed, right):
+            if (why := unquotable(text)) is not None:
+                self.faults.error("quotation", f"this cannot be quoted: {why}", entry.places[""])
+                return "", ""
+        return str(entry.quote or printed), right
 
     def factor(self, entry: EntryKeys) -> Statement | None:
         node = entry.times
@@ -302,7 +264,7 @@ class _EntryReader:
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])
-        elif plain is None and printed is None:
+        elif plain is None and printed is None and entry.remark is None:
             if entry.values_at.keys() <= keys.keys():  # a mistyped key is one fault, not two
                 message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
                 self.faults.error("missing-key", message, entry.places[""])

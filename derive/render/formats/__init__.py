@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from derive.course.problem import Problem
-    from derive.course.reference.comparison import Remark
+    from derive.course.reference.comparison import Told
     from derive.page.document import Document
     from derive.page.wording import Phrases
     from derive.render.notation.notation import Notation
@@ -35,7 +35,7 @@ class Solution:
     problem: Problem
     derivation: Derivation
     values: Mapping[str, Step]
-    compared: Sequence[Remark] = ()
+    compared: Sequence[Told] = ()
 
 
 @dataclass(frozen=True)

@@ -151,7 +151,10 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
         "names": named.names,
         **({"motion": named.motion} if step.motion else {}),
         "chain": [_form(named, i, notation) for i in range(len(step.chain))],
-        "evidence": [{"claim": e.claim, "grade": e.grade.value, "detail": e.detail} for e in step.evidence],
+        "evidence": [
+            {"claim": e.claim, "compared": e.compared.value, "grade": e.grade.value, "detail": e.detail}
+            for e in step.evidence
+        ],
     }
 
 

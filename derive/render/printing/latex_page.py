@@ -9,21 +9,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from sympy import Expr, MatrixBase
-
 from derive.algebra.dimensions import Dimension
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
-from derive.course.reference.errata import Erratum
-from derive.page.checks import Ways
 from derive.page.document import Block, Display, Document, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark, filled
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.lines import Printed, printed_lines
+from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
-from derive.render.printing.text_page import closing_title, inline_text
+from derive.render.printing.text_page import closing_title, inline_text, second_ways
 from derive.render.rendered import Tex
 
 # About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
@@ -67,7 +64,7 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, folder
         page.title(),
         fragment("problem.tex.j2", page),
         fragment("questions.tex.j2", questions),
-        fragment("reported.tex.j2", page),
+        filled_template(folder, "reported.tex.j2", {"page": ReportPage(document, words, notation)}),
     )
 
 
@@ -189,7 +186,7 @@ class _Page:
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
         """The note beside a display and the words before it: as much of it as ends before the next note begins."""
         lines = [escaped(self.words.grades[display.grade])]
-        said = [f"{self.words.labels['second_route']}: {route}" for route in display.routes]
+        said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
         if fitting:
             lines.append(escaped(fitting[0]))
@@ -200,32 +197,6 @@ class _Page:
         text = len(inline_text(before, self.notation, self.document.numbers))
         rows = sum(len(printed_lines(group, self.notation)) for group in display.groups)
         return LINE_HEIGHT * math.ceil(text / CHARACTERS) + ROW_HEIGHT * rows + AROUND
-
-    def ways(self) -> Sequence[Ways]:
-        return self.document.checks.ways
-
-    def named(self, key: str) -> Tex:
-        """A step by its symbol, or by the number of its equation."""
-        symbol = self.document.symbols.get(key)
-        if symbol is not None:
-            return Tex(self._node(Math(symbol)))
-        return Tex(self._reference(key) if key in self.document.numbers else escaped(key))
-
-    def more(self, count: int) -> Tex:
-        return self.inline(filled(self.words.labels["checked_page"]["more"], {"count": count}))
-
-    def errata(self) -> Sequence[Erratum]:
-        return self.document.checks.errata
-
-    def equation_of(self, erratum: Erratum, value: Any) -> Tex:
-        """`L = (...)` as the document has it, or as it should be."""
-        if isinstance(value, MatrixBase) and value.shape[1] == 1:
-            value = tuple(value)
-        right = latex(self.notation.result(value), inline=True)
-        symbol = self.document.symbols.get(erratum.answer)
-        if isinstance(value, Expr) and erratum.answer in self.document.symbols and symbol is None:
-            return Tex(f"{right} = 0")  # an equation is stated by what vanishes in it
-        return Tex(right if symbol is None else f"{latex(self.notation.layout(symbol), inline=True)} = {right}")
 
     def has_margin(self) -> bool:
         """Whether notes stand beside displays."""

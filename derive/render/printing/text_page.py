@@ -46,6 +46,12 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, int]) -> str:
     return ""
 
 
+def second_ways(display: Display, words: Phrases) -> list[str]:
+    """What the margin may say beside the grade: the second routes, and then the checks."""
+    routes, check = words.labels["second_route"], words.labels["check"]
+    return [*(f"{routes}: {said}" for said in display.routes), *(f"{check}: {said}" for said in display.checks)]
+
+
 def closing_title(document: Document, words: Phrases) -> str:
     """What the closing note begins with: it tells how the problem was checked, or only that it was."""
     return str(words.labels["checked_line" if document.evidence is EvidenceShown.NONE else "checked"])
@@ -119,8 +125,7 @@ class _Page:
 
     def _evidence(self, display: Display) -> str:
         """What the margin of a typeset page has."""
-        second = self.words.labels["second_route"]
-        said = [self.words.grades[display.grade], *(f"{second}: {route}" for route in display.routes[:1])]
+        said = [self.words.grades[display.grade], *second_ways(display, self.words)[:1]]
         return textwrap.shorten(f"[{'; '.join(said)}]", PAGE_COLUMNS, placeholder="\u2026]")
 
     def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:

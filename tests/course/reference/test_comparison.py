@@ -26,11 +26,14 @@ def test_an_equal_form_agrees_and_says_how_we_know(compared: Compared) -> None:
     assert entry.facts() == {
         "problem": "hw9/block",
         "part": "2",
+        "document": "",
+        "line": None,
         "answer": "kinetic_energy_about_axis",
         "states": "1/24*M*a**2*omega**2*(13 + 40 + 45)/14",
         "outcome": "agrees",
         "grade": "proved",
         "detail": "identical",
+        "remark": None,
     }
     assert entry.complaint is None
 

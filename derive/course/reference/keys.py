@@ -1,0 +1,107 @@
+"""The keys of `problems/<set>/reference.yaml`, and of `reference:` in a problem's own file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from derive.course.parts import UNIT
+from derive.course.reference.quotes import LINE, QUOTATION
+from derive.course.schema import (
+    FIGURES,
+    SCALAR,
+    TEXT,
+    Reader,
+    Record,
+    as_written,
+    key,
+    list_of,
+    mapping_of,
+    one_or_more,
+    record_of,
+)
+from derive.course.written import GIVEN, SYMBOLS, VALUES, SortOfLetter
+from derive.course.yaml_tree import Mapping, Tree, Word
+
+SCALAR_TEXT = Reader(SCALAR.schema, TEXT.read)
+_ANY_VALUE = as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 3, "maxItems": 3}]})
+
+
+@dataclass(frozen=True)
+class ErratumKeys(Record):
+    """The keys of `erratum:`."""
+
+    why: Word | None = key("what is wrong, in a few words", QUOTATION, required=True)
+    right: Tree | None = key("the value that it should state", _ANY_VALUE, required=True)
+
+
+@dataclass(frozen=True)
+class EntryKeys(Record):
+    """The keys of one of `entries:`."""
+
+    part: Word | None = key("the part of the document", SCALAR_TEXT)
+    line: int | None = key("the line of the document", LINE)
+    answer: Word | None = key("the key of the step that has this value", TEXT)
+    states: Tree | None = key("the value: an expression, 3 of them, or 3 rows of 3", _ANY_VALUE)
+    latex: Tree | None = key(
+        "the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared", SCALAR
+    )
+    to: Tree | None = key(
+        "decimals agree to so many figures; a list has one number for each entry, or for each of two branches",
+        as_written(one_or_more(FIGURES.schema)),
+    )
+    unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
+    put_in: Tree | None = key(
+        "letters for which the document has put in numbers; those of `values` are put in on both sides",
+        as_written(one_or_more(TEXT.schema)),
+        called="with",
+    )
+    times: Tree | None = key("the document's equation is the derived one multiplied by this", SCALAR)
+    quote: Word | None = key("what the document prints, words with formulas between `$`", QUOTATION)
+    remark: Word | None = key(
+        "what there is to say of a claim that is wrong, right by luck, incomplete or no formula", QUOTATION
+    )
+    erratum: ErratumKeys | None = key(
+        "the document is wrong here", record_of(ErratumKeys, "an erratum", "a mapping with `why` and `right`", "`{}`")
+    )
+
+
+_ENTRY = record_of(EntryKeys, "an entry", "a mapping with `answer` and `states` or `latex`")
+
+
+@dataclass(frozen=True)
+class GroupKeys(Record):
+    """The keys of a group."""
+
+    problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
+    symbols: dict[Word, SortOfLetter] = key(
+        "letters of the document and their kinds, also those that steps bring in", SYMBOLS
+    )
+    given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
+    letters: dict[Word, Tree] = key(
+        "letters of the document that are called otherwise here: `I_1: I_xx`",
+        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
+    )
+    values: dict[Word, Tree] = key("numbers for letters, put in where a stated value lacks the letter", VALUES)
+    entries: tuple[EntryKeys, ...] = key(
+        "the values that the document states", list_of(_ENTRY, "a list of entries"), required=True
+    )
+
+
+@dataclass(frozen=True)
+class DocumentKeys(Record):
+    """The first item of the list, where the document is named, whose lines errata and remarks then tell."""
+
+    document: Word | None = key("the document that the groups below are about", TEXT, required=True)
+
+
+@dataclass(frozen=True)
+class OwnKeys(Record):
+    """The keys of `reference:` in a problem's own file, whose letters and givens are those of the problem."""
+
+    source: Word | None = key("the book and its section, or the document", TEXT, required=True)
+    symbols: dict[Word, SortOfLetter] = key("letters that steps bring in, and their kinds", SYMBOLS)
+    letters: dict[Word, Tree] = key(
+        "letters of the source that are called otherwise here: `I_1: I_xx`",
+        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
+    )
+    entries: tuple[EntryKeys, ...] = key("the values that the source states", list_of(_ENTRY, "a list of entries"))

@@ -1,0 +1,93 @@
+"""What the template of a report may ask of a problem, in TeX: its steps in rows, and the source in its own letters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Expr, MatrixBase
+
+from derive.algebra.equality import Grade
+from derive.course.reference.errata import Erratum
+from derive.course.reference.quotes import Remark
+from derive.page.checks import Row
+from derive.page.document import Document
+from derive.page.wording import Phrases
+from derive.render.notation.latex import escaped, latex
+from derive.render.notation.notation import Notation
+from derive.render.rendered import Tex
+
+LONG = 60  # characters of a formula that has a line of its own
+
+
+class ReportPage:
+    """One problem of a report."""
+
+    def __init__(self, document: Document, words: Phrases, notation: Notation):
+        self.document, self.words, self.notation = document, words, notation
+
+    @property
+    def rows(self) -> Sequence[Row]:
+        return self.document.checks.rows
+
+    @property
+    def errata(self) -> Sequence[Erratum]:
+        return self.document.checks.errata
+
+    @property
+    def remarks(self) -> Sequence[Remark]:
+        return self.document.checks.remarks
+
+    def steps(self, row: Row) -> Tex:
+        """The steps of a row, each by its symbol and the number of its equation."""
+        return Tex(", ".join(self._step(key) for key in row.steps))
+
+    def _step(self, key: str) -> str:
+        symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
+        numbered = f"({number})" if number is not None else ""
+        if symbol is None:
+            return numbered or escaped(key.replace("_", " "))
+        formula = rf"\fitto{{\linewidth}}{{{latex(self.notation.layout(symbol), inline=True)}}}"
+        return rf"{formula}~{numbered}" if numbered else formula
+
+    def what(self, row: Row) -> str:
+        """What the steps are, in a word or two."""
+        name = row.rule.rpartition(".")[2].replace("_", " ")
+        return str(self.words.labels["rules"].get(row.rule, name))
+
+    def grade(self, row: Row) -> Tex:
+        """As a word, which stands out where nothing was proved."""
+        word = escaped(self.words.grades[row.grade])
+        return Tex(word if row.grade is Grade.PROVED else rf"\textbf{{{word}}}")
+
+    def printed(self, erratum: Erratum) -> Tex:
+        return self.quoted(erratum.quote) if erratum.quote else self._in_our_letters(erratum, erratum.printed)
+
+    def right(self, erratum: Erratum) -> Tex:
+        return self.quoted(erratum.instead) if erratum.instead else self._in_our_letters(erratum, erratum.right)
+
+    def quoted(self, text: str) -> Tex:
+        """Prose with formulas between dollar signs, these written anew from known commands."""
+        if "$" not in text:
+            return Tex(escaped(text))
+        from derive.course.latex.quoting import quoted  # which few documents need
+
+        pieces = quoted(text)
+        return Tex("".join(self._formula(p.text, len(pieces)) if p.is_formula else escaped(p.text) for p in pieces))
+
+    def _formula(self, tex: str, pieces: int) -> str:
+        if pieces > 1 and len(tex) <= LONG:
+            return f"${tex}$"
+        return rf"\fitto{{\linewidth}}{{{tex}}}"
+
+    def _in_our_letters(self, erratum: Erratum, value: Any) -> Tex:
+        """`L = (...)` where the source was not transcribed as it stands."""
+        if isinstance(value, MatrixBase) and value.shape[1] == 1:
+            value = tuple(value)
+        right = latex(self.notation.result(value), inline=True)
+        symbol = self.document.symbols.get(erratum.answer)
+        if isinstance(value, Expr) and erratum.answer in self.document.symbols and symbol is None:
+            return Tex(f"${right} = 0$")  # an equation is stated by what vanishes in it
+        return Tex(
+            f"${right}$" if symbol is None else f"${latex(self.notation.layout(symbol), inline=True)} = {right}$"
+        )
