@@ -10,6 +10,7 @@ import pytest
 from sympy import symbols
 
 from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import column
 from derive.course.names import EvidenceShown
 from derive.page.document import ChainLine, Document, Equations, Paragraph
 from derive.page.wording import DimensionMark, Text, UnitMark

@@ -17,6 +17,9 @@ LONGEST_QUOTATION = 2000
 _COMMANDS = (KNOWN | SPACES | SIZES) - {"\n", "it", "rm", "bf", "limits", "nolimits", "notag", "nonumber"} | {
     "iint",
     "iiint",
+    "min",
+    "max",
+    "lim",
     "cdots",
     "ldots",
     "{",
@@ -26,7 +29,7 @@ _COMMANDS = (KNOWN | SPACES | SIZES) - {"\n", "it", "rm", "bf", "limits", "nolim
 }
 _PIECE = re.compile(r"\\(?P<name>[A-Za-z]+)|\\(?P<sign>.)|(?P<plain>.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\s*\{([a-z]+\*?)\}(?:\{([lcr|\s]+)\})?")
-_SIGNS = frozenset("+-*/=<>,.'()[]|^_:;! \n&{}") | frozenset(map(chr, range(48, 58)))
+_SIGNS = frozenset("+-*/=<>,.'()[]|^_:;! \n&{}~") | frozenset(map(chr, range(48, 58)))
 _WORD = re.compile(r"\s*\{([A-Za-z0-9 ,.\-]*)\}")
 _ARGUMENT = re.compile(r"\s*(?:\{|[A-Za-z0-9]|\\[A-Za-z])")
 

@@ -38,7 +38,7 @@ def test_prose_is_words_and_formulas_in_turn() -> None:
 @pytest.mark.parametrize(
     "printed",
     [
-        r"\input{/etc/passwd}", r"\write18{ls}", r"\def\x{y}", r"\catcode`\%=0", "a % b", "a # b", "a ~ b", "a @ b",
+        r"\input{/etc/passwd}", r"\write18{ls}", r"\def\x{y}", r"\catcode`\%=0", "a % b", "a # b", "a @ b",
         r"\begin{verbatim}x\end{verbatim}", r"\begin{array}{@{}c}x\end{array}", r"\begin{array}x\end{array}",
         r"\text{\input{x}}", r"\^^69nput", "é", r"\tag{1}", r"\hbox{x}", r"\csname x\endcsname",
     ],
