@@ -73,6 +73,7 @@ def rendered(
         steps=7,
         compared=3,
         agreed=said != "differs",
+        source_faults=(("erratum", "12", "$x^2$", "a slip"), ("remark", "14", "so", "why")) if said == "slips" else (),
         files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),)
         if draws and said.startswith("draws")
         else (),

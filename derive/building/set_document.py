@@ -59,7 +59,9 @@ def sheet_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]
 
 def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
     """A complete .tex of how the set was checked and where its source is wrong, for whoever must trust it."""
-    return _document(root, "report.tex.j2", heading, _listed(problems))
+    numbers = heading.numbers
+    listed = [Listed(str(numbers.get(each.id.rpartition("/")[2], "")), each) for each in problems]
+    return _document(root, "report.tex.j2", heading, listed)
 
 
 def _listed(problems: Sequence[Rendered]) -> list[Listed]:

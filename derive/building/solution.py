@@ -24,7 +24,7 @@ from derive.course.parts import Question, points_text
 from derive.course.problem import Problem, load_problem, run_solve
 from derive.course.problem_set import problem_set
 from derive.course.prose import PROBLEM
-from derive.course.reference.comparison import comparisons
+from derive.course.reference.comparison import Told, comparisons
 from derive.course.reference.statements import reference_path
 from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
@@ -38,7 +38,7 @@ from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
 from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
 from derive.render.printing.text_page import inline_text
-from derive.render.rendered import Rendered
+from derive.render.rendered import Rendered, SourceFault
 from derive.steps import record
 from derive.steps.derivation import (
     Derivation,
@@ -104,6 +104,7 @@ def rendered(
         steps=len(derivation.steps) + len(values),
         compared=len(solved.compared),
         agreed=not failures,
+        source_faults=_source_faults(solved.compared),
         files=drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else (),
     )
 
@@ -123,6 +124,20 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
         with suppress(ValueError, RecursionError):  # what JSON cannot hold is derived again next time
             cache.keep_data(key, solved.to_data())
     return solved, failures
+
+
+def _source_faults(compared: Iterable[Told]) -> tuple[SourceFault, ...]:
+    """The errata of the source and the remarks on it, in the order of its lines."""
+    found: list[tuple[int, SourceFault]] = []
+    for told in compared:
+        if told.erratum:
+            of = told.erratum
+            printed = of.quote or str(told.facts["states"])
+            found.append((of.line or 0, ("erratum", str(of.line or ""), printed, of.why)))
+        if told.remark:
+            note = told.remark
+            found.append((note.line or 0, ("remark", str(note.line or ""), note.quote, note.why)))
+    return tuple(fault for _, fault in sorted(found, key=lambda each: each[0]))
 
 
 def _check_characters(problem: Problem) -> None:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NoReturn
 from derive import FOLDER
 from derive.building.files import cannot_write, of_system
 from derive.cli.output import check_output, deliver
-from derive.cli.terminal import complain, table, tell
+from derive.cli.terminal import complain, faults_of_source, table, tell
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, did_you_mean
 from derive.render.formats import TYPESET
 
@@ -224,27 +224,24 @@ def _explain(arguments: argparse.Namespace) -> int:
 
 
 def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
-    from tempfile import TemporaryDirectory
-
-    from derive.building.files import shown_path
+    from derive.building.alone import typeset_alone
     from derive.building.sets import set_folder
-    from derive.building.tex import chosen_engine, typeset
-    from derive.building.workers import Job, done
 
-    engine, limit = chosen_engine(arguments.engine), arguments.time_limit
     set_id, _, name = problem_id.partition("/")
     suffix = f"-{arguments.detail}" if arguments.detail else ""
     outputs = set_folder(root, set_id)
-    with _waiting(f"typesetting {problem_id}"), TemporaryDirectory() as folder:
-        target = Path(folder) / f"{name}.pdf"
-        work = partial(typeset, tex, target, engine, timeout=limit, log=outputs / "log", beside=files)
-        done(Job(f"the pages of `{problem_id}`", work, limit + 10))
-        pdf = target.read_bytes()
-    output = arguments.output or str(outputs / f"{name}{suffix}.pdf")
+    with _waiting(f"typesetting {problem_id}"):
+        pdf = typeset_alone(outputs, name, tex, files, arguments.engine, arguments.time_limit)
+    _delivered(pdf, arguments.output or str(outputs / f"{name}{suffix}.pdf"))
+    return 0
+
+
+def _delivered(pdf: bytes, output: str) -> None:
+    from derive.building.files import shown_path
+
     deliver(pdf, output)
     if output != "-":
         print(f"wrote {shown_path(Path(output))}", file=sys.stderr)
-    return 0
 
 
 @contextmanager
@@ -257,6 +254,7 @@ def _waiting(text: str) -> Iterator[None]:
 
 
 def _check(arguments: argparse.Namespace) -> int:
+    from derive.building.alone import reports
     from derive.building.loaded import load
     from derive.building.sets import set_names
     from derive.building.solution import rendered
@@ -268,8 +266,9 @@ def _check(arguments: argparse.Namespace) -> int:
     ids = _selected([_problem_id(name) for name in arguments.ids], problem_ids(root), set_names(root))
     if len(ids) > 1:
         load(root, draws=False)
+    wanted = TYPESET if arguments.report else ()
     jobs = {
-        job_of(root, problem, partial(rendered, root, problem, only=()), arguments.time_limit): problem
+        job_of(root, problem, partial(rendered, root, problem, only=wanted), arguments.time_limit): problem
         for problem in ids
     }
     outcomes: dict[str, Outcome] = {}
@@ -282,7 +281,17 @@ def _check(arguments: argparse.Namespace) -> int:
     ordered = [(problem, outcomes[problem]) for problem in ids]
     heading = ("problem", "steps", *_GRADES, "references", "seconds", "verdict")
     print(table([heading, *(_row(problem, outcome) for problem, outcome in ordered)]), flush=True)
-    return max([0, *(_verdict_code(outcome) for _, outcome in ordered)])
+    solved = {problem: outcome.value for problem, outcome in ordered if not outcome.error}
+    for problem, page in solved.items():
+        if page.source_faults:
+            print(f"\n{faults_of_source(problem, page.source_faults)}", flush=True)
+    code = max([0, *(_verdict_code(outcome) for _, outcome in ordered)])
+    if arguments.report:
+        with _waiting("typesetting the report"):
+            written = reports(root, solved, arguments.engine, arguments.time_limit)
+        for output, pdf in written.items():
+            _delivered(pdf, output)
+    return code
 
 
 def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:

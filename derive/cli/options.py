@@ -65,6 +65,9 @@ def _parser() -> argparse.ArgumentParser:
     explain.add_argument("--format", choices=("text", "json"), default="text")
     check = command("check", "derive problems, verify every line, compare with the reference")
     check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem")
+    check.add_argument(
+        "--report", action="store_true", help="also write build/SET/report.pdf: how each step was checked"
+    )
     build = command("build", "typeset sets of problems; only what changed is done again")
     build.add_argument("sets", nargs="*", metavar="SET|ID", help="default: every set")
     how = build.add_mutually_exclusive_group()
@@ -79,7 +82,7 @@ def _parser() -> argparse.ArgumentParser:
         sub.add_argument(
             "--evidence", choices=EVIDENCE, help="how much to tell of the checks (default: as set.yaml says)"
         )
-    for sub in (solve, build, doctor):
+    for sub in (solve, check, build, doctor):
         sub.add_argument("--engine", metavar="NAME", help="tinytex (default), latexmk, pdflatex, lualatex or tectonic")
     for sub in (solve, explain, check, build):
         sub.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")

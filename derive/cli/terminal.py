@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import sys
+import textwrap
 from collections.abc import Iterable, Sequence
 
 from derive.errors import Complaint
@@ -31,6 +32,25 @@ def tell(text: str) -> None:
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
         print(f"\r\x1b[K{text[:width]}", end="", file=sys.stderr, flush=True)
+
+
+def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
+    """The errata of a problem's source and the remarks on it, each with its line, what is printed there, and why."""
+    sorts = [sort for sort, *_ in faults]
+    words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
+    counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]
+    lines = [f"{problem_id}: {' and '.join(counts)}"]
+    for sort, line, printed, why in faults:
+        where = f"line {line}" if line else "printed"
+        lines.append(f"  {where:9}  {sort:7}  {_shown(printed)}")
+        lines += textwrap.wrap(_shown(why, most=400), 98, initial_indent=" " * 22, subsequent_indent=" " * 22)
+    return "\n".join(lines)
+
+
+def _shown(text: str, most: int = 76) -> str:
+    """Text of a file, in one line and without what a terminal would obey."""
+    plain = " ".join("".join(c if c.isprintable() else " " for c in text.replace("$", "")).split())
+    return plain if len(plain) <= most else f"{plain[: most - 1]}\u2026"
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:

@@ -52,6 +52,7 @@ class Checks:
     agree_to_figures: int
     errata: tuple[Erratum, ...]
     remarks: tuple[Remark, ...] = ()
+    source: str = ""
 
     @property
     def compared(self) -> int:
@@ -108,6 +109,7 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
         agree_to_figures=sum(outcome.startswith("agrees to") for outcome in outcomes),
         errata=tuple(told.erratum for told in compared if told.erratum),
         remarks=tuple(told.remark for told in compared if told.remark),
+        source=next((str(name) for told in compared if (name := told.facts.get("document"))), ""),
     )
 
 

@@ -13,6 +13,7 @@ from typing import Any
 from derive.errors import Complaint, Place
 
 Files = tuple[tuple[str, bytes], ...]
+SourceFault = tuple[str, str, str, str]
 
 
 class Tex(str):
@@ -27,6 +28,7 @@ class Rendered:
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     counts                  the numbers of how it was checked, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
+    source_faults           errata of the source and remarks on it: which of them, line, what is printed, why
     """
 
     id: str
@@ -45,6 +47,7 @@ class Rendered:
     compared: int
     agreed: bool
     files: Files = ()
+    source_faults: tuple[SourceFault, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
         files = [[name, base64.b64encode(content).decode()] for name, content in self.files]
@@ -71,6 +74,7 @@ class Rendered:
                 compared=int(data["compared"]),
                 agreed=data["agreed"] is True,
                 files=tuple((_text(name), base64.b64decode(content)) for name, content in data["files"]),
+                source_faults=tuple(_source_fault(fault) for fault in data["source_faults"]),
             )
         except (KeyError, TypeError, ValueError):
             return None
@@ -80,6 +84,11 @@ def _text(value: Any) -> str:
     if not isinstance(value, str):
         raise TypeError(value)
     return value
+
+
+def _source_fault(value: Any) -> SourceFault:
+    sort, line, printed, why = map(_text, value)
+    return sort, line, printed, why
 
 
 def _counts(value: Any) -> dict[str, int]:

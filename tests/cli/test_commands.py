@@ -167,6 +167,20 @@ def test_check_prints_a_table_and_fails_with_any_problem(course: Course, capfd: 
     assert "warning[unshown]" in err
 
 
+def test_check_lists_the_faults_of_the_source_and_is_content(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    course.problem("two", "slips")
+    assert main(["check", "hw1"]) == 0
+    told = capfd.readouterr().out
+    assert "hw1/two: 1 erratum and 1 remark" in told and "hw1/one:" not in told
+    assert "line 12" in told and "a slip" in told
+
+
+def test_check_writes_the_report_and_says_where(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "hw1", "--report"]) == 0
+    assert "wrote build/hw1/report.pdf" in capfd.readouterr().err
+    assert b"checks of hw1/one" in (course.outputs / "report.pdf").read_bytes()
+
+
 def test_check_takes_problems_and_sets(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "hw1/two"]) == 0
     assert course.derived() == ["hw1/two None"]

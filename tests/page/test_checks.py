@@ -35,7 +35,7 @@ def step(key: str, *claims: str, definition: bool = False) -> Step:
 
 
 def told(outcome: str, erratum: Any = None, remark: Any = None) -> Any:
-    return SimpleNamespace(outcome=outcome, erratum=erratum, remark=remark)
+    return SimpleNamespace(outcome=outcome, erratum=erratum, remark=remark, facts={"document": "old.md"})
 
 
 class OwnWords:
@@ -77,6 +77,7 @@ def test_remarks_are_counted_apart_from_what_was_compared() -> None:
     remark = object()
     checks = counted(compared=[told("remark", remark=remark), told("agrees")])
     assert (checks.remarks, checks.compared, checks.counts()["remarks"]) == ((remark,), 1, 1)
+    assert checks.source == "old.md"
 
 
 def test_nothing_at_all_counts_nothing() -> None:

@@ -38,6 +38,11 @@ class ReportPage:
     def remarks(self) -> Sequence[Remark]:
         return self.document.checks.remarks
 
+    @property
+    def source(self) -> str:
+        """The document whose lines are told."""
+        return self.document.checks.source
+
     def steps(self, row: Row) -> Tex:
         """The steps of a row, each by its symbol and the number of its equation."""
         return Tex(", ".join(self._step(key) for key in row.steps))

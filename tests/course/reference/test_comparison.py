@@ -184,10 +184,12 @@ def test_a_problem_without_references_agrees(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("problem", "count", "errata"),
-    [("euler", 20, 3), ("centred", 93, 1), ("top", 30, 2), ("cone", 39, 1), ("slab", 34, 11)],
+    ("problem", "count", "errata", "remarks"),
+    [("euler", 21, 4, 3), ("centred", 93, 1, 10), ("top", 30, 4, 8), ("cone", 39, 1, 12), ("slab", 34, 11, 13)],
 )
-def test_the_homework_agrees_but_for_its_errata(problem: str, count: int, errata: int, tmp_path: Path) -> None:
+def test_the_homework_agrees_but_for_its_errata(
+    problem: str, count: int, errata: int, remarks: int, tmp_path: Path
+) -> None:
     """The document's own file, with the problems as the tests know them."""
     root = course_in(tmp_path, problem=problem)
     document = (ROOT / "problems" / "hw9" / "reference.yaml").read_text(encoding="utf-8")
@@ -197,9 +199,10 @@ def test_the_homework_agrees_but_for_its_errata(problem: str, count: int, errata
         (root / "problems" / "hw9" / f"{other}.yaml").touch()
     found = json.loads(rendered_once(root, f"hw9/{problem}", only={"json"}).texts["json"])["reference"]
     outcomes = [entry["outcome"] for entry in found]
-    assert (len(found), outcomes.count("erratum")) == (count, errata)
-    assert {outcome.split(" to ")[0] for outcome in outcomes} == {"agrees", "erratum"}
-    assert {entry["grade"] for entry in found} <= {"proved", "approximation"}
+    assert (len(found) - remarks, outcomes.count("erratum"), outcomes.count("remark")) == (count, errata, remarks)
+    assert {outcome.split(" to ")[0] for outcome in outcomes} == {"agrees", "erratum", "remark"}
+    assert {entry["grade"] for entry in found} <= {"proved", "approximation", None}
+    assert all(entry["line"] for entry in found)
 
 
 @pytest.mark.parametrize(

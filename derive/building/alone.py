@@ -1,0 +1,42 @@
+"""Documents typeset apart from a build, which keeps nothing of them: one solution, the reports of what was checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from derive.building.sets import set_folder
+from derive.building.tex import chosen_engine, typeset
+from derive.building.workers import Job, done
+from derive.course.names import REPORT
+from derive.course.problem_set import ProblemSet, problem_set
+from derive.render.rendered import Files, Rendered
+
+
+def typeset_alone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
+    """The PDF of a document; the log of one that fails is kept beside the set's outputs."""
+    with TemporaryDirectory() as folder:
+        target = Path(folder) / f"{name}.pdf"
+        work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", beside=files)
+        done(Job(f"the pages of `{outputs.name}/{name}`", work, limit + 10))
+        return target.read_bytes()
+
+
+def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
+    """The report of each set by its path; of a set of which one problem alone was checked, that of this problem."""
+    from derive.building.set_document import report_document
+
+    found: dict[str, bytes] = {}
+    for set_id in dict.fromkeys(problem.partition("/")[0] for problem in solved):
+        heading: ProblemSet = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
+        listed = [solved[problem] for problem in heading.problems if problem in solved]
+        if not listed:
+            continue
+        alone = len(listed) == 1 < len(heading.problems)
+        name = f"{listed[0].id.rpartition('/')[2]}-{REPORT}" if alone else REPORT
+        outputs = set_folder(root, set_id)
+        tex = report_document(root, heading, listed)
+        found[str(outputs / f"{name}.pdf")] = typeset_alone(outputs, name, tex, (), engine, limit)
+    return found
