@@ -42,6 +42,7 @@ ROUTES = frozenset(
         "given_work",
         "impulses",
         "integration",
+        "known",  # by a derivation of its own
         "law_of_cosines",
         "linearised",
         "mass_points",
