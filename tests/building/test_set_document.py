@@ -13,7 +13,7 @@ from pypdf import PdfReader
 
 from derive.building import tex as engine_runs
 from derive.building.cache import Cache, Kept
-from derive.building.set_document import COUNTED, problem_document, set_document, sheet_document
+from derive.building.set_document import COUNTED, problem_document, report_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
 from derive.course.problem_set import problem_set
@@ -222,6 +222,20 @@ def test_kept_steps_tell_the_same_errata(course: Path, solved: list[Rendered]) -
     kept = Cache(course / "kept")
     assert rendered(course, "hw9/block", None, kept) == solved[1]
     assert rendered(course, "hw9/block", None, kept) == solved[1]
+
+
+def test_the_report_has_a_table_of_each_problem_and_the_errata(course: Path, solved: list[Rendered]) -> None:
+    target = course / "report.pdf"
+    typeset(report_document(course, problem_set(course, "hw9"), solved), target, chosen_engine(None))
+    reader = PdfReader(target)
+    text = squeezed(target)
+    for told in ("Report", "StepWhatitisGradeLinesSecondrouteChecks", "bydefinition", "Errataofthesource", "22for21"):
+        assert told in text, told
+    width = float(reader.pages[0].mediabox.width)
+    ends: list[float] = []
+    for page in reader.pages:
+        page.extract_text(visitor_text=lambda text, _, matrix, *__: ends.append(matrix[4]) if text.strip() else None)
+    assert max(ends) < width - 30, "nothing begins where the sheet ends"
 
 
 # --- the students' sheet ---
