@@ -29,6 +29,7 @@ from derive.page.closing import limiting_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.names import page_names
+from derive.page.repeats import Stated, noted, results
 from derive.page.signs import sign_before
 from derive.page.theorems import Theorems
 from derive.page.wording import (
@@ -206,7 +207,7 @@ class _Writer:
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
-        self.converted: set[Any] = set()
+        self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self._short = shortened(derivation.steps)
@@ -330,10 +331,11 @@ class _Writer:
         nodes = (Chain(),) if goes_on or mode == "hidden" else self._phrase(step)
         blocks.extend(Paragraph(told) for told in self.theorems.before(step))
         self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
-        lines = self._lines(step, mode)
-        if framed and step.grade is Grade.DEFINITION and not lines[-1].reason:
-            lines = (*lines[:-1], replace(lines[-1], reason=(Text(self.words.labels["by_definition"]),)))
-        equations = Equations(step.key, lines, self.numbers[step.key], _results(step, lines) if framed else 0)
+        lines = self.stated.without_repeats(self._lines(step, mode), self.symbols.values())
+        again = self.stated.noted(step.key, lines)
+        lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
+        count = results(step, lines) if framed and not again else 0
+        equations = Equations(step.key, lines, self.numbers[step.key], count)
         before, after = around_chain(nodes)
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
         display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
@@ -412,15 +414,6 @@ class _Writer:
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
         }
         return filled(template, {**self.page_names, **own, **references})
-
-
-def _results(step: Step, lines: Sequence[ChainLine]) -> int:
-    """How many lines at the end are the result: the last one, or its decimals and before them what they are of.
-
-    Where numbers are put in, what they are of is the same formula with units: the decimals alone are the result.
-    """
-    decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
-    return decimals if decimals and step.outcome == "measured" else min(decimals + 1, len(lines))
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

@@ -19,6 +19,7 @@ from sympy.core.symbol import Str
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.direction import Direction
+from derive.algebra.equality import Grade
 from derive.algebra.expressions import AXES, IN_DEGREES, TIME, Amount, explicit, scalar
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import rounded_form
@@ -118,6 +119,12 @@ class Phrases:
 
     def route(self, step: Step, claim: str) -> str:
         return self.routes.get(step.rule, {}).get(claim, "")
+
+    def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
+        """That it is only named, or which equation has it already."""
+        if again is not None:
+            return filled(self.labels["again"], {"ref": Ref(again)})
+        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
         """`1 point`, `2.5 points`; nothing if there are none, but a word for what is asked beyond the homework."""

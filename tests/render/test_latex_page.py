@@ -27,7 +27,7 @@ def fragments(document: Document) -> Fragments:
 
 def chain(tex: str) -> list[str]:
     """The rows of the first display, and what stands between them."""
-    return tex.partition("\\chain{\n")[2].partition("\n}\n")[0].splitlines()
+    return re.split(r"\\chain(?:goeson)?\{\n", tex)[1].partition("\n}\n")[0].splitlines()
 
 
 def solution(document: Document) -> str:

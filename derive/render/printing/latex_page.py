@@ -99,6 +99,11 @@ class _Page:
         """The parts, and behind them the limiting cases."""
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
+    def is_last(self, block: Block) -> bool:
+        """Whether the closing note follows."""
+        last = self.sections()[-1].blocks[-1:]
+        return any(block is each for each in last) and not self.document.note
+
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
 

@@ -1,0 +1,48 @@
+"""What a part asks for is framed in its place: no framed formula repeats one above it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.page.document import Display, Document, document_of
+from derive.page.wording import phrases
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import plain
+from derive.render.printing.lines import printed_lines
+from derive.steps.step import Level
+from tests.courses import ROOT, course_in, solved_once
+
+Formula = tuple[str, str, str]
+
+
+def formulas(document: Document) -> list[tuple[bool, Formula]]:
+    """What stands in displays, and whether it is framed: left side, relation, right side."""
+    found: list[tuple[bool, Formula]] = []
+    for part in document.parts:
+        for display in (block for block in part.blocks if isinstance(block, Display)):
+            for group in display.groups:
+                left = ""
+                for line in printed_lines(group, Notation({}), 1e9):
+                    left = plain(line.left) if line.left is not None else left
+                    within = len(line.sides) - line.framed
+                    sides = enumerate(line.sides)
+                    found += [(i >= within, (left, relation, plain(side))) for i, (relation, side) in sides]
+    return found
+
+
+def repeated(document: Document) -> list[Formula]:
+    """Framed formulas that stand above already, framed or not."""
+    found = formulas(document)
+    return [formula for i, (framed, formula) in enumerate(found) if framed and formula in [f for _, f in found[:i]]]
+
+
+@pytest.mark.parametrize("level", Level)
+@pytest.mark.parametrize("name", ["block", "cone", "euler", "slab", "top"])
+def test_no_framed_formula_repeats_one_above_it(name: str, level: Level, tmp_path: Path) -> None:
+    problem, solved = solved_once(course_in(tmp_path, problem=name), f"hw9/{name}")
+    words = phrases(ROOT / "templates")
+    document, _ = document_of(problem, solved.derivation, solved.values, words, level, drawings=solved.drawings)
+    assert any(framed for framed, _ in formulas(document))
+    assert repeated(document) == []
