@@ -270,8 +270,7 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
-            result=in_body is not None,
-            after=_by_components(momentum, omega) if in_body is None else [],
+            result=in_body is not None,  # else Euler's equations have its components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
             means=motion,
         ),
@@ -289,13 +288,6 @@ def rate_in_space(
         facts=[RateOfMomentum(matter, tuple(moving))],
         key=key,
     )
-
-
-def _by_components(momentum: Quantity, omega: Quantity) -> list[Form]:
-    """The rate by its components, which Euler's equations have once more."""
-    moving = list(omega.coordinates)
-    whole = explicit(BodyRate(momentum.value, *moving)) + explicit(Cross(omega.value, momentum.value))
-    return [Form(whole.applyfunc(lambda entry: by_products(entry.expand(), moving)), "result", Level.FULL)]
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:

@@ -85,7 +85,7 @@ def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
     I = [named.get(axis * 2, inertia.value[k, k]) for k, axis in enumerate(AXES)]
     w = component_names(omega.symbol.name)
     parts = [Factors(Terms(I[k - 1], -I[k - 2]), w[k - 2], w[k - 1]) for k in range(3)]
-    return [Form(column(*parts), "euler", Level.STANDARD)]
+    return [Form(column(*parts), "euler")]
 
 
 def _moments(inertia: Quantity) -> list[Quantity]:
