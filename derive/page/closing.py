@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from sympy import MatrixBase
 
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import Relation
-from derive.course.written import LimitKeys
+from derive.course.problem import Problem
 from derive.page.signs import sign_before
 from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, filled
 from derive.steps.derivation import Derivation
@@ -20,30 +20,39 @@ Nodes = tuple[Inline, ...]
 
 
 def limiting_cases(
+    problem: Problem,
     derivation: Derivation,
-    limits: Sequence[LimitKeys],
     words: Phrases,
     phrase: Callable[[Step], Nodes],
     told: Callable[[Any], Nodes],
+    numbers: Mapping[str, int],
 ) -> Iterator[Step | Nodes]:
     """Steps, which are to be shown as any other, and sentences.
 
     phrase, told   the words of a step, and those of prose, as the page has them
+    numbers        of the equations that the page has by the time they are asked for
     """
     own = {key for keys in derivation.closing for key in keys}
     shown = {key for keys in derivation.parts for key in keys} | own
     yield from (step for step in derivation.steps if step.key not in shown)  # what they alone rest on
-    for keys, given in zip(derivation.closing, limits, strict=True):
+    for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:  # a case in letters that the result no longer has
             continue
         first, *more = (derivation.step(key) for key in keys)
         said = _in_the_line(first, phrase(first))
-        behind = [filled(words.phrase(step), {"known": Ref(step.inputs[-1])}) for step in more]
+        behind = [_agreed(step, derivation, words, numbers) for step in more]
         behind += [told(given.why.pieces)] if given.why else []
         if said is None:
             yield first
         if said is not None or behind:
             yield _with_commas([*([said] if said else []), *behind])
+
+
+def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, int]) -> Nodes:
+    """With what a limit agrees: by the number of its equation, or by its letter where that is not shown."""
+    known = derivation.step(step.inputs[-1])
+    named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
+    return filled(words.phrase(step), {"known": named})
 
 
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:

@@ -295,7 +295,7 @@ class _Writer:
     def _limits(self) -> PartPage | None:
         """The limiting cases at the end; before them what they alone rest on."""
         blocks: list[Block] = []
-        for each in limiting_cases(self.derivation, self.problem.limits, self.words, self._phrase, self._told):
+        for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
                 self._append(blocks, each)
                 self.before = each

@@ -20,16 +20,17 @@ def test_a_number_stands_in_the_line_with_its_sign_and_what_is_added(tmp_path: P
     derivation, *_ = derived(problem)
     found = list(
         limiting_cases(
+            problem,
             derivation,
-            problem.limits,
             WORDS,
             lambda step: (Text(step.outcome), Text(" ")),
             lambda pieces: (Text("why"),),
+            {},
         )
     )
     assert [type(each) for each in found] == [tuple] * 3
     assert found[0] == (Text("finite"), Text(" "), Text(", "), Text("why"), Text("."))
-    whole = list(limiting_cases(derivation, problem.limits, WORDS, told_in_full, lambda pieces: ()))
+    whole = list(limiting_cases(problem, derivation, WORDS, told_in_full, lambda pieces: (), {"alone": 7}))
     assert [str(node.expr) for node in whole[0] if isinstance(node, Math)][-1].startswith("Approach(omega_0")
 
 
@@ -46,7 +47,20 @@ def test_what_is_known_is_named_by_its_number(tmp_path: Path) -> None:
     problem = loaded(tmp_path, known)
     derivation, *_ = derived(problem)
     steps, sentences = [], []
-    for each in limiting_cases(derivation, problem.limits, WORDS, told_in_full, lambda pieces: ()):
+    for each in limiting_cases(problem, derivation, WORDS, told_in_full, lambda pieces: (), {"alone": 7}):
         (steps if isinstance(each, Step) else sentences).append(each)
     assert [step.key for step in steps] == ["alone"], "what only the comparison rests on is told first"
     assert Ref("alone") in sentences[0]
+
+
+def test_what_is_known_but_not_shown_is_named_by_its_letter(tmp_path: Path) -> None:
+    known = edited(
+        CART,
+        ("  gravity: g\n", "  gravity: g\n  results:\n    alone: {value: sqrt(g/l), symbol: Omega}\n"),
+        ("is: sqrt(g/l), ", "known: alone, "),
+    )
+    problem = loaded(tmp_path, known)
+    derivation, *_ = derived(problem)
+    limits = limiting_cases(problem, derivation, WORDS, told_in_full, lambda pieces: (), {})
+    sentence = next(each for each in limits if not isinstance(each, Step))
+    assert Math(derivation.step("alone").symbol) in sentence and Ref("alone") not in sentence
