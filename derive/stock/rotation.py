@@ -398,7 +398,8 @@ def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, obje
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
     elif described.about in ("centre", CENTRE_OF_MASS):
-        drawn_free(answers, "euler_equations" in asked and not (described.rate or described.start or described.torque))
+        turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # as far as what is asked has needed them
+        drawn_free(answers, turns and not (described.rate or described.start or described.torque))
     return found
 
 
