@@ -18,6 +18,7 @@ import pytest
 import derive.mechanics
 import derive.steps.numeric
 from derive.algebra.equality import Compared
+from derive.page.wording import AFTER, AND
 from derive.steps.second_ways import CHECKS, OTHERWISE, ROUTES, is_decided, sort_of
 from derive.steps.step import Quantity
 from tests.courses import ROOT
@@ -347,7 +348,13 @@ def test_no_phrase_is_for_an_outcome_that_cannot_be() -> None:
     possible = {rule: set(outcomes) for rule, outcomes in reached_outcomes().items()}
     for module, rule, call in establishing_calls():
         possible.setdefault(rule, set()).update(written_outcomes(module, call), documented_outcomes(module, call))
-    told = {(rule, word) for rule, phrases in WORDS.rules.items() for key in phrases for word in key.split(" after ")}
+    told = {
+        (rule, word)
+        for rule, phrases in WORDS.rules.items()
+        for key in phrases
+        for word in key.partition(AND)[0].split(AFTER)
+    }
+    told |= {(rule, key) for table in (WORDS.setups, WORDS.clauses) for rule in table for key in table[rule]}
     spare = {(rule, outcome) for rule, outcome in told if outcome not in possible[rule]}
     assert spare == set()
 

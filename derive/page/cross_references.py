@@ -43,6 +43,11 @@ class References:
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 
+    @property
+    def named(self) -> set[str]:
+        """The steps of which prose refers to the equation."""
+        return {mention.name for mention in self.equations}
+
     def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
         """A title is read where there are no numbers: in lists, bookmarks and at the head of pages."""
         for mention in mentions:

@@ -10,11 +10,11 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
-from sympy import Integral, preorder_traversal
+from sympy import preorder_traversal
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Grade
-from derive.algebra.expressions import Amount, Relation
+from derive.algebra.expressions import Amount, rate
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem
@@ -22,28 +22,29 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
-from derive.page.abbreviations import says_again, shortened
+from derive.page.abbreviations import says_again
 from derive.page.assumptions import between_bounds
+from derive.page.chain_lines import ChainWriter, Equations
 from derive.page.checks import Checks, checks_of, second_ways_of
+from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
+from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.repeats import Stated, noted, results
-from derive.page.signs import sign_before
+from derive.page.selection import NOTHING_NEEDED, OWN, TOLD, Needed, Selection, needs_no_words
 from derive.page.theorems import Theorems
 from derive.page.wording import (
     Chain,
     Inline,
     Math,
     Phrases,
-    Ref,
     Text,
     around_chain,
     conversions,
     filled,
     joined,
-    names_asked,
     names_of_step,
     stated_once,
     told,
@@ -51,31 +52,9 @@ from derive.page.wording import (
 )
 from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
-from derive.steps.step import NUMBERS, Form, Level, Step
+from derive.steps.step import NUMBERS, Level, Step
 
 HOMOGENEITY = "look in the script for one quantity given in another's place"
-
-
-@dataclass(frozen=True)
-class ChainLine:
-    """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
-
-    left: Any | None
-    relation: str
-    right: Any
-    reason: tuple[Inline, ...] = ()
-    presented: bool = False
-    numeric: bool = False
-
-
-@dataclass(frozen=True)
-class Equations:
-    """The lines of one step, numbered on the last of them; so many at the end are framed, as what a part asks for."""
-
-    key: str
-    lines: tuple[ChainLine, ...]
-    number: int
-    framed: int = 0
 
 
 @dataclass(frozen=True)
@@ -93,10 +72,13 @@ class Display:
         """How sure the least sure of its steps is."""
         return min(self.grades, key=LEAST_SURE_FIRST.index)
 
-    def with_more(self, other: Display) -> Display:
-        """The lines of both; the margin names the first step's routes."""
+    def with_more(self, other: Display, beside: bool = False) -> Display:
+        """The lines of both, the others beside the last where they fit; the margin names the first step's routes."""
+        groups = (
+            (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
+        )
         routes, checks = (self.routes or other.routes), (self.checks or other.checks)
-        return Display((*self.groups, *other.groups), self.grades | other.grades, routes, checks=checks)
+        return Display(groups, self.grades | other.grades, routes, checks=checks)
 
     @property
     def stops(self) -> tuple[str, ...]:
@@ -177,8 +159,14 @@ def document_of(
 
     `others` are the numbers of the set's problems, to which prose may refer.
     """
-    writer = _Writer(problem, derivation, values, words, level, others or {}, drawings)
-    return writer.document([c for c in compared if c.here], evidence), writer.faults
+    needed = NOTHING_NEEDED
+    while True:
+        writer = _Writer(problem, derivation, values, words, level, others or {}, drawings, needed)
+        document = writer.document([c for c in compared if c.here], evidence)
+        more = needed.with_more(*writer.needs(document))
+        if more == needed:
+            return document, writer.faults
+        needed = more
 
 
 class _Writer:
@@ -193,6 +181,7 @@ class _Writer:
         level: Level,
         others: Mapping[str, int],
         drawings: Sequence[Recorded],
+        needed: Needed,
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
@@ -209,11 +198,16 @@ class _Writer:
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
+        self.following: Step | None = None  # the next one, if one sentence may tell both
+        self.told_before = ""  # the key of the step that was told along with the one before it
+        self.unplaced: set[str] = set()  # steps that are not told yet
         self.symbols = {step.key: step.symbol for step in derivation.steps}
-        self._short = shortened(derivation.steps)
         self.page_names = page_names(problem, derivation, words)
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.asked = {step.key for step in answered}
+        self.selection = Selection(derivation, level, self.asked, problem.show, problem.wording, needed)
+        self.clauses = Clauses(words)
+        self.lines = ChainWriter(derivation, values, words, self.page_names, self.numbers)
 
     def document(self, compared: Sequence[Told], evidence: EvidenceShown) -> Document:
         problem = self.problem
@@ -245,6 +239,17 @@ class _Writer:
             warnings=(*self.derivation.warnings, *letters_not_drawn(problem, self.drawings)),
             evidence=evidence,
         )
+
+    def needs(self, document: Document) -> tuple[set[str], set[str]]:
+        """The steps that are not shown although the page uses their letters, or refers to their equations."""
+        shown = (document.title, document.statement, document.strategy, document.illustrations)
+        whole = (shown, document.parts, document.limits, document.note)
+        moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
+        known = {*self.problem.dimensions, *moving, *(rate(q, order) for q in moving for order in (1, 2))}
+        letters = wanting(whole, {*self.numbers, *self.clauses.told}, self.derivation.steps, known)
+        numbers = (references_in(whole) | self.references.named) & set(self.symbols) - set(self.numbers)
+        could_stand = self.selection.could_stand
+        return set(filter(could_stand, letters)), set(filter(could_stand, numbers))
 
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
@@ -281,10 +286,12 @@ class _Writer:
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
-            self._append(blocks, self.derivation.step(key), framed=key in framed)
+            self.following = self._following(key, self.derivation.parts[index])
+            self._append(blocks, self.selection.step(self.derivation.step(key)), framed=key in framed)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
-            ends[key] = len(blocks)
-        steps = len(blocks)
+            ends |= dict.fromkeys(self._completed(key), len(blocks))
+        blocks.extend([Paragraph(clause)] if (clause := self._clause(blocks)) else [])
+        steps, self.following = len(blocks), None
         values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
         for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
@@ -297,7 +304,7 @@ class _Writer:
         blocks: list[Block] = []
         for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
-                self._append(blocks, each)
+                self._append(blocks, self.selection.step(each))
                 self.before = each
             else:
                 blocks.append(Paragraph(each))
@@ -328,10 +335,14 @@ class _Writer:
         if step.key not in self.asked and (same := says_again(step)) in self.numbers:
             self.numbers[step.key] = self.numbers[str(same)]
             return
-        nodes = (Chain(),) if goes_on or mode == "hidden" else self._phrase(step)
-        blocks.extend(Paragraph(told) for told in self.theorems.before(step))
+        if (manner := self.selection.manner(step.key)) is not OWN:
+            self.clauses.set_aside(step, manner is TOLD)
+            return
+        nodes = (Chain(),) if goes_on or mode == "hidden" or step.key == self.told_before else self._phrase(step)
+        for theorem in self.theorems.before(step):
+            blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *theorem)))
         self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
-        lines = self.stated.without_repeats(self._lines(step, mode), self.symbols.values())
+        lines = self.stated.without_repeats(self.lines.of(step, mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
         count = results(step, lines) if framed and not again else 0
@@ -340,12 +351,42 @@ class _Writer:
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
         display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
         if not before and blocks and isinstance(blocks[-1], Display):
-            blocks[-1] = blocks[-1].with_more(display)
+            beside = self._beside(step, equations) and self._beside(self.before, blocks[-1].groups[-1])
+            blocks[-1] = blocks[-1].with_more(display, beside)
+            if beside:
+                self.numbers[step.key] = blocks[-1].groups[-1].number
         else:
+            before = (*self._clause(blocks), *self.clauses.begun(), *before)
             blocks.extend([Paragraph(before)] if before else [])
             blocks.append(display)
         if after:
-            blocks.append(Paragraph(after))
+            blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
+
+    def _clause(self, blocks: Sequence[Block]) -> tuple[Inline, ...]:
+        """What letters of the lines just shown stand for."""
+        told = self.clauses.behind(blocks[-1]) if blocks and isinstance(blocks[-1], Display) else ()
+        return (*told, Text(" ")) if told else ()
+
+    def _beside(self, step: Step | None, equations: Equations) -> bool:
+        """Whether the only line of a step, a letter and its value, may share its row with another's."""
+        if step is None or self.level is Level.FULL or step.symbol is None or equations.framed:
+            return False
+        return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
+
+    def _following(self, key: str, keys: Sequence[str]) -> Step | None:
+        """The step that is shown next in the part, if one sentence may tell both."""
+        shown = [self.derivation.step(each) for each in keys[keys.index(key) + 1 :] if self.selection.stands(each)]
+        one_sentence = self.level is not Level.FULL and shown and not {key, shown[0].key} & set(self.problem.wording)
+        return shown[0] if one_sentence and needs_no_words(shown[0]) else None
+
+    def _completed(self, key: str) -> set[str]:
+        """The steps whose words and lines are all there now that this one is: those without lines wait for it."""
+        self.unplaced.add(key)
+        if key not in self.numbers:
+            return set()
+        found = {each for each in self.unplaced if self.selection.manner(each) is not TOLD or each in self.clauses.told}
+        self.unplaced -= found
+        return found
 
     def _phrase(self, step: Step) -> tuple[Inline, ...]:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
@@ -355,7 +396,9 @@ class _Writer:
         if prose is not None:
             nodes = self._told(prose.pieces, own)
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
-        return filled(self.words.phrase(step, self.before), own)  # no other step may slip in by its key
+        both = self.words.of_both(step, self.following) if self.following else ""
+        self.told_before = self.following.key if self.following and both else ""
+        return filled(both or self.words.phrase(step, self.before), own)  # no other step may slip in by its key
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """The numbers that a step puts in for the first time, in the units in which it does."""
@@ -363,69 +406,27 @@ class _Writer:
         new, self.converted = used - self.converted, self.converted | used
         return joined(conversions(self.problem, new), self.words.labels["and"])
 
-    def _lines(self, step: Step, mode: str) -> tuple[ChainLine, ...]:
-        level = Level.FULL if mode == "full" else self.level
-        forms = [form for form in step.chain if level.shows(form.level) and form.expr != step.symbol]
-        if mode in ("result", "hidden"):
-            forms = [step.chain[-1]]
-        forms += self._decimals(step)
-        before = [None, *(form.because for form in forms)]
-        forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
-        lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
-        return tuple(lines)
-
-    def _decimals(self, step: Step) -> list[Form]:
-        """The decimals of an answer without letters go on its own lines."""
-        value = self.values.get(step.key)
-        exact = value is not None and value.outcome == "exact"
-        return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []
-
-    def _line(self, step: Step, form: Form, before: str | None) -> ChainLine:
-        stands_alone = before is None and not isinstance(form.expr, Relation)
-        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
-        reason = self._reason(step, form, template)
-        numeric = form.because in NUMBERS
-        if isinstance(form.expr, Relation) and numeric and before is not None:
-            return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True)
-        if isinstance(form.expr, Relation):
-            return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason, numeric=numeric)
-        return ChainLine(
-            left=step.symbol if before is None else None,
-            relation=sign_before(form),
-            right=form.expr,
-            reason=reason,
-            presented=form.because == "result",
-            numeric=numeric,
-        )
-
-    def _reason(self, step: Step, form: Form, template: str) -> tuple[Inline, ...]:
-        if not template:
-            return ()
-        direct = [None, *(symbol for _, symbol in step.roles)]
-        near = [key for key in step.inputs if self.symbols.get(key) in direct]
-        keys = sorted(self.numbers.keys() & set(near), key=self.numbers.__getitem__)
-        found = {"refs": keys, "equations": [key for key in keys if self.symbols[key] is None]}
-        if any(not found[name] for name in names_asked(template) & found.keys()):
-            return ()
-        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
-        inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
-        own |= {"variable": Math(inner[0])} if inner else {}
-        references = {
-            name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
-        }
-        return filled(template, {**self.page_names, **own, **references})
-
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:
     """A display ends with a comma where the sentence goes on after it."""
     result: list[Block] = []
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
-        if isinstance(block, Display) and isinstance(following, Paragraph):
-            first = following.nodes[0]
-            if isinstance(first, Text) and first.text.lstrip()[:1].islower():
-                block = replace(block, end=",")
+        if isinstance(block, Display) and following is not None and _goes_on(following):
+            block = replace(block, end=",")
         result.append(block)
     return tuple(result)
+
+
+def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
+    """Whether a drawing may stand before this block: not between words and the lines that they introduce or explain."""
+    introduced = i > 0 and isinstance(blocks[i - 1], Paragraph) and isinstance(blocks[i], Display)
+    return not introduced and not (i > 0 and _goes_on(blocks[i]))
+
+
+def _goes_on(block: Block) -> bool:
+    """Whether the sentence of the lines before it goes on in it."""
+    first = block.nodes[0] if isinstance(block, Paragraph) else None
+    return isinstance(first, Text) and first.text.lstrip()[:1].islower()
 
 
 def _illustrated(
@@ -433,7 +434,10 @@ def _illustrated(
 ) -> tuple[Block, ...]:
     """Each drawing after the step that completes it; one that rests on nothing opens the part, others close it."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
-    places = [max((ends[k] for k in d.rests_on if k in ends), default=n) for d, n in zip(own, without, strict=True)]
+    completed = [max((ends[k] for k in d.rests_on if k in ends), default=n) for d, n in zip(own, without, strict=True)]
+    places = [
+        next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i)) for place in completed
+    ]
     found: list[Block] = []
     for i, block in enumerate(blocks):
         found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]

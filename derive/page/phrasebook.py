@@ -21,6 +21,8 @@ _SHAPE: dict[str, Any] = {
     "routes": {_ANY: _TABLE},
     "reasons": {_ANY: _TABLE},
     "theorems": _TABLE,
+    "setups": {_ANY: _TABLE},
+    "clauses": {_ANY: _TABLE},
     "terms": _TABLE,
     "drawings": _TABLE,
     "grades": _TABLE,

@@ -80,6 +80,7 @@ class Chain:
     """Where the lines of the step go."""
 
 
+AND = " and "  # between the outcome that a phrase is for and the rule of the step that it tells as well
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
 ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen"}  # words by which a phrase chooses
@@ -97,6 +98,8 @@ class Phrases:
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
     theorems: Mapping[str, str]
+    setups: Mapping[str, Mapping[str, str]]
+    clauses: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]
     drawings: Mapping[str, str]
     grades: Mapping[str, str]
@@ -111,6 +114,14 @@ class Phrases:
             message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
             raise Rejected(Complaint("no-phrase", message, Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)))
         return phrase
+
+    def of_both(self, step: Step, following: Step) -> str:
+        """The sentence of a step and the one after it together, if there is one."""
+        return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
+
+    def setup(self, step: Step) -> str:
+        """What of its sentence is said although its lines are not shown: the axes, the coordinates."""
+        return self.setups.get(step.rule, {}).get(step.outcome, "")
 
     def reason(self, step: Step, because: str, before: str) -> str:
         """Why a line follows from the line shown before it; a reason may hold only after a certain line."""
@@ -365,7 +376,7 @@ def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> li
             faults.append(Complaint("unknown-key", message, place, help=did_you_mean(key, here)))
     for key, outcome in [(key, outcome) for key, told_of in problem.wording.items() for outcome in told_of]:
         phrases_of = words.rules.get(here[key].rule, {}) if key in here else {}
-        outcomes = [name for name in phrases_of if AFTER not in name]
+        outcomes = [name for name in phrases_of if AFTER not in name and AND not in name]
         if outcome != ANY_OUTCOME and outcomes and outcome not in outcomes:
             message, place = f"the step `{key}` has no outcome `{outcome}`", problem.place_of("wording", key, outcome)
             help_line = did_you_mean(outcome, outcomes) or "they are " + ", ".join(f"`{each}`" for each in outcomes)

@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Symbol, symbols
 
-from derive.page.document import ChainLine
+from derive.page.chain_lines import ChainLine
 from derive.page.repeats import Stated, noted, results
 from derive.page.wording import Text
 

@@ -9,12 +9,11 @@ from sympy import Symbol
 
 from derive.algebra.equality import Grade
 from derive.course.placement import STATEMENT
+from derive.page.chain_lines import ChainLine, Equations
 from derive.page.checks import Checks
 from derive.page.document import (
-    ChainLine,
     Display,
     Document,
-    Equations,
     Illustration,
     Paragraph,
     PartPage,

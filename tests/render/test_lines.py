@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Symbol, sin, symbols
 
 from derive.algebra.expressions import Relation
-from derive.page.document import ChainLine, Equations
+from derive.page.chain_lines import ChainLine, Equations
 from derive.page.wording import Text
 from derive.render.notation.notation import Notation
 from derive.render.printing.lines import printed_lines

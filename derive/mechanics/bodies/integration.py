@@ -289,5 +289,5 @@ def _mass_collected(region: Region, integrand: Expr, sign: int, rho: Expr, volum
     number_part = [number] if number != 1 else []
     return [
         *([Form(rho * value, "added", Level.FULL)] if is_sum else []),
-        Form(Factors(*number_part, Group(volume * rho), rest), "mass_collected", Level.STANDARD),
+        Form(Factors(*number_part, Group(volume * rho), rest), "mass_collected", Level.FULL),
     ]

@@ -87,6 +87,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         lambda v, b: Relation(v, mark, b),
         {"quantity": of, "bound": bound},
         lines=Lines(
+            law=Level.FULL,
             put_in=Level.STANDARD,
             after=_in_steps(difference, result, excluded),
             result=False,
@@ -181,7 +182,8 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
         lambda v: Relation(v, "=", 0),
         {"force": force},
         lines=Lines(
-            put_in=Level.STANDARD,
+            law=Level.STANDARD,
+            put_in=Level.FULL,
             after=[Form(result, "solved", nonzero=(*_divided_out(value, unknown, solved), *Mul.make_args(held)))],
             result=False,
             arranged=lambda _: result,

@@ -19,7 +19,7 @@ from derive.mechanics.equations.conditions import where
 from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, may_vanish
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.step import Fact, Quantity, compared_with, is_zero
+from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
 __all__ = ["discriminant", "real_where", "roots_together"]
@@ -160,7 +160,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
             formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
             stands_for=keys if linear else (),
         ),
-        lines=Lines(arranged=lambda found: tidied(found) if linear else _arranged(here, found)),
+        lines=Lines(put_in=Level.FULL, arranged=lambda found: tidied(found) if linear else _arranged(here, found)),
         key=key,
         facts=[of],
         kind=kind_of_unknown(x, coordinates_of(equation)),
@@ -317,6 +317,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
         scalar(symbol),
         lambda *those: of.with_those(of.general.of_terms, those),
         of.roles,
+        lines=Lines(put_in=Level.FULL),
         routes={"resultant": otherwise},
         outcome="linear" if here.is_linear else lambda found: SIGNS[sign_known(found)],
         key=key,

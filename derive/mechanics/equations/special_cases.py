@@ -36,14 +36,14 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     common = common_factor([moments.value[one], moments.value[other]])
     plain = common.as_independent(unknown, *_lengths_in(difference), as_Add=False)[0]
     sides = [expand(moments.value[k] / _letters_only(plain)) for k in (one, other)]
-    squared = [Form(Relation(unknown**2, "=", tidied(bound**2)), "solved", Level.STANDARD)] if power == 2 else []
+    squared = [Form(Relation(unknown**2, "=", tidied(bound**2)), "solved", Level.FULL)] if power == 2 else []
     return establish(
         "principal.isotropic_where",
         None,
         lambda found: Relation(found[one], "=", found[other]),
         {"moments": moments},
         lines=Lines(
-            between=[Form(Relation(sides[0], "=", sides[1]), "divided", Level.STANDARD), *squared],
+            between=[Form(Relation(sides[0], "=", sides[1]), "divided", Level.FULL), *squared],
             after=[Form(Relation(unknown, "=", bound), "positive")],
             result=False,
             arranged=lambda _: Relation(unknown, "=", bound),

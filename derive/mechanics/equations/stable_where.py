@@ -16,7 +16,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.inequalities import TRUE_FOR, sign_by_factors
 from derive.steps.establish import Lines, Telling, establish
-from derive.steps.step import Fact, Form, Quantity
+from derive.steps.step import Fact, Form, Level, Quantity
 
 __all__ = ["stable_where"]
 
@@ -82,7 +82,9 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         None,
         lambda _: squared,
         {"stability": of},
-        lines=Lines(put_in=None, arranged=lambda _: result, after=[Form(result, "solved")], result=False),
+        lines=Lines(
+            law=Level.STANDARD, put_in=None, arranged=lambda _: result, after=[Form(result, "solved")], result=False
+        ),
         routes={"beside": beside, "energies": lambda found: _by_energies(found, known, border)},
         outcome="open" if known.stable_there is None else "with_border" if known.stable_there else "without_border",
         telling=Telling(

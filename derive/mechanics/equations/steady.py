@@ -36,7 +36,7 @@ from derive.mechanics.systems.lagrangian import coordinates_of
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero, require_kind
 
 __all__ = ["frequency_squared_about", "steady_motion"]
 
@@ -125,7 +125,7 @@ def _of_equation(
         None,
         lambda *_: Relation(bound(equation.value.left, still), "=", 0),
         {"equation": equation, "coordinate": q.symbol},
-        lines=Lines(put_in=None, arranged=lambda _: Relation(core, "=", 0)),
+        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda _: Relation(core, "=", 0)),
         routes=matter.named(
             {"carried_along": compared_with(lambda: Relation(_left_along(matter, steady, q.symbol), "=", 0))}
         ),

@@ -76,7 +76,7 @@ def put_in(
         lambda *_: value,
         {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},
         lines=Lines(
-            law=Level.STANDARD if again is None else Level.FULL,
+            law=Level.FULL,
             put_in=None,
             arranged=lambda _: result,
             means={} if name is None or isinstance(name, Symbol | MatrixSymbol) else meaning(name, result),

@@ -67,6 +67,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
         outcome="moved" if any(square != 0 for square in away) else "alone" if len(held) == 1 else "on_axis",
         kind="moment of inertia",
         key=key,
+        lines=Lines(put_in=Level.FULL),
         parents=[*own.values(), *body.shares],
         telling=Telling(words={"about": point.name, "axis": axis}),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis), differ=OF_PARTS),

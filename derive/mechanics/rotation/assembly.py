@@ -332,7 +332,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
         parents=[*body.shares, *centre],
         routes={"particles": lambda found: _about_any_axis(found, seen_particles(body, point))},
         outcome=shape_of,
-        lines=Lines(put_in=Level.STANDARD if not extended else Level.FULL),
+        lines=Lines(put_in=Level.FULL),
         facts=[OfBody(body), AboutPoint(point)],
         telling=Telling(words={"about": _told(point)}),
         scope=Scope(about=Subject(body=body, point=point), differ=EVERYTHING_BUT_ROTATION),

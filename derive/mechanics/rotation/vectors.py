@@ -252,7 +252,7 @@ def kinetic_energy(
         lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
         {"omega": omega, "inertia": inertia},
         lines=Lines(
-            between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.STANDARD)],
+            between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.FULL)],
             put_in=Level.FULL,
         ),
         routes={"speeds": compared_with(by_speeds)},

@@ -239,10 +239,17 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
         kind="energy",
         parents=[*system.put_in, *_behind(system)],
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
-        lines=Lines(put_in=Level.STANDARD if turnings else None, arranged=arranged),
+        lines=Lines(put_in=_level_of_values(turnings), arranged=arranged),
         facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
+
+
+def _level_of_values(turnings: list[Turning]) -> Level | None:
+    """Where the values are put in: (1/2) M v^2 + (1/2) I theta_dot^2 is read easily, columns and matrices are not."""
+    if not turnings:
+        return None
+    return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
 
 
 def _behind(system: System) -> list[Quantity]:

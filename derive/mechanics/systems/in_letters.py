@@ -102,6 +102,6 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
         kind="length",
         key="centre_distance",
         telling=Telling(words={"about": point.name}),
-        lines=Lines(put_in=Level.STANDARD if mass is not None else None),
+        lines=Lines(put_in=Level.FULL if mass is not None else None),
         scope=Scope(about=Subject(body=body, point=point)),
     )

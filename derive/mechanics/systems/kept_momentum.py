@@ -71,7 +71,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
             put_in=None,
             result=False,
             arranged=lambda _: found,
-            law=Level.STANDARD,
+            law=Level.FULL,
             after=[Form(found, "divided", nonzero=(common,))],
         ),
         routes=matter.named({"along_the_motion": along_the_motion}),

@@ -218,6 +218,7 @@ def _solved(
         lambda: Relation(by_rates(condition.left, moving), "=", ZERO),
         {},
         lines=Lines(
+            law=Level.FULL,
             put_in=None,
             result=False,
             after=[Form(solved, "result", Level.BRIEF, factors)],

@@ -58,6 +58,7 @@ TEX_OPERATORS = {
     "start": "",
     "on": r"\qquad ",
     "stroke": "/",
+    "next": r",\qquad ",
 }
 BETWEEN_TERMS = {
     Operator(kind)

@@ -71,6 +71,7 @@ TEXT_OPERATORS = {
     "close": ")",
     "start": "",
     "on": "    ",
+    "next": ",   ",
 }
 LEADING_SIGNS: dict[Layout, str] = {Operator("minus"): "-", Operator("plus_minus"): "±"}  # where a sum begins
 UNITS = {DEGREE_SIGN.text: "°", "partial": "∂"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from derive.page.document import Equations
+from derive.page.chain_lines import Equations
 from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken, terms_of
 from derive.render.notation.layout import Layout, width
@@ -14,6 +14,7 @@ from derive.render.notation.text import plain
 
 LINE_WIDTH, TEXT_WIDTH = 74.0, 60.0  # of a line on paper, and of one on a screen
 LINE_INDENT = 4.0  # of a line that goes on
+GAP = 5.0  # between two equations on one row
 MOST_SIDES = 4  # of one line
 
 
@@ -55,6 +56,9 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         left = notation.side(line.left) if line.left is not None else None
         goes_on = left is None or left == begun and line.relation == "equals"
         begun = begun if left is None else left
+        if last and left is not None and line.beside and _has_room(last, left, side[1], line.reason, limit):
+            packed[-1] = replace(last, sides=(*last.sides, ("next", left), side), reason=line.reason)
+            continue
         if last and not goes_on:
             packed.append(Printed(left, (side,), line.reason, framed=framed))
             continue
@@ -71,6 +75,11 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
+
+
+def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
+    """Whether another equation fits on the row, with a gap before it."""
+    return last.width + GAP + width(left) + 2 + width(right) + reason_width(reason) <= limit
 
 
 def _alike(first: Layout, second: Layout) -> bool:

@@ -1,0 +1,122 @@
+"""The lines of a step as a page has them: each side as it is written, and the reason beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from sympy import Integral
+
+from derive.algebra.expressions import Relation
+from derive.page.abbreviations import shortened
+from derive.page.signs import sign_before
+from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, names_asked
+from derive.steps.derivation import Derivation
+from derive.steps.step import NUMBERS, Form, Step
+
+
+@dataclass(frozen=True)
+class ChainLine:
+    """`left relation right`, with the reason beside it; a continued line has no left side, unless it is a relation."""
+
+    left: Any | None
+    relation: str
+    right: Any
+    reason: tuple[Inline, ...] = ()
+    presented: bool = False
+    numeric: bool = False
+    beside: bool = False  # whether it may begin on the row of the line before it
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The lines of one step, numbered on the last of them; so many at the end are framed, as what a part asks for."""
+
+    key: str
+    lines: tuple[ChainLine, ...]
+    number: int
+    framed: int = 0
+
+    def beside(self, other: Equations) -> Equations:
+        """Both, with one number, in one row if there is room."""
+        first, *others = other.lines
+        return replace(self, lines=(*self.lines, replace(first, beside=True), *others))
+
+
+class ChainWriter:
+    """Writes the lines of each step of a page.
+
+    names    what prose may name on this page
+    numbers  the equations that have a number so far
+    """
+
+    def __init__(
+        self,
+        derivation: Derivation,
+        values: Mapping[str, Step],
+        words: Phrases,
+        names: Mapping[str, Any],
+        numbers: Mapping[str, int],
+    ):
+        self.values, self.words, self.names, self.numbers = values, words, names, numbers
+        self.symbols = {step.key: step.symbol for step in derivation.steps}
+        self._short = shortened(derivation.steps)
+
+    def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
+        """Those of the chain of a step, or only its result."""
+        forms = [form for form in step.chain if form.expr != step.symbol]
+        if mode in ("result", "hidden"):
+            forms = [step.chain[-1]]
+        forms += self._decimals(step)
+        before = [None, *(form.because for form in forms)]
+        forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
+        lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
+        return tuple(lines)
+
+    def _decimals(self, step: Step) -> list[Form]:
+        """The decimals of an answer without letters go on its own lines."""
+        value = self.values.get(step.key)
+        exact = value is not None and value.outcome == "exact"
+        return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []
+
+    def _line(self, step: Step, form: Form, before: str | None) -> ChainLine:
+        stands_alone = before is None and not isinstance(form.expr, Relation)
+        template = "" if stands_alone else self.words.reason(step, form.because, before or "")
+        reason = self._reason(step, form, template)
+        numeric = form.because in NUMBERS
+        if isinstance(form.expr, Relation) and numeric and before is not None:
+            return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True)
+        if isinstance(form.expr, Relation):
+            return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason, numeric=numeric)
+        return ChainLine(
+            left=step.symbol if before is None else None,
+            relation=sign_before(form),
+            right=form.expr,
+            reason=reason,
+            presented=form.because == "result",
+            numeric=numeric,
+        )
+
+    def _reason(self, step: Step, form: Form, template: str) -> tuple[Inline, ...]:
+        if not template:
+            return ()
+        direct = [None, *(symbol for _, symbol in step.roles)]
+        near = [key for key in step.inputs if self.symbols.get(key) in direct]
+        keys = sorted(self.numbers.keys() & set(near), key=self.numbers.__getitem__)
+        found = {"refs": keys, "equations": [key for key in keys if self.symbols[key] is None]}
+        if any(not found[name] for name in names_asked(template) & found.keys()):
+            return ()
+        own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
+        inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
+        own |= {"variable": Math(inner[0])} if inner else {}
+        alike = {number: key for key, number in reversed(list(self.numbers.items()))}  # in one row they have one number
+        found = {name: [key for key in keys if alike[self.numbers[key]] == key] for name, keys in found.items()}
+        references = {
+            name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
+        }
+        return filled(template, {**self.names, **own, **references})
+
+
+def _sign_before(form: Form) -> str:
+    return "approx" if form.because in {"rounded", "series"} else "equals"

@@ -1,0 +1,77 @@
+"""What the lines and sentences of a page use, and what they have introduced: no letter comes from nowhere."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Set
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from sympy import Basic, Integer, MatrixBase, MatrixSymbol, Pow, Symbol, preorder_traversal
+
+from derive.algebra.expressions import component_names
+from derive.algebra.mass_integral import MassIntegral
+from derive.page.wording import Ref
+from derive.steps.step import Step
+
+
+def letters_of(symbol: Any) -> set[Any]:
+    """The letters that a step brings in: its symbol, of a vector also the components."""
+    if isinstance(symbol, MatrixSymbol):
+        return {symbol, *(component_names(symbol.name) if symbol.shape == (3, 1) else ())}
+    if isinstance(symbol, MatrixBase):
+        return {each for each in symbol if isinstance(each, Symbol)}
+    if isinstance(symbol, Pow) and symbol.exp == Integer(2):
+        return letters_of(symbol.base)
+    return {symbol} if isinstance(symbol, Symbol) else set()
+
+
+def letters_in(exprs: Iterable[Any]) -> set[Any]:
+    """Every letter that occurs in them."""
+    return {part for expr in exprs for part in _seen(expr) if isinstance(part, Symbol | MatrixSymbol)}
+
+
+def _seen(expr: Any) -> Iterator[Any]:
+    """Its parts as they are written: of an integral over the mass, what is under the sign, and not what is in dm."""
+    parts = preorder_traversal(expr)
+    for part in parts:
+        yield part
+        if isinstance(part, MassIntegral):
+            parts.skip()
+            yield from preorder_traversal(part.args[0])
+
+
+def expressions_in(shown: Any) -> Iterator[Any]:
+    """The expressions in a piece of a page: of its lines, its sentences, its drawings."""
+    return (each for each in _leaves(shown) if isinstance(each, Basic | MatrixBase))
+
+
+def references_in(shown: Any) -> set[str]:
+    """The steps whose numbers it refers to."""
+    return {each.key for each in _leaves(shown) if isinstance(each, Ref)}
+
+
+def _leaves(shown: Any) -> Iterator[Any]:
+    waiting = [shown]
+    while waiting:
+        each = waiting.pop()
+        if isinstance(each, Ref | Basic | MatrixBase):
+            yield each
+        elif isinstance(each, tuple | list):
+            waiting += each
+        elif is_dataclass(each):
+            waiting += [getattr(each, field.name) for field in fields(each)]
+
+
+def wanting(shown: Any, told: Set[str], steps: Iterable[Step], known: Collection[Any]) -> set[str]:
+    """The steps that would introduce what is used but not introduced.
+
+    shown   what the page shows
+    told    the keys of the steps that it tells
+    known   letters of what is given, and coordinates
+    """
+    sources: dict[Any, list[str]] = {}
+    for step in steps:
+        for letter in letters_of(step.symbol) - set(known):
+            sources.setdefault(letter, []).append(step.key)
+    used = letters_in(expressions_in(shown)) & sources.keys()
+    return {sources[letter][0] for letter in used if not told & set(sources[letter])}

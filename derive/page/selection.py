@@ -1,0 +1,214 @@
+"""What a level shows: which steps stand on their own, which a step that uses them tells or takes in, which lines stay.
+
+    brief      the set-up, the law, the law with values put in, the result
+    standard   what a good teacher writes; algebra that one does in the head is left out
+    full       every line of every step
+
+The rules are those of the table below, by the kind of step, and hold for every problem. What a part asks for, what an
+instructor has words for or refers to by its number, stands on its own at every level; so does a step of which a line
+that is shown needs the letter or the number (`Needed`), so that a page never uses what it has not introduced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+from sympy import MatrixBase, preorder_traversal
+
+from derive.algebra.expressions import Relation, rate
+from derive.steps.condensed import condensed
+from derive.steps.derivation import Derivation
+from derive.steps.step import Form, Level, Step
+
+
+class Manner(StrEnum):
+    """How a step stands on a page."""
+
+    OWN = "own"  # with its sentence and its lines
+    TOLD = "told"  # in a clause behind the first lines that have its letter: "where rho = M/V"
+    TAKEN_IN = "taken_in"  # by the step that uses it, which has its value in place of its letter
+    LEFT_OUT = "left_out"
+
+
+OWN, TOLD, TAKEN_IN, LEFT_OUT = Manner
+LESS = {TAKEN_IN: TOLD, TOLD: OWN, LEFT_OUT: OWN, OWN: OWN}  # what becomes of a step whose letter is needed after all
+
+# rule, or rule:outcome -> the manner at `brief` and at `standard`
+MANNERS: Mapping[str, tuple[Manner, Manner]] = {
+    # The density has the letter under the integrals; the volume only gives the density.
+    "bodies.density": (TOLD, TOLD),
+    "bodies.volume": (TAKEN_IN, TAKEN_IN),
+    "general.size_by_integration": (TAKEN_IN, OWN),
+    "bodies.section_radius": (TOLD, TOLD),
+    "assembly.total_mass": (TOLD, TOLD),
+    "in_letters.centre_distance": (TOLD, OWN),
+    # Entries that were just listed are the tensor, and the one coordinate that was integrated is the centre.
+    "inertia.inertia_tensor": (LEFT_OUT, LEFT_OUT),
+    "inertia.moved_to": (LEFT_OUT, LEFT_OUT),
+    "bodies.centre_of_mass": (LEFT_OUT, LEFT_OUT),
+    # The moments of the parts of a body.
+    "inertia.moment_of_inertia": (TOLD, OWN),
+    "assembly.own_moment:flat": (TOLD, OWN),
+    "assembly.own_moment:none": (TOLD, TOLD),
+    # What is under the integrals of the entries; what the sentence of a sum says that it multiplies.
+    "inertia.definition": (LEFT_OUT, OWN),
+    "conservation.product": (LEFT_OUT, LEFT_OUT),
+    # A direction, an angle, a number that the next line uses.
+    "bodies.axis_vector": (TAKEN_IN, TAKEN_IN),
+    "equations.let": (TOLD, TOLD),
+    "oscillations.frequency_squared": (TAKEN_IN, TAKEN_IN),
+    # Squares of speeds go into the kinetic energy.
+    "systems.squared_speed": (TAKEN_IN, OWN),
+    # What Lagrange's equation differentiates.
+    "lagrangian.generalized_force": (LEFT_OUT, OWN),
+    "lagrangian.generalized_momentum": (LEFT_OUT, LEFT_OUT),
+    "lagrangian.momentum_rate": (LEFT_OUT, OWN),
+    "canonical.rate_by_momenta": (LEFT_OUT, OWN),
+    "kept.constraint_rate": (LEFT_OUT, OWN),
+    # The slope and the curvature in general, where the curvature at a place is what counts.
+    "potentials.slope": (LEFT_OUT, OWN),
+}
+TOLD_ALONG = {"generic", "curvature"}  # outcomes of which the sentence of the step before may tell
+# Steps of which a second one of the same form only repeats the law, so that its result is enough.
+LAW_ONCE = {"lagrangian.equation_of_motion", "forced.equation_of_motion"}
+RESULTS_ONLY = {*LAW_ONCE, "inertia.entry", "inertia.entry_moved"}  # at `brief`
+# Of several coordinates the first is worked out, the others are alike.
+FIRST_ONLY = {"lagrangian.generalized_force", "lagrangian.momentum_rate"}
+# Left out at `standard` too, where they are long.
+LEFT_OUT_IF_LONG = {"kept.constraint_rate"}
+LONGEST_CLAUSE = 24  # nodes of a value that is still told within a sentence
+
+
+@dataclass(frozen=True)
+class Needed:
+    """Steps that the page turned out to need: for their letter, or for the number of their equation."""
+
+    letters: Mapping[str, int]  # key -> how often it was asked for
+    numbers: frozenset[str] = frozenset()
+
+    def with_more(self, letters: Iterable[str], numbers: Iterable[str]) -> Needed:
+        counts = dict(self.letters)
+        for key in letters:
+            counts[key] = counts.get(key, 0) + 1
+        return Needed(counts, self.numbers | frozenset(numbers))
+
+
+NOTHING_NEEDED = Needed({})
+
+
+class Selection:
+    """The steps of a derivation as a page of this level shows them.
+
+    asked   keys of the answers
+    shown   what the problem's `show:` says, by key
+    worded  keys of the steps for which the problem has words of its own
+    """
+
+    def __init__(
+        self,
+        derivation: Derivation,
+        level: Level,
+        asked: Collection[str],
+        shown: Mapping[str, str],
+        worded: Collection[str] = (),
+        needed: Needed = NOTHING_NEEDED,
+    ):
+        self.level, self.asked, self.shown, self.worded, self.needed = level, asked, shown, worded, needed
+        self._manners: dict[str, Manner] = {}
+        for step in derivation.steps:
+            rules = {other.rule for other in derivation.steps if self._manners.get(other.key) is OWN}
+            self._manners[step.key] = self._manner(step, repeats=step.rule in rules)
+        self._steps = self._as_shown(derivation)
+
+    def manner(self, key: str) -> Manner:
+        return self._manners.get(key, OWN)
+
+    def step(self, step: Step) -> Step:
+        """The step with the lines that are shown."""
+        return self._steps.get(step.key, step)
+
+    def stands(self, key: str) -> bool:
+        return self.manner(key) is OWN and self.shown.get(key) != "hidden"
+
+    def could_stand(self, key: str) -> bool:
+        """Whether it is the level that keeps it from standing on its own, and not the instructor."""
+        return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
+
+    def _manner(self, step: Step, repeats: bool) -> Manner:
+        if self.level is Level.FULL or step.key in self.asked or step.key in self.worded or step.key in self.shown:
+            return OWN
+        manners = MANNERS.get(f"{step.rule}:{step.outcome}", MANNERS.get(step.rule))
+        if step.key in self.needed.numbers or manners is None:
+            return OWN
+        brief, standard = manners
+        manner = brief if self.level is Level.BRIEF else standard
+        is_long = step.rule in LEFT_OUT_IF_LONG and _length(step.result) > LONGEST_CLAUSE
+        if is_long or repeats and step.rule in FIRST_ONLY:
+            manner = LEFT_OUT
+        if step.rule == "systems.squared_speed" and _is_plain(step):
+            manner = TAKEN_IN
+        for _ in range(self.needed.letters.get(step.key, 0)):
+            manner = LESS[manner]
+        return OWN if manner is TOLD and not _is_short(step) else manner
+
+    def _as_shown(self, derivation: Derivation) -> dict[str, Step]:
+        found: dict[str, Step] = {}
+        known: dict[Any, Any] = {}
+        seen: set[tuple[str, tuple[str, ...]]] = set()
+        before: Step | None = None
+        for step in derivation.steps:
+            used = {name: value for name, value in known.items() if name in dict(step.names)}
+            whole = condensed(step, used)
+            manner = self._manners[step.key]
+            if manner is TAKEN_IN:
+                known[step.symbol] = step.result
+            form = (step.rule, tuple(form.because for form in step.chain))
+            in_turn = before is not None and (before.rule, before.outcome) == (step.rule, step.outcome)
+            chain = self._lines(whole, repeats=form in seen, in_turn=in_turn)
+            found[step.key] = replace(whole, chain=chain)
+            if manner is OWN:
+                seen.add(form)
+                before = step
+        return found
+
+    def _lines(self, step: Step, repeats: bool, in_turn: bool) -> tuple[Form, ...]:
+        """The lines of the level; of steps of one form the first is shown as the level has it, the others briefly.
+
+        Those that follow it at once have the same sentence, and need their law even less.
+        """
+        if self.level is Level.FULL or self.shown.get(step.key) == "full":
+            return step.chain
+        if repeats and in_turn and step.rule in (RESULTS_ONLY if self.level is Level.BRIEF else LAW_ONCE):
+            return step.chain[-1:]
+        level = Level.BRIEF if repeats else self.level
+        return tuple(form for form in step.chain[:-1] if level.shows(form.level)) + step.chain[-1:]
+
+
+def needs_no_words(step: Step) -> bool:
+    """Whether the sentence before it may tell it along: it has no condition to tell."""
+    return step.outcome in TOLD_ALONG and dict(step.words).get("seen", "any") == "any"
+
+
+def _is_short(step: Step) -> bool:
+    """Whether it can be told within a sentence: `rho = M/V`."""
+    value = step.result
+    if step.symbol is None or isinstance(value, Relation | MatrixBase) and not _is_row(value):
+        return False
+    return _length(value) <= LONGEST_CLAUSE
+
+
+def _length(value: Any) -> int:
+    return sum(1 for _ in preorder_traversal(value))
+
+
+def _is_plain(step: Step) -> bool:
+    """Whether the square of a speed is that of coordinates themselves, x_dot^2 + y_dot^2."""
+    return bool(step.result.free_symbols <= {rate(q) for q, _ in step.coordinates})
+
+
+def _is_row(value: Any) -> bool:
+    """A vector is written in a row where it stands in a sentence."""
+    return isinstance(value, MatrixBase) and value.shape[1] == 1

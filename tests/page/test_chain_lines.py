@@ -1,0 +1,53 @@
+"""The lines of a step as a page has them, and two steps in one row."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sympy import Symbol
+
+from derive.page.chain_lines import ChainLine, ChainWriter, Equations
+from derive.page.repeats import results
+from derive.page.wording import Ref, phrases
+from tests.courses import ROOT, course_in, solved_once
+
+WORDS = phrases(ROOT / "templates")
+x, y = Symbol("x"), Symbol("y")
+
+
+def test_only_the_first_line_has_the_left_side(tmp_path: Path) -> None:
+    _, solved = solved_once(course_in(tmp_path), "hw9/block")
+    writer = ChainWriter(solved.derivation, solved.values, WORDS, {}, {})
+    step = solved.derivation.step("torque")
+    first, *others = writer.of(step)
+    assert first.left == step.symbol
+    assert [line.left for line in others] == [None] * len(others)
+    (alone,) = writer.of(step, "result")
+    assert (alone.left, alone.right) == (step.symbol, step.result)
+
+
+def test_a_reason_names_each_number_once(tmp_path: Path) -> None:
+    """Two steps that share a row have one number."""
+    _, solved = solved_once(course_in(tmp_path), "hw9/block")
+    step = solved.derivation.step("torque")
+    for numbers, named in (({"spin": 3, "angular_momentum": 4}, 2), ({"spin": 3, "angular_momentum": 3}, 1)):
+        writer = ChainWriter(solved.derivation, solved.values, WORDS, {}, numbers)
+        counts = [sum(isinstance(node, Ref) for node in line.reason) for line in writer.of(step)]
+        assert max(counts) == named
+    silent = ChainWriter(solved.derivation, solved.values, WORDS, {}, {})
+    assert not any(isinstance(node, Ref) for line in silent.of(step) for node in line.reason)
+
+
+def test_equations_beside_each_other_have_the_number_of_the_first() -> None:
+    one, other = (Equations(name, (ChainLine(Symbol(name), "equals", x),), i) for i, name in enumerate("ab", 1))
+    both = one.beside(other)
+    assert (both.key, both.number) == ("a", 1)
+    assert [line.beside for line in both.lines] == [False, True]
+
+
+def test_decimals_are_the_result_with_what_they_are_of(tmp_path: Path) -> None:
+    _, solved = solved_once(course_in(tmp_path), "hw9/block")
+    step = solved.derivation.step("torque")
+    exact, numeric = ChainLine(None, "equals", x), ChainLine(None, "approx", y, numeric=True)
+    assert results(step, (exact,)) == 1
+    assert results(step, (exact, exact, numeric)) == 2

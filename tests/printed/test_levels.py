@@ -1,0 +1,89 @@
+"""Every page at every level: no letter comes from nowhere, and a higher level has no fewer lines."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from derive.algebra.expressions import rate
+from derive.building.solution import derived
+from derive.building.solved import Solved, steps_key
+from derive.course.problem import Problem, load_problem
+from derive.page.document import Display, Document, document_of
+from derive.page.introduced import expressions_in, letters_in, letters_of
+from derive.page.wording import Math, Text, phrases
+from derive.steps.step import Level
+from tests.courses import ROOT, kept, rendered_once
+
+WORDS = phrases(ROOT / "templates")
+SETS = [f"{path.parent.name}/{path.stem}" for path in sorted((ROOT / "problems" / "hw9").glob("*.yaml"))]
+SETS += [f"library/{path.stem}" for path in sorted((ROOT / "problems" / "library").rglob("*.yaml"))]
+PROBLEMS = [name for name in SETS if name.rpartition("/")[2] not in ("set", "reference")]
+
+
+def page(known: tuple[Problem, Solved], level: Level) -> Document:
+    problem, solved = known
+    document, faults = document_of(
+        problem, solved.derivation, solved.values, WORDS, level, others={}, drawings=solved.drawings
+    )
+    assert [fault for fault in faults if fault.code != "no-such-problem"] == []
+    return document
+
+
+def steps_of(problem_id: str) -> tuple[Problem, Solved]:
+    """Its steps; those that JSON cannot hold are derived each time."""
+    rendered_once(ROOT, problem_id, only=())
+    problem = load_problem(ROOT, problem_id)
+    kept_steps = Solved.from_data(kept().recalled_data(steps_key(problem)))
+    if kept_steps is None:
+        derivation, values, _, run = derived(problem)
+        kept_steps = Solved(derivation, values, (), tuple(run.drawings))
+    return problem, kept_steps
+
+
+def lines(document: Document) -> int:
+    displays = [block for part in document.parts for block in part.blocks if isinstance(block, Display)]
+    return sum(len(group.lines) for display in displays for group in display.groups)
+
+
+def shown(document: Document) -> tuple[object, ...]:
+    return document.title, document.statement, document.illustrations, document.parts, document.note
+
+
+def equated(document: Document) -> set[object]:
+    """The letters that a line or a sentence says the value of: what stands before a sign of equality."""
+    displays = [block for part in document.parts for block in part.blocks if isinstance(block, Display)]
+    groups = [group for display in displays for group in display.groups]
+    lefts = [line.left for group in groups for line in group.lines if line.left is not None]
+    lefts += [line.right for group in groups for line in group.lines[:-1] if letters_of(line.right)]  # a = b = 2
+    found = {letter for left in lefts for letter in (letters_of(left) or letters_in(expressions_in(left)))}
+    for part in document.parts:
+        for block in part.blocks:
+            nodes = getattr(block, "nodes", ())
+            pairs = pairwise(nodes)
+            found |= {
+                letter
+                for node, sign in pairs
+                if isinstance(node, Math) and isinstance(sign, Text) and sign.text.startswith(" = ")
+                for letter in letters_of(node.expr)
+            }
+    return found
+
+
+@pytest.mark.parametrize("problem_id", PROBLEMS)
+def test_every_letter_of_a_page_is_introduced_and_a_higher_level_has_no_fewer_lines(problem_id: str) -> None:
+    """By the left sides and clauses of the page itself, apart from how the selection goes about it."""
+    known = steps_of(problem_id)
+    problem, solved = known
+    moving = {q for step in solved.derivation.steps for q, _ in step.coordinates}
+    given = {*problem.dimensions, *moving, *(rate(q, order) for q in moving for order in (1, 2))}
+    given |= letters_in(expressions_in(page(known, Level.FULL).statement))
+    derived = {letter for step in solved.derivation.steps for letter in letters_of(step.symbol)} - given
+    counts = []
+    for level in Level:
+        document = page(known, level)
+        used = letters_in(expressions_in(shown(document))) & derived
+        assert used - equated(document) == set(), (level, problem_id)
+        counts.append(lines(document))
+    assert counts == sorted(counts)

@@ -1,0 +1,52 @@
+"""Lines with the value of a name put in: each is compared with the line it was, and a wrong value is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from derive.algebra.equality import Compared, Grade
+from derive.errors import Unverified
+from derive.steps.condensed import condensed
+from derive.steps.step import Step
+from tests.courses import course_in, solved_once
+
+
+@pytest.fixture(scope="module")
+def steps(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Step]:
+    _, solved = solved_once(course_in(tmp_path_factory.mktemp("slab"), problem="slab"), "hw9/slab")
+    return {step.key: step for step in solved.derivation.steps}
+
+
+def test_the_value_stands_where_the_letter_stood(steps: dict[str, Step]) -> None:
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
+    written = condensed(energy, {square.symbol: square.result})
+    assert any(form.expr.has(square.symbol) for form in energy.chain)
+    assert not any(form.expr.has(square.symbol) for form in written.chain)
+    assert written.result == energy.result
+
+
+def test_lines_that_have_become_the_same_stand_once(steps: dict[str, Step]) -> None:
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
+    written = condensed(energy, {square.symbol: square.result})
+    assert len({form.expr for form in written.chain}) == len(written.chain) < len(energy.chain)
+
+
+def test_each_line_that_was_changed_has_evidence_of_its_own(steps: dict[str, Step]) -> None:
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
+    written = condensed(energy, {square.symbol: square.result})
+    (added,) = written.evidence[len(energy.evidence) :]
+    assert (added.compared, added.grade) == (Compared.LINES, Grade.PROVED)
+
+
+def test_a_value_that_the_name_does_not_have_is_refused(steps: dict[str, Step]) -> None:
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
+    with pytest.raises(Unverified, match="is not what it was"):
+        condensed(energy, {square.symbol: 2 * square.result})
+
+
+def test_nothing_is_changed_where_nothing_is_put_in(steps: dict[str, Step]) -> None:
+    energy = steps["kinetic_energy"]
+    assert condensed(energy, {}) is energy
+    assert condensed(energy, {steps["potential_energy"].symbol: 1}) == replace(energy)
