@@ -84,6 +84,13 @@ def test_what_is_level_to_the_eighth_order_is_not_decided() -> None:
     assert Grade.APPROXIMATION not in {e.grade for e in found.step.evidence}
 
 
+def test_a_higher_derivative_of_unknown_sign_decides_nothing_and_is_told() -> None:
+    open_, level = stability(bead(c * x**4), {X: 0}), stability(bead(x**10 / b**9), {X: 0}, key="level")
+    assert (open_.step.outcome, level.step.outcome) == ("flat", "flat")
+    assert equal(dict(open_.step.roles)["higher"], 24 * m * g * c)
+    assert "higher" not in dict(level.step.roles)
+
+
 def test_near_another_equilibrium_the_series_is_in_the_distance_from_it() -> None:
     found = leading_order(PENDULUM, at=pi)
     assert found.step.outcome == "maximum"

@@ -1,0 +1,215 @@
+"""Each phrase of a page is used by some page: what nobody can read is not kept.
+
+`variants/variants.yaml` has problems for phrases that no other page has, one a document. `phrases_used.yaml` says of
+each page which phrases it answers for, and of phrases without a page why there is none. After a change that is meant,
+`python -m tests.page.test_phrases_used` writes it anew: read the difference first.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from derive.building import solution
+from derive.page.phrasebook import Phrase, read_phrases
+from derive.page.wording import Phrases
+from derive.steps.step import Step
+from tests.courses import ROOT, course_in, rendered_once
+from tests.mutation.runs import RUNS
+from tests.test_transcripts import PAGES
+
+LIST = Path(__file__).with_suffix("").with_name("phrases_used.yaml")
+OF_PAGES = ("rules", "routes", "reasons", "terms", "drawings")  # the rest are the frame of every page
+VARIANTS = Path(__file__).with_name("variants")
+SETS = {"mutation": ROOT / "tests" / "mutation" / "problems", "library": ROOT / "problems" / "library"}
+SORTS = ("transcript", "variant", "body", *SETS)  # the library is long: it answers only for what no other page says
+NOWHERE, NOT_YET = "nowhere", "no page is written yet; this list may only shrink"
+
+
+@cache
+def variants() -> dict[str, str]:
+    """Name -> the problem: a document each of one file."""
+    _, *found = re.split(r"^--- # (\w+)\n", (VARIANTS / "variants.yaml").read_text(encoding="utf-8"), flags=re.M)
+    return dict(zip(found[::2], found[1::2], strict=True))
+
+
+# --- what a page uses ---
+
+
+class _Noted(dict[str, Any]):
+    """A table that remembers which of its phrases were asked for."""
+
+    def __init__(self, table: Mapping[str, Any], used: set[str]):
+        super().__init__({k: _Noted(v, used) if isinstance(v, Mapping) else v for k, v in table.items()})
+        self.used = used
+
+    def __getitem__(self, name: str) -> Any:
+        return self._noted(super().__getitem__(name))
+
+    def get(self, name: str, default: Any = None) -> Any:
+        return self._noted(super().get(name, default))
+
+    def _noted(self, found: Any) -> Any:
+        if isinstance(found, Phrase):
+            self.used.add(".".join(found.keys))
+        return found
+
+
+class _NotedPhrases(Phrases):
+    """Phrases that remember which of them a page was told with."""
+
+    used: set[str]
+
+    def _noted(self, found: str) -> str:
+        if isinstance(found, Phrase):
+            self.used.add(".".join(found.keys))
+        return found
+
+    def phrase(self, step: Step, before: Step | None = None) -> str:
+        return self._noted(super().phrase(step, before))
+
+    def reason(self, step: Step, because: str, before: str) -> str:
+        return self._noted(super().reason(step, because, before))
+
+    def route(self, step: Step, claim: str) -> str:
+        return self._noted(super().route(step, claim))
+
+
+def noted_phrases() -> _NotedPhrases:
+    used: set[str] = set()
+    read = read_phrases(ROOT / "templates" / "phrases" / "en")
+    plain = {"rules", "routes", "reasons"}  # of these the methods note what they choose
+    noted = _NotedPhrases(
+        **{f.name: read[f.name] if f.name in plain else _Noted(read[f.name], used) for f in fields(Phrases)}
+    )
+    object.__setattr__(noted, "used", used)
+    return noted
+
+
+def used_by(page: str, folder: Path) -> set[str]:
+    """The phrases of a page: `transcript/block-cube`, `library/atwood`."""
+    sort, _, name = page.partition("/")
+    root, problem_id, detail = folder, f"{sort}/{name}", None
+    if sort == "transcript":
+        edits, detail = PAGES[name]
+        problem = name.partition("-")[0]
+        course_in(folder, edits, problem=problem)
+        problem_id = f"hw9/{problem}"
+    elif sort == "body":
+        course_in(folder, dict(RUNS[name].edits), dict(RUNS[name].script), problem=sort)
+        problem_id = f"hw9/{sort}"
+    else:
+        (root / "problems").mkdir(parents=True)
+        (root / "templates").symlink_to(ROOT / "templates")
+        if sort in SETS:
+            (root / "problems" / sort).symlink_to(SETS[sort])
+        else:
+            (root / "problems" / sort).mkdir()
+            (root / "problems" / sort / "set.yaml").write_text(f"course: M\ntitle: V\nproblems: [{name}]\n")
+            (root / "problems" / sort / f"{name}.yaml").write_text(variants()[name], encoding="utf-8")
+            for script in VARIANTS.glob("*.py"):
+                (root / "problems" / sort / script.name).symlink_to(script)
+    noted = noted_phrases()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(solution, "phrases", lambda _: noted)
+        rendered_once(root, problem_id, detail, only={"text"})
+    return {key for key in noted.used if key.partition(".")[0] in OF_PAGES}
+
+
+def _leaves(table: Any) -> Iterator[Phrase]:
+    if isinstance(table, Phrase):
+        yield table
+    elif isinstance(table, Mapping):
+        for name in table:
+            yield from _leaves(table[name])
+
+
+def phrases_of_pages() -> list[str]:
+    read = read_phrases(ROOT / "templates" / "phrases" / "en")
+    return [".".join(phrase.keys) for sort in OF_PAGES for phrase in _leaves(read[sort])]
+
+
+@cache
+def credited() -> dict[str, Any]:
+    """Page -> the phrases that it answers for; `nowhere` -> why -> those without a page."""
+    known: dict[str, Any] = yaml.safe_load(LIST.read_text(encoding="utf-8"))
+    return known
+
+
+# --- the claims ---
+
+
+def test_each_phrase_has_a_page_or_a_reason_to_have_none() -> None:
+    known = credited()
+    answered = [phrase for page, told in known.items() if page != NOWHERE for phrase in told]
+    excused = [phrase for told in known[NOWHERE].values() for phrase in told]
+    there = phrases_of_pages()
+    assert sorted({*there} - {*answered, *excused}) == [], "no page says it: write one, or delete the phrase"
+    assert sorted({*answered, *excused} - {*there}) == [], "is no phrase any more"
+    assert sorted({*answered} & {*excused}) == [], "has a page, and needs no reason to have none"
+
+
+@pytest.mark.parametrize("page", [page for page in credited() if page != NOWHERE])
+def test_a_page_uses_the_phrases_that_it_answers_for(page: str, tmp_path: Path) -> None:
+    assert sorted({*credited()[page]} - used_by(page, tmp_path / "course")) == []
+
+
+def test_each_word_of_the_frame_stands_in_a_template_or_in_the_code() -> None:
+    read = read_phrases(ROOT / "templates" / "phrases" / "en")
+    sources = [*(ROOT / "derive").rglob("*.py"), *(ROOT / "templates" / "latex").iterdir()]
+    text = "\n".join(file.read_text(encoding="utf-8") for file in sources if file.is_file())
+    asked = set(re.findall(r"[a-z_]+", text))
+    names = {*read["labels"], *read["labels"]["checked_page"], *read["labels"]["explain"]}
+    assert sorted(names - asked) == []
+
+
+# --- writing the list ---
+
+
+def _pages() -> list[str]:
+    return [
+        *(f"transcript/{name}" for name in PAGES),
+        *(f"variant/{name}" for name in variants()),
+        *(f"body/{name}" for name in RUNS if name.partition("-")[0] == "body"),
+        *(
+            f"{sort}/{file.stem}"
+            for sort, at in SETS.items()
+            for file in sorted(at.rglob("*.yaml"))
+            if file.stem != "set"
+        ),
+    ]
+
+
+def _written(known: Mapping[str, Any]) -> str:
+    """Pages that other tests have made anyway come first; then whichever adds most."""
+    with tempfile.TemporaryDirectory() as temporary:
+        os.environ.setdefault("XDG_STATE_HOME", temporary)
+        used = {page: used_by(page, Path(temporary) / page.replace("/", "-")) for page in _pages()}
+    left, lines = {*phrases_of_pages()}, []
+    for sort in SORTS:
+        pages = {page for page in used if page.startswith(f"{sort}/")}
+        while best := max(sorted(pages), key=lambda page: len(used[page] & left), default=None):
+            found = sorted(used[best] & left)
+            if not found:
+                break
+            lines += [f"{best}:", *(f"  - {phrase}" for phrase in found)]
+            left -= used[best]
+            pages.remove(best)
+    excused = {phrase: why for why, told in known.get(NOWHERE, {}).items() for phrase in told}
+    lines.append(f"{NOWHERE}:")
+    for why in sorted({excused.get(phrase, NOT_YET) for phrase in left}):
+        lines += [f"  {why}:", *(f"    - {p}" for p in sorted(left) if excused.get(p, NOT_YET) == why)]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    LIST.write_text(_written(credited() if LIST.exists() else {}), encoding="utf-8")
