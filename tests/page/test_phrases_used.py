@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -32,6 +33,7 @@ OF_PAGES = ("rules", "routes", "reasons", "terms", "drawings")  # the rest are t
 VARIANTS = Path(__file__).with_name("variants")
 SETS = {"mutation": ROOT / "tests" / "mutation" / "problems", "library": ROOT / "problems" / "library"}
 SORTS = ("transcript", "variant", "body", *SETS)  # the library is long: it answers only for what no other page says
+SIZE, SEED = 24, 2026
 NOWHERE, NOT_YET = "nowhere", "no page is written yet; this list may only shrink"
 
 
@@ -145,6 +147,12 @@ def credited() -> dict[str, Any]:
     return known
 
 
+def _sample() -> list[str]:
+    """Some of the pages, a fair sample; writing the list anew makes them all."""
+    pages = sorted(page for page in credited() if page != NOWHERE)
+    return sorted(Random(SEED).sample(pages, min(SIZE, len(pages))))
+
+
 # --- the claims ---
 
 
@@ -158,7 +166,7 @@ def test_each_phrase_has_a_page_or_a_reason_to_have_none() -> None:
     assert sorted({*answered} & {*excused}) == [], "has a page, and needs no reason to have none"
 
 
-@pytest.mark.parametrize("page", [page for page in credited() if page != NOWHERE])
+@pytest.mark.parametrize("page", _sample())
 def test_a_page_uses_the_phrases_that_it_answers_for(page: str, tmp_path: Path) -> None:
     assert sorted({*credited()[page]} - used_by(page, tmp_path / "course")) == []
 
