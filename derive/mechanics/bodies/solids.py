@@ -60,8 +60,9 @@ class RoundSolid(RoundBody):
         return super().region(point).with_named_section(self.letters, self._primed(point))
 
     def _primed(self, point: Point) -> str:
-        """The mark of what is counted from elsewhere than where its own axes begin."""
-        return "" if point.name == self.reference else "'"
+        """The mark of what is counted from elsewhere than where its own axes begin, and the index of a named body."""
+        index = f"_{self.called.partition(' ')[0]}" if self.called else ""
+        return index if point.name == self.reference else f"'{index}"
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
         """Two expressions that are equal where (r, z), in its own axes, is on its edge."""
