@@ -256,6 +256,12 @@ def test_in_cylindrical_coordinates_a_ball_has_no_chords() -> None:
     assert all("discs" in found for found in reasons.values())
 
 
+def test_the_slices_of_a_body_with_a_name_have_its_index() -> None:
+    found = inertia_tensor(Ball(R, M).named("upper ball"), key="own")
+    assert (found.value - Rational(2, 5) * M * R**2 * Matrix.eye(3)).expand().is_zero_matrix
+    assert {str(q.symbol) for q in found.ancestors() if q.step.rule == "bodies.section_radius"} == {"r_upper"}
+
+
 @pytest.mark.parametrize("about", ["apex", "base", "centre"])
 def test_a_cone_has_its_slices_by_polar_coordinates_from_each_of_its_points(about: str) -> None:
     region = CONE.region(CONE.point(about))

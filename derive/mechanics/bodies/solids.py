@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -28,7 +28,7 @@ from derive.mechanics.bodies.regions import Point, Region, coordinates, round_by
 from derive.mechanics.bodies.thin_bodies import HalfDisc
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Quantity, is_zero
-from derive.steps.subject import Subject
+from derive.steps.subject import Subject, with_name
 
 __all__ = [
     "Ball",
@@ -56,8 +56,15 @@ class RoundSolid(RoundBody):
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
         if coordinates == "cartesian":
-            return round_by_chords(self.radius_at, self.ends, point, self._primed(point))
-        return super().region(point).with_named_section(self.letters, self._primed(point))
+            found = round_by_chords(self.radius_at, self.ends, point, self._primed(point))
+        else:
+            found = super().region(point).with_named_section(self.letters, self._primed(point))
+        if not self.called or found.section is None:
+            return found
+        (r, edge), limits = found.section, found.limits
+        own = with_name(self.called, "r", r)[1]  # as its step calls it
+        limits = tuple((x, low.xreplace({r: own}), up.xreplace({r: own})) for x, low, up in limits)
+        return replace(found, limits=limits, section=(own, edge))
 
     def _primed(self, point: Point) -> str:
         """The mark of what is counted from elsewhere than where its own axes begin, and the index of a named body."""

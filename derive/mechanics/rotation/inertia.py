@@ -163,7 +163,8 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
     as well where the plane across each axis is a mirror of the body."""
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
-    return MIRRORED if body.is_of_particles and body.region(point).has_mirrors else PAIRS
+    is_one_region = body.is_of_particles and not hasattr(body, "parts")
+    return MIRRORED if is_one_region and body.region(point).has_mirrors else PAIRS
 
 
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
