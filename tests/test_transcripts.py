@@ -44,8 +44,8 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
         {
             "inertia: I   ": "width: b     ",
             "I: moment of inertia": "b: length",
-            "moment of inertia about the axis through its centre that is parallel to the cylinder's\n": "width\n",
-            "is <<inertia>>": "is <<width>>",
+            "Its moment of inertia about the axis through its centre of mass that is parallel to\n": "Its width\n",
+            "the cylinder's is <<inertia>>": "is <<width>>",
         },
         None,
     ),

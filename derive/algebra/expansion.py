@@ -83,6 +83,23 @@ class Approach(Node):
         return f"Tuple({text(self.args[0])}, {text(self.args[1])})"
 
 
+class FirstOrder(ScalarNode):
+    """What is of first order in some letters that are small together. Arguments: f, which vanishes with them, and they.
+
+    It is shown as f: the line of a chain before the higher orders are dropped.
+    """
+
+    def _evaluated(self, f: Expr, *small: Expr) -> Expr:
+        none = dict.fromkeys(small, Integer(0))
+        return Add(*(s * diff(f, s).subs(none) for s in small))
+
+    def dimension(self, of: DimensionOf) -> Dimension | None:
+        return of(self.args[0])
+
+    def lowered(self, text: TextOf) -> str:
+        return text(explicit(self))
+
+
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
     """The terms up to that power of what is small; only the leading one where no power is given."""
     written = in_small(f, x, to)

@@ -13,7 +13,7 @@ from typing import Any
 from sympy import Expr, Integer, Symbol
 
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.expressions import IN_DEGREES, Relation
+from derive.algebra.expressions import IN_DEGREES, Amount, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
@@ -176,9 +176,14 @@ def derived(
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
     for part, answers_of_part in zip(problem.parts, asked, strict=True):
         for key, as_asked in answers_of_part.items():
-            value = _value(problem, part, known[key], as_asked, dimensions)
+            cases = problem.cases_of(part)
+            value = _value(problem, part, known[key], as_asked, dimensions) if not cases else None
             if value is not None and not _compared_before(value.step, values.values()):
                 values[key] = value.step
+            for case, amounts in cases.items():
+                value = _value(problem, part, known[key], as_asked, dimensions, amounts, case)
+                if value is not None:
+                    values[value.key] = value.step
     return derivation, values, known, run
 
 
@@ -213,9 +218,18 @@ def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tup
 
 
 def _value(
-    problem: Problem, part: Question, answer: Quantity, asked: str, dimensions: Mapping[Any, Dimension | None]
+    problem: Problem,
+    part: Question,
+    answer: Quantity,
+    asked: str,
+    dimensions: Mapping[Any, Dimension | None],
+    amounts: Mapping[Symbol, Amount] | None = None,
+    case: str = "",
 ) -> Quantity | None:
-    """The number of an answer: in the unit and to the figures that the part asks for, by the key that it asks for."""
+    """The number of an answer: in the unit and to the figures that the part asks for, by the key that it asks for; in
+    one of its cases with the numbers of that."""
+    key = f"{answer.key}_in_case_{case}" if case else None
+    numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
         # An inequality may well be solved for a letter once other values are given: its unit waits for that.
@@ -235,11 +249,11 @@ def _value(
     first, *more = units or [_usual_unit(problem, kind, dimension)]
     figures = form.figures or problem.figures
     # A condition on letters that all have numbers is compared, unless a number of its bound is asked for.
-    compared = None if units else comparison_of(answer, problem.amounts)
-    if not problem.measured and not units and not form.figures and is_plain(answer):
+    compared = None if units else comparison_of(answer, numbers, key)
+    if not numbers and not units and not form.figures and is_plain(answer):
         return None
-    value = compared or value_of(answer, problem.amounts, *first, figures, more=more)
-    return value or (coefficient_of(answer, figures, bool(form.figures)) if not problem.measured else None)
+    value = compared or value_of(answer, numbers, *first, figures, key, more, case)
+    return value or (coefficient_of(answer, figures, bool(form.figures)) if not numbers else None)
 
 
 def _kind_of(

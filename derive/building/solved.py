@@ -63,7 +63,8 @@ def steps_key(problem: Problem) -> str:
     """A digest of everything that the steps depend on."""
     files = [problem.root / problem.script_path, problem.root / reference_path(problem)]
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
-    asked = [(part.answers, sorted((str(key), form) for key, form in part.forms.items())) for part in problem.parts]
+    forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
+    asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
     read = (problem.reference, repr(problem.limits))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

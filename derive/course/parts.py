@@ -133,6 +133,8 @@ class Question(Record):
         called="form",
     )
 
+    cases: Word | None = key("a plot of `drawings:`, for each of whose `cases:` the answers get their numbers", TEXT)
+
     def form_of(self, answer: str) -> AnswerForm:
         return self.forms.get(answer) or self.forms.get(None) or AnswerForm({}, {})
 

@@ -7,7 +7,7 @@ whoever knows the steps; `Prose.place_of` and `Problem.place_of` say where to po
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from collections.abc import Mapping as Table
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -107,13 +107,33 @@ class Problem:
     @property
     def amounts(self) -> dict[Symbol, Amount]:
         """The number behind each letter that has one, in the coherent SI unit; an angle in degrees stays so."""
-        units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in self.measured}
+        return self._in_the_si(self.measured)
+
+    def _in_the_si(self, numbers: Iterable[Measured]) -> dict[Symbol, Amount]:
+        units = {m.symbol: unit_of_kind(self.symbols[m.symbol.name].kind) for m in numbers}
         return {
             m.symbol: Amount(m.number, m.unit, m.factor)
             if m.unit in IN_DEGREES
             else Amount(m.si, units[m.symbol], Integer(1))
-            for m in self.measured
+            for m in numbers
         }
+
+    def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
+        """The numbers of each case for which a part is to be answered, by its letter; one says only what differs from
+        the first."""
+        cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
+        numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)
+        return {chr(ord("a") + i): amounts for i, amounts in enumerate(numbers)}
+
+    @property
+    def every_amount(self) -> list[tuple[Symbol, Amount]]:
+        """Each letter with each of its numbers, those of the cases of a part among them."""
+        cases = [case for part in self.parts for case in self.cases_of(part).values()]
+        return [pair for numbers in (self.amounts, *cases) for pair in numbers.items()]
+
+    def keys_in_cases(self, part: Question, answers: Iterable[str]) -> list[str]:
+        """What the numbers of a part's answers are called, case by case."""
+        return [f"{answer}_in_case_{case}" for case in self.cases_of(part) for answer in answers]
 
     @property
     def texts(self) -> tuple[Prose, ...]:
@@ -138,6 +158,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
     points = written.points_in_all(faults)
+    _check_cases(written.parts, drawings, faults)
     faults.stop()
     assert written.title is not None
     assert written.statement is not None
@@ -163,6 +184,15 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         limits=written.limits,
         reference=as_text(written.reference),
     )
+
+
+def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], faults: Faults) -> None:
+    """A part is answered for the cases of a plot that has some."""
+    known = [placement.key for placement in drawings if placement.cases]
+    for cases in (part.cases for part in parts if part.cases):
+        if cases not in known:
+            help_line = did_you_mean(cases, known) or "it is the name of one of `drawings:` that has `cases:`"
+            faults.error("unknown-drawing", f"no drawing `{cases}` has cases", cases.place, help=help_line)
 
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:

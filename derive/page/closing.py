@@ -49,10 +49,10 @@ def limiting_cases(
 
 
 def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, int]) -> Nodes:
-    """With what a limit agrees: by the number of its equation, or by its letter where that is not shown."""
+    """With what a limit agrees, by the number of its equation or by its letter; or its formula."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
-    return filled(words.phrase(step), {"known": named})
+    return filled(words.phrase(step), {"known": named, "formula": Math(step.chain[0].expr)})
 
 
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:

@@ -195,7 +195,7 @@ class _Writer:
         self.references = References(
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
-        self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.amounts.items()})
+        self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.every_amount})
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
         self.following: Step | None = None  # the next one, if one sentence may tell both
@@ -295,6 +295,8 @@ class _Writer:
         values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
         for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
+        for value in filter(None, map(self.values.get, self.problem.keys_in_cases(part, [s.key for s in answers]))):
+            self._append(blocks, value, framed=True)
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, ends, steps)
         return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)

@@ -83,7 +83,7 @@ class Chain:
 AND = " and "  # between the outcome that a phrase is for and the rule of the step that it tells as well
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
-ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen"}  # words by which a phrase chooses
+ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case"}  # words by which a phrase chooses
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import (
@@ -40,12 +41,20 @@ from derive.algebra.rounding import rounded_form
 from derive.algebra.samples import value_at
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Form, Level, Quantity
+from derive.steps.step import Fact, Form, Level, Quantity
 
 DIGITS = 20  # in which an exact value and the one taken anew agree
 HALF = Rational(1, 2)
 FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # the marks under which a condition is so
 SHORT = 9  # numbers; a formula with more of them is not written out again
+
+
+@dataclass(frozen=True)
+class Extreme(Fact):
+    """The value of a function where its slope vanishes: its second derivative there, which tells what kind it is."""
+
+    missing = "is not the value of a function where that is level"
+    curvature: Expr
 
 
 def value_of(
@@ -56,6 +65,7 @@ def value_of(
     figures: int,
     key: str | None = None,
     more: Sequence[tuple[str, Expr]] = (),
+    case: str = "",
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to so many significant figures; nothing if letters are left, or if the
     numbers make it imaginary, as the frequency of what does not oscillate.
@@ -64,8 +74,9 @@ def value_of(
     amounts   symbol -> its number with a unit
     unit      as text, and `factor`, what one of it is in the SI
     more      other units in which it is given too, each with its factor
+    case      the name of the case of which these are the numbers, if there are several
     Second route: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
-    Outcomes: measured (numbers were put in), exact.
+    Outcomes: measured (numbers were put in), exact; minimum or maximum, of a function's value where it is level.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
     value, within = _valued(answer.value)
@@ -99,8 +110,8 @@ def value_of(
         lambda: within(substituted),
         {},
         routes={"floats": floats},
-        outcome="measured" if letters else "exact",
-        telling=Telling(judged_by={"letters": letters}),
+        outcome=_outcome(_bent(answer, amounts).get("curvature"), bool(letters)),
+        telling=Telling(words={"case": case} if case else {}, judged_by={"letters": letters, **_bent(answer, amounts)}),
         scope=Scope(about=answer.subject, case_of=answer),
         key=key or f"{answer.key}_value",
         kind=answer.step.kind,
@@ -114,6 +125,18 @@ def value_of(
         ),
         parents=[answer],
     )
+
+
+def _bent(answer: Quantity, amounts: Mapping[Symbol, Amount]) -> dict[str, Expr]:
+    """Of an extreme value the second derivative, with the numbers."""
+    known = answer.fact(Extreme)
+    return {} if known is None else {"curvature": explicit(bound(known.curvature, dict(amounts)))}
+
+
+def _outcome(curvature: Expr | None, has_letters: bool) -> str:
+    if curvature is not None and curvature.is_nonzero and not curvature.free_symbols:
+        return "minimum" if curvature > 0 else "maximum"
+    return "measured" if has_letters else "exact"
 
 
 def is_plain(answer: Quantity) -> bool:

@@ -6,7 +6,15 @@ import pytest
 from sympy import Expr, Integer, Rational, atan, cos, cosh, exp, log, oo, sin, sinh, sqrt, symbols, tanh
 
 from derive.algebra.equality import equal
-from derive.algebra.expansion import BeginsBeyond, Expansion, NoExpansion, expanded, in_ascending_powers, tidied_terms
+from derive.algebra.expansion import (
+    BeginsBeyond,
+    Expansion,
+    FirstOrder,
+    NoExpansion,
+    expanded,
+    in_ascending_powers,
+    tidied_terms,
+)
 from derive.algebra.expressions import explicit
 
 x, a, b = symbols("x a b", positive=True)
@@ -84,3 +92,7 @@ def test_an_expansion_that_begins_beyond_its_order_is_zero_to_it() -> None:
     assert Expansion(x**2 + x**3, x, Integer(0), Integer(1)).doit() == 0
     with pytest.raises(BeginsBeyond):
         expanded(x**2, x, Integer(0), Rational(1))
+
+
+def test_to_first_order_products_of_what_is_small_vanish() -> None:
+    assert explicit(FirstOrder((a + x**2) * sin(b) + 3 * x * b - x * cos(b), x, b)) == a * b - x

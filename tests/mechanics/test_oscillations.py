@@ -8,8 +8,16 @@ import pytest
 from sympy import Integer, Rational, cos, pi, sin, sqrt
 
 from derive.algebra.equality import equal
+from derive.algebra.expressions import explicit
 from derive.errors import Rejected
-from derive.mechanics import coordinate, equation_of_motion, frequency, frequency_squared, linearised
+from derive.mechanics import (
+    coordinate,
+    equation_of_motion,
+    frequency,
+    frequency_and_growth,
+    frequency_squared,
+    linearised,
+)
 from derive.steps.step import Quantity
 from tests.mechanics.motion import THETA, X, b, g, l, m, motion, of_system, small_oscillations
 from tests.mechanics.slab import I, M, R, a, known_slab
@@ -127,3 +135,34 @@ def test_the_frequency_is_positive_also_where_its_sign_could_not_be_told_from_th
 def test_a_frequency_has_the_letter_that_its_square_has() -> None:
     linear = linearised(motion(*PENDULUM))
     assert frequency(frequency_squared(linear, symbol="Omega")).symbol.name == "Omega"
+
+
+def test_where_the_sign_is_open_a_rate_of_growth_stands_beside_the_frequency() -> None:
+    swings, grows = frequency_and_growth(known_slab()["frequency_squared"])
+    assert [each.step.outcome for each in (swings, grows)] == ["conditional", "growing"]
+    assert equal(grows.value**2, M * g * (a / 2 - R) / (I + M * a**2 / 4))
+    assert grows.symbol.name == "kappa"
+
+
+@pytest.mark.parametrize(("radius", "letter"), [(2 * a, "omega_0"), (a / 4, "kappa")])
+def test_where_the_sign_is_known_one_step_stands_for_both(radius: Any, letter: str) -> None:
+    swings, grows = frequency_and_growth(known_slab(radius=radius)["frequency_squared"])
+    assert swings is grows and swings.step.stands_for == ("growth_rate",)
+    assert swings.symbol.name == letter
+
+
+def test_small_angles_are_put_in_before_the_higher_orders_are_dropped() -> None:
+    linear = known_slab()["linearised"]
+    before, after = linear.step.chain
+    assert before.because == "small_angles" and before.level == "full"
+    shown = before.expr.left.args[0]
+    assert not shown.has(sin, cos) and shown.has(THETA.rate)
+    assert explicit(before.expr).residual.expand() == after.expr.residual.expand()
+    told = dict(linear.step.roles)
+    assert (told["sine"], told["cosine"]) == (sin(q), cos(q))
+    dropped = {told["dropped_1"], told["dropped_2"]}
+    assert dropped == {M * R**2 * q * THETA.rate**2, M * R**2 * q**2 * THETA.acceleration}
+
+
+def test_what_has_no_small_angle_is_written_at_once() -> None:
+    assert [form.because for form in linearised(motion(x, x**2 / (2 * b), X)).step.chain] == ["law"]

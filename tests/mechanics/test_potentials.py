@@ -10,7 +10,7 @@ from sympy import Expr, Rational, cos, cosh, pi, sin, symbols
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import Relation
 from derive.errors import Rejected
-from derive.mechanics import leading_order, slope, stability
+from derive.mechanics import extreme_value, leading_order, slope, stability
 from derive.steps.step import Quantity
 from tests.mechanics.motion import THETA, X, b, g, l, m, potential
 from tests.mechanics.slab import M, R, a, known_slab
@@ -128,3 +128,19 @@ def test_a_border_may_be_given_by_hand() -> None:
 def test_a_case_in_which_the_curvature_does_not_vanish_is_no_border() -> None:
     with pytest.raises(Rejected, match="not its border"):
         leading_order(known_slab()["potential_energy"], where=Relation(R, "=", 2 * a))
+
+
+@pytest.mark.parametrize(("place", "outcome"), [(0, "minimum"), (pi, "maximum")])
+def test_a_value_where_the_slope_vanishes_is_a_minimum_or_a_maximum(place: Any, outcome: str) -> None:
+    found = extreme_value(PENDULUM, at=place + 0 * q)
+    assert (found.step.outcome, found.value) == (outcome, -m * g * l if place == 0 else m * g * l)
+
+
+@pytest.mark.parametrize(("height", "outcome"), [(c * x**2, "conditional"), (x**4 / b**3, "level")])
+def test_a_value_may_be_neither(height: Expr, outcome: str) -> None:
+    assert extreme_value(bead(height)).step.outcome == outcome
+
+
+def test_on_a_slope_there_is_no_extreme_value() -> None:
+    with pytest.raises(Rejected, match="is not level at theta = 1"):
+        extreme_value(PENDULUM, at=Rational(1))

@@ -269,3 +269,41 @@ def test_the_sign_of_an_expression_is_told_by_its_letters_or_else_by_their_numbe
     with recorded(Run(numbers={b: Integer(-2)})):
         assert (sign_known(b), sign_known(a * b), sign_known(b + 2)) == (-1, -1, 0)
     assert sign_known(b) is None
+
+
+def greatest_tilt(spin: float, push: tuple[float, float], turns: int = 6000) -> float:
+    """Of an upright top with I_x = M g l = 1, which is stable from I_z S = 2 on: the way of its axis, integrated.
+
+    n'' = -n'.n' n + I_z S n x n' + n x (n x Z), after a push that gives the axis a velocity.
+    """
+    import math
+
+    def cross(u: Any, v: Any) -> tuple[float, float, float]:
+        return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+    def rates(state: Any) -> tuple[float, ...]:
+        n, v = state[:3], state[3:]
+        turning, falling = cross(n, v), cross(n, cross(n, (0, 0, 1)))
+        speed = sum(each * each for each in v)
+        return (*v, *(-speed * n[k] + spin * turning[k] + falling[k] for k in range(3)))
+
+    state, step, least = (0.0, 0.0, 1.0, *push, 0.0), 0.02, 1.0
+    for _ in range(turns):
+        slopes: list[Any] = []
+        for part in (0, step / 2, step / 2, step):
+            slopes.append(rates([s + part * k for s, k in zip(state, slopes[-1] if slopes else state, strict=True)]))
+        moved = [(a + 2 * b + 2 * c + d) * step / 6 for a, b, c, d in zip(*slopes, strict=True)]
+        state = tuple(s + d for s, d in zip(state, moved, strict=True))
+        least = min(least, state[2])
+    return math.acos(least)
+
+
+@pytest.mark.parametrize("change", [0, 1e-4, -1e-4])
+def test_at_the_border_the_upright_top_withstands_every_small_push(change: float) -> None:
+    """Also one that changes the momentum along the axis, and with it that of the precession."""
+    assert greatest_tilt(2 + change, (1e-3, 0)) < 0.1
+    assert greatest_tilt(2 + change, (1e-2, 0)) > greatest_tilt(2 + change, (1e-3, 0))
+
+
+def test_below_the_border_the_smallest_push_topples_it() -> None:
+    assert greatest_tilt(1.8, (1e-3, 0)) > 0.5

@@ -30,6 +30,7 @@ from sympy import (
 from sympy.core.function import AppliedUndef
 
 from derive.algebra import expressions as ex
+from derive.algebra.expansion import FirstOrder
 from derive.algebra.expressions import AXES, explicit
 from derive.algebra.node import Node
 from derive.algebra.rounding import Rounded
@@ -135,7 +136,7 @@ _METHODS: tuple[tuple[Any, Any], ...] = (
     (ex.MassIntegral, lambda e: over_the_mass(meaning(e.args[0]), meaning(e.args[1]))),
     (Integral, _integral),
     (ex.Bracket, _bracket),
-    (ex.Truncated, lambda e: meaning(e.args[0])),
+    (ex.Truncated | FirstOrder, lambda e: meaning(e.args[0])),
     (ex.Amount | ex.MatrixAmount, lambda e: meaning(e.args[0]) * (in_unit(e.args[1].name) if e.args[1].name else 1)),
     (Rounded, lambda e: e.args[0]),
     (Derivative, _of_time),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import islice
 from typing import Any
 
@@ -10,6 +11,7 @@ from sympy.core.symbol import Str
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import bound as with_those
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
@@ -47,7 +49,14 @@ POINTS = 40
 ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
 
 
-def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str = "condition") -> Quantity:
+def where(
+    of: Quantity,
+    mark: str,
+    bound: Expr | Quantity,
+    letter: Any,
+    key: str = "condition",
+    through: tuple[Relation, Sequence[Quantity]] | None = None,
+) -> Quantity:
     """Where a quantity is greater than a bound, less, equal to it: v > 0 where R > a/2, solved for one letter.
 
     of       a scalar, any unit
@@ -55,6 +64,7 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
     bound    what it is compared with, of the same unit; 0, or another quantity
     letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
     in its square; or what was given for a letter, 2b for R, of which one letter is taken
+    through  the same in other letters, told on the way, and the results that these stand for
     Second route: a little above the solved bound, at it and a little below, the sign of the difference; and at random
     points both relations are true, or both false.
     What both sides are divided by must not vanish, which is told where nothing decides it; in an inequality its sign
@@ -88,7 +98,8 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
         {"quantity": of, "bound": bound},
         lines=Lines(
             law=Level.FULL,
-            put_in=Level.STANDARD,
+            put_in=Level.STANDARD if through is None else Level.FULL,
+            between=_by_way_of(*through, difference) if through is not None else (),
             after=_in_steps(difference, result, excluded),
             result=False,
             arranged=lambda _: result,
@@ -105,7 +116,23 @@ def where(of: Quantity, mark: str, bound: Expr | Quantity, letter: Any, key: str
             judged_by={"unknown": unknown, "mark": Str(mark)},
         ),
         key=key,
+        parents=through[1] if through is not None else (),
     )
+
+
+def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
+    """The criterion in other letters, whose values are put in next."""
+    residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
+    return [Form(criterion, "solved", nonzero=_divided_out(difference, residual, Integer(0)))]
+
+
+def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
+    """The relation of a value and zero, solved for a letter where that can be told from the letters alone."""
+    try:
+        alone, solved, turned = _solved(of, tidied(value), mark, unknown_of("where", letter))
+    except Rejected:
+        return None
+    return Relation(alone, turned, solved)
 
 
 def _told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
@@ -377,8 +404,7 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     d = Dummy("d", positive=True)
     if alone.is_positive and sign_known(place) == -1:  # of x^2 > a the other root, which a positive letter never has
         return Integer(1), Integer(0)
-    unknown = alone.base if alone.is_Pow else alone
-    power = 2 if alone.is_Pow else 1
+    unknown, power = (alone.base, 2) if alone.is_Pow else (alone, 1)
     above = tidied(with_unknown(difference, unknown, _nth(place + d, power)))
     at_place = tidied(with_unknown(difference, unknown, _nth(place, power)))
     sign = sign_known(above)
@@ -386,7 +412,8 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
         return at_place, Integer(0)
     says = [Integer(_truth(found.mark, side)) for side in (1, 0, -1)]
     is_so = [Integer(_truth(mark, side * sign)) for side in (1, 0, -1)]  # it changes its sign at the bound
-    return _matrix(at_place, above, *says), _matrix(Integer(0), sign * Abs(above), *is_so)
+    there, expected = [at_place, above, *says], [Integer(0), sign * Abs(above), *is_so]
+    return ImmutableDenseMatrix(there), ImmutableDenseMatrix(expected)
 
 
 def _nth(value: Expr, power: int) -> Expr:
@@ -395,10 +422,6 @@ def _nth(value: Expr, power: int) -> Expr:
 
 def _truth(mark: str, sign: int) -> int:
     return int(sign in ALLOWED[mark])
-
-
-def _matrix(*entries: Any) -> Any:
-    return ImmutableDenseMatrix(list(entries))
 
 
 def _same_truth(found: Relation, difference: Expr, mark: str, unknown: Expr | None) -> Verdict:

@@ -32,8 +32,9 @@ from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import changes, named_coordinates
 from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
+from derive.steps.subject import EVERYTHING
 
-__all__ = ["known_case", "limiting_case"]
+__all__ = ["case_in_letters", "known_case", "limiting_case"]
 
 
 def limiting_case(
@@ -202,4 +203,32 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
         key=key,
         kind=found.step.kind,
         scope=Scope(case_of=found),
+    )
+
+
+def case_in_letters(
+    found: Quantity, formula: Expr, values: Sequence[Quantity], key: str = "case_in_letters"
+) -> Quantity:
+    """What a limiting case gives, in the letters of earlier results: 3 g/(2 a S) is M g l/(I_z S).
+
+    found    the result in a limiting or a special case, any unit
+    formula  the same in letters
+    values   the results that these letters stand for
+    Second route: all letters replaced at once, against the limiting case.
+    Outcomes: generic.
+    Errors: the two are not equal.
+    Source: none needed: substitution.
+    """
+    value = explicit(found.value.right if _solved_for(found) is not None else found.value)
+    return establish(
+        "limits.case_in_letters",
+        found.symbol,
+        lambda *_: formula,
+        {},
+        routes={"at_once": compared_with(lambda: value)},
+        lines=Lines(put_in=None, after=[Form(value, "result", Level.FULL)], result=False, arranged=explicit),
+        parents=[*values, found],
+        key=key,
+        kind=found.step.kind,
+        scope=Scope(differ=EVERYTHING, case_of=found),
     )

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, factor, lcm, together
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, lcm, sin, together
 from sympy.matrices import MatrixBase
 
-from derive.algebra.collect import spread
+from derive.algebra.collect import by_accelerations, spread
 from derive.algebra.derivatives import derivative
+from derive.algebra.expansion import FirstOrder
 from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
@@ -25,11 +26,12 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.step import Fact, Quantity, compared_with, is_zero
+from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
 __all__ = ["linearised"]
 
 ZERO = Integer(0)
+MOST_TOLD = 2  # terms of higher order that a sentence tells one by one
 
 
 @dataclass(frozen=True)
@@ -153,14 +155,16 @@ def _one(
     whole = Relation(left, "=", tidied(linear.driven[i] / common))
     if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
         counted["as_it_is"] = (whole, equations[i].value)
+    small = None if away or "as_it_is" in counted else _with_small_angles(equations[i], moving, common)
     if len(moving) == 1:
         counted["alone"] = (moving[0].symbol, moving[0].symbol)
+        counted.update(_dropped(equations[i], moving[0], small))
     return establish(
         "linearised.equation",
         None,
         lambda *_: whole,
         {},
-        lines=Lines(put_in=None, result=False, arranged=explicit),
+        lines=Lines(before=_before(small, moving), put_in=None, result=False, arranged=explicit),
         routes=equations[i]
         .needed(Matter)
         .named({"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))}),
@@ -175,6 +179,42 @@ def _one(
         facts=[linear, OfCoordinate(eta[i])],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
+
+
+def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:
+    """The left side with sin(u) = u and cos(u) = 1 of angles that vanish at rest; nothing where there are none, or
+    others."""
+    left = explicit(equation.value).residual / common
+    angles = left.atoms(sin, cos)
+    letters = {q.symbol for q in moving}
+    if not angles or any(f.args[0].xreplace(dict.fromkeys(letters, ZERO)) != 0 for f in angles):
+        return None
+    put = {f: f.args[0] if isinstance(f, sin) else Integer(1) for f in angles}
+    return by_accelerations(left.expand().xreplace(put), list(letters))
+
+
+def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
+    """The line in which the angles are small, before the higher orders are dropped."""
+    if small is None:
+        return []
+    letters = [letter for q in moving for letter in (q.symbol, q.rate, q.acceleration)]
+    return [Form(Relation(FirstOrder(small, *letters), "=", ZERO), "small_angles", Level.FULL)]
+
+
+def _dropped(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
+    """Which functions of the angle are put to first order, and which terms are of higher order than that."""
+    if small is None:
+        return {}
+    told: dict[str, tuple[Expr, Expr]] = {}
+    for role, f in (("sine", sin(q.symbol)), ("cosine", cos(q.symbol))):
+        if explicit(equation.value).residual.has(f):
+            told[role] = (f, f)
+    letters = (q.symbol, q.rate, q.acceleration)
+    powers = [(term, term.as_poly(*letters)) for term in Add.make_args(small.expand())]
+    terms = [term for term, power in powers if power is None or power.total_degree() > 1]
+    if 0 < len(terms) <= MOST_TOLD and all(power is not None for _, power in powers):
+        told.update({f"dropped_{n}": (tidied(term), term) for n, term in enumerate(terms, 1)})
+    return told
 
 
 def _letters_of(rests: Sequence[Quantity]) -> dict[Symbol, Expr]:

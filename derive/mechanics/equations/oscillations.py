@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sympy import Abs, Add, Expr, I, Integer, Pow, Rational, cos, diff, exp, prime, sqrt
+from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp, prime, sqrt
 
 from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
@@ -21,7 +22,7 @@ from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Quantity
 
-__all__ = ["frequency", "frequency_squared"]
+__all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
 
 SHORT = 4  # a condition of more terms is not told
 
@@ -111,6 +112,18 @@ def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -
     return {1: "stable", -1: "unstable"}.get(sign or 0, "conditional")
 
 
+def _turned(value: Expr) -> Expr:
+    """Its negative, M g (a/2 - R) of M g (R - a/2): the sign goes into a sum, where one has a minus sign already."""
+    factors = list(Mul.make_args(value))
+    sums = [
+        i for i, f in enumerate(factors) if isinstance(f, Add) and any(t.could_extract_minus_sign() for t in f.args)
+    ]
+    if not sums:
+        return -value
+    factors[sums[0]] = Add(*(-term for term in factors[sums[0]].args))
+    return Mul(*factors)
+
+
 def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
     """Where the square of a frequency is positive, if that can be told in short."""
     has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
@@ -120,21 +133,60 @@ def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
 
 
 def frequency(
-    squared: Quantity, symbol: str | None = None, key: str = "frequency", condition: bool = False
+    squared: Quantity,
+    symbol: str | None = None,
+    key: str = "frequency",
+    condition: bool = False,
+    stands_for: Sequence[str] = (),
 ) -> Quantity:
     """Angular frequency of small oscillations, omega_0 = sqrt(omega_0^2); where that is negative, the rate of growth.
 
     squared     as `frequency_squared` yields it, 1/s^2
     condition   whether the sentence says for which letters there is an oscillation
+    stands_for  keys of what there would be beside it, were the sign of the square open
     Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
+    return _rate(squared, squared.step.outcome, symbol, key, condition, stands_for)
+
+
+def frequency_and_growth(
+    squared: Quantity, keys: Sequence[str] = ("frequency", "growth_rate"), condition: bool = False
+) -> tuple[Quantity, Quantity]:
+    """Frequency of small oscillations, omega_0, where the square is positive; rate of growth, kappa, where negative.
+
+    squared     as `frequency_squared` yields it, 1/s^2
+    keys        of the two; where the sign of the square is known one step stands for both
+    condition   as for `frequency`
+    Second route: as for `frequency`.
+    Outcomes: those of `frequency`; beside a conditional one that of the rate of growth, growing.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
+    """
+    first, second = keys
+    if squared.step.outcome != "conditional":
+        return (frequency(squared, key=first, stands_for=[second]),) * 2
+    return frequency(squared, key=first, condition=condition), _rate(squared, "growing", None, second)
+
+
+def _rate(
+    squared: Quantity,
+    outcome: str,
+    symbol: str | None,
+    key: str,
+    condition: bool = False,
+    stands_for: Sequence[str] = (),
+) -> Quantity:
+    """One of the two rates: that of the oscillation, or kappa where the motion grows.
+
+    Second route: the motion put back; its sign.
+    Outcomes: stable, conditional, neutral, unstable, growing (unstable where the square is negative, which is open).
+    Source: that of `frequency`.
+    """
     known = squared.needed(SquareOf)
-    outcome = squared.step.outcome
-    grows = outcome == "unstable"
+    grows = outcome in ("unstable", "growing")
     name = symbol or ("kappa" if grows else known.letter)
-    size = -squared.value if grows else squared.value
+    size = _turned(squared.value) if grows else squared.value
     plain = explicit(Root(size))
     shown = settled(plain) if settled(plain) != plain else Root(size) if size.has(Add) else root_of(size)
     trial = stand_in("w", positive=True)
@@ -148,7 +200,7 @@ def frequency(
         """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
         letters = sorted(squared.value.free_symbols, key=str)
         there = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
-        imaginary = not grows and squared.value.subs(there).is_negative
+        imaginary = explicit(size).subs(there).is_negative
         value = found.subs(there) / (I if imaginary else 1)
         return value, Abs(value)
 
@@ -165,6 +217,7 @@ def frequency(
         telling=Telling(
             formulas=told_where_positive(squared.value) if condition and outcome == "conditional" else {},
             judged_by={"exists": known.exists} if known.exists is not None else {},
+            stands_for=stands_for,
         ),
         key=key,
         kind="angular speed",

@@ -15,7 +15,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 from derive.algebra.expressions import PLUS_MINUS, RATES, Factors, Ratio, Relation, Root, Terms, bound, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.conditions import where
+from derive.mechanics.equations.conditions import solved_in_letters, where
 from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, may_vanish
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
@@ -317,7 +317,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
         scalar(symbol),
         lambda *those: of.with_those(of.general.of_terms, those),
         of.roles,
-        lines=Lines(put_in=Level.FULL),
+        lines=Lines(put_in=Level.FULL) if here.is_linear or not of.values else Lines(put_in=None, result=False),
         routes={"resultant": otherwise},
         outcome="linear" if here.is_linear else lambda found: SIGNS[sign_known(found)],
         key=key,
@@ -332,9 +332,12 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where") -> Quantit
 
     roots    one of them, as `roots` yields them with `together`
     letter   what stands alone in the end
-    The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish.
+    The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish. Where values were put
+    into the equation, the condition is told in letters first.
     Second route: as `where`.
     Outcomes: those of `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
-    return where(discriminant(roots), ">=", 0, letter, key)
+    of, of_both = roots.needed(Roots), discriminant(roots)
+    criterion = solved_in_letters(of_both, of.general.discriminant, ">=", letter) if of.values else None
+    return where(of_both, ">=", 0, letter, key, through=(criterion, of.values) if criterion is not None else None)

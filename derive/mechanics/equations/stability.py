@@ -13,12 +13,14 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.systems.coordinates import only_coordinate
+from derive.mechanics.equations.unknowns import lecture_form
+from derive.mechanics.systems.coordinates import Coordinate, only_coordinate
 from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.numeric import Extreme
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
 
-__all__ = ["leading_order", "slope"]
+__all__ = ["extreme_value", "leading_order", "slope"]
 
 HIGHEST = 8  # where a potential is level to this order, nothing is decided
 
@@ -106,6 +108,45 @@ def _check_level(value: Expr, q: Symbol, place: Expr, potential: Quantity) -> No
     if tidied(derivative(value, q).xreplace({q: place})) != 0:
         message = f"`{potential.key}` is not level at {q.name} = {place}"
         raise Rejected(Complaint("no-equilibrium", message))
+
+
+def extreme_value(
+    potential: Quantity, by: Coordinate | Symbol | None = None, at: Expr | None = None, key: str = "extreme_value"
+) -> Quantity:
+    """Value of a potential energy where its slope vanishes, U(q_0), which is a minimum or a maximum by U''(q_0).
+
+    potential   a function of one coordinate, J
+    by          the coordinate, where it depends on several
+    at          q_0; 0 unless given
+    Second route: the term of order zero of its expansion about that place.
+    Outcomes: minimum, maximum, level (the second derivative vanishes too), conditional (its sign is open).
+    Errors: U' does not vanish there.
+    Source: Taylor, *Classical Mechanics*, section 4.6.
+    """
+    q = by.symbol if isinstance(by, Coordinate) else by or only_coordinate(potential)
+    place = explicit(at) if at is not None else Integer(0)
+    value = explicit(potential.value)
+    _check_lasts("extreme_value", potential, q)
+    _check_level(value, q, place, potential)
+    curvature = tidied(derivative(value, q, 2).xreplace({q: place}))
+    sort = {1: "minimum", -1: "maximum", None: "conditional"}
+    return establish(
+        "potentials.extreme_value",
+        At(potential.symbol, q, place),
+        lambda energy: At(energy, q, place),
+        {"potential": potential},
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lecture_form),
+        routes={"expanded": compared_with(lambda: _coefficient(value, q, place, 0))},
+        outcome="level" if curvature == 0 else sort[strict_sign_within(curvature)],
+        telling=Telling(
+            judged_by={"coordinate": q, "at": place},
+            formulas={"place": (Relation(q, "=", place), Relation(place, "=", q))},
+        ),
+        key=key,
+        kind=potential.step.kind,
+        facts=[Extreme(curvature)],
+        scope=Scope(case_of=potential),
+    )
 
 
 def leading_order(

@@ -108,6 +108,10 @@ def _of_numbers(wanted: str) -> Predicate:
     return lambda facts: (wanted == "measured") == bool(facts.inputs["letters"])
 
 
+def _bends(sign: int) -> Predicate:
+    return lambda facts: sign * facts.inputs.get("curvature", Integer(0)).evalf(30) > 0
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "roots.one_of_two": {
         "smaller": _whether(True, _SMALLER),
@@ -134,7 +138,12 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "conditional": sign_is(None),
         "linear": _linear,
     },
-    "numbers.value": {"exact": _of_numbers("exact"), "measured": _of_numbers("measured")},
+    "numbers.value": {
+        "exact": _of_numbers("exact"),
+        "measured": _of_numbers("measured"),
+        "minimum": _bends(1),
+        "maximum": _bends(-1),
+    },
     "numbers.comparison": {"fulfilled": _numbers_fulfil(True), "not_fulfilled": _numbers_fulfil(False)},
 }
 

@@ -64,6 +64,16 @@ def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: fa
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
+def _bent(sign: int | None) -> Predicate:
+    """The second derivative at the place, by differentiation of the value that was put there."""
+
+    def curvature(facts: Judged) -> Expr:
+        q, at = facts.inputs["coordinate"], facts.inputs["at"]
+        return diff(explicit(facts.inputs["potential"]), q, 2).subs(q, at)
+
+    return always_sign(sign, curvature)
+
+
 _SIGNS = {
     word: _of_square(sign, lambda facts: facts.result)
     for word, sign in (("stable", 1), ("unstable", -1), ("neutral", 0), ("conditional", None))
@@ -98,8 +108,15 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "unstable": _of_square(-1),
         "neutral": _of_square(0),
         "conditional": _of_square(None),
+        "growing": _of_square(None),
     },
     "potentials.slope": {"slope": _order_of(1), "curvature": _order_of(2), "higher": _order_of(2, more=True)},
+    "potentials.extreme_value": {
+        "minimum": _bent(1),
+        "maximum": _bent(-1),
+        "level": _bent(0),
+        "conditional": _bent(None),
+    },
     "potentials.leading_order": {
         **{
             shape: _shaped(shape, at_bound=False)

@@ -22,8 +22,8 @@ RATE_ENDS = ("_ddot", "_dot")  # in the names of accelerations and of rates
 def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
     """The terms of a sum as they are written; `moving` numbers the coordinates."""
     terms = roots_last(expr.as_ordered_terms())
-    if expr.has(ex.Amount):
-        return positive_first(terms)
+    if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), as R + a/2
+        return positive_first(sorted(terms, key=lambda term: not isinstance(term, ex.Amount)))
     return positive_first(motion_first(plain_first(terms), moving))
 
 

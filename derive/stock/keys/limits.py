@@ -8,7 +8,7 @@ from dataclasses import replace
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Relation, bound, explicit
 from derive.course.declared import INFINITE
 from derive.course.expression import Declared, read_expression
 from derive.course.problem import Problem, deriving
@@ -16,7 +16,7 @@ from derive.course.stock import told_at
 from derive.course.written import LimitKeys
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
-from derive.mechanics import known_case, limiting_case, put_in
+from derive.mechanics import case_in_letters, known_case, limiting_case, put_in
 from derive.steps.homogeneity import dimension_table
 from derive.steps.record import Run
 from derive.steps.step import Quantity
@@ -28,7 +28,8 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
     letters that the result no longer has, since something else is given for them.
 
     Each is on a record of its own, beside what the script has found in general: two limits of one quantity have one
-    letter.
+    letter. One of a step that there is not with what is given now, or with a letter that nothing given has now, or that
+    changes in the limit, is left out.
     """
     if not problem.limits:
         return []
@@ -39,15 +40,31 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
         general = [quantity for quantity, case_of in zip(run.established, run.cases, strict=True) if case_of is None]
         beside = replace(run, established=general, cases=[None] * len(general))
         with faults, deriving(problem, beside):
-            if not _is_there(given, known, letters):
+            if _is_of_another_case(given, problem, known, letters, run) or not _is_there(given, known, letters):
                 found.append([])
                 continue
             case = _case(given, known, letters, keys)
             keys.add(case.key)
-            _check_stated(given, case, letters)
-            found.append([case, *_compared(given, case, known, keys)])
+            stated = _as_stated(given, case, letters, known, keys)
+            found.append([case, *stated, *_compared(given, case, known, keys)])
     faults.stop()
     return found
+
+
+def _is_of_another_case(
+    given: LimitKeys, problem: Problem, known: Mapping[str, Quantity], letters: Mapping[str, Declared], run: Run
+) -> bool:
+    """Whether another step stands for what is looked at, or it needs a letter that is declared and not given."""
+    together = {key for quantity in known.values() if quantity.step.stands_for for key in quantity.step.stands_for}
+    if given.of in together or (given.of in known and known[str(given.of)].step.stands_for):
+        return True
+    said = [node for node in (given.letter, given.to, given.stated, *given.where.values()) if node is not None]
+    needed = {letter for node in said for letter in _read(node, letters).free_symbols}
+    moving = _read(given.letter, letters).free_symbols if given.letter else set()
+    changed = (q for q in known.values() if q.symbol in needed - moving and str(q.symbol) not in problem.symbols)
+    if any(explicit(q.value).free_symbols & moving for q in changed if isinstance(q.value, Expr)):
+        return True
+    return bool(({letter.name for letter in needed} & set(problem.symbols)) - set(run.letters))
 
 
 def _letters(problem: Problem, known: Mapping[str, Quantity]) -> dict[str, Declared]:
@@ -112,17 +129,25 @@ def _read(node: Tree, letters: Mapping[str, Declared]) -> Expr:
     return INFINITE[node.text.strip()] if node.text.strip() in INFINITE else read_expression(node, letters)[0]
 
 
-def _check_stated(given: LimitKeys, case: Quantity, letters: Mapping[str, Declared]) -> None:
-    """What the file says that the result then is, is what it is."""
+def _as_stated(
+    given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
+) -> list[Quantity]:
+    """What the file says that the result then is, is what it is; a step where it says so in the letters of others."""
     if given.stated is None:
-        return
+        return []
     stated, value = _read(given.stated, letters), explicit(case.value)
     value = value.right if isinstance(value, Relation) else value
     if isinstance(value, MatrixBase):
         message = f"`{case.key}` is no number; a vector or a tensor is compared with a step, `known`"
         rejected("wrong-type", message, given.stated.place)
-    if not equal(value, stated):
+    if equal(value, stated):
+        return []
+    stand_for = [q for q in known.values() if q.symbol in stated.free_symbols and isinstance(q.value, Expr)]
+    if not equal(value, explicit(bound(stated, {q.symbol: q.value for q in stand_for}))):
         rejected("wrong-limit", f"`{given.of or given.step}` then is {value}, not {stated}", given.stated.place)
+    key = _free(f"{case.key}_in_letters", keys)
+    keys.add(key)
+    return [case_in_letters(case, stated, stand_for, key=key)]
 
 
 def _compared(given: LimitKeys, case: Quantity, known: Mapping[str, Quantity], keys: set[str]) -> list[Quantity]:
