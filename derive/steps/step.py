@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from functools import cached_property
 from typing import Any, ClassVar, NoReturn, TypeVar
 
@@ -18,20 +17,8 @@ from derive.algebra.expressions import AXES, Relation, explicit
 from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
+from derive.steps.level import Level as Level  # of the forms below, and by this name to all who make them
 from derive.steps.subject import NOTHING, Subject
-
-
-class Level(StrEnum):
-    """How much algebra a reader wants; a form is shown at its own level and at every higher one."""
-
-    BRIEF = "brief"
-    STANDARD = "standard"
-    FULL = "full"
-
-    def shows(self, other: Level) -> bool:
-        order = list(Level)
-        return order.index(other) <= order.index(self)
-
 
 NUMBERS = ("value", "rounded")  # why a form stands at the end of a chain: the number in a unit, exact or rounded
 

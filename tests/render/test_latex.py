@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from sympy import Expr, Symbol, sin, symbols
+from sympy import Expr, ImmutableMatrix, Symbol, sin, symbols
 
 from derive.errors import Rejected
 from derive.render.notation.latex import TEX_FUNCTIONS, TEX_OPERATORS, escaped, latex, unit_latex, unprintable
@@ -118,3 +118,8 @@ def test_a_prime_stands_close_to_its_letter_and_can_be_squared() -> None:
 )
 def test_in_running_text_a_fraction_has_a_stroke_where_it_cannot_be_misread(value: Expr, tex: str) -> None:
     assert latex(Notation().layout(value), inline=True) == tex
+
+
+def test_in_running_text_a_vector_lies_down() -> None:
+    assert latex(Notation().result(ImmutableMatrix([a, 2 * a, 3 * a])), inline=True) == r"a\,(1,\ 2,\ 3)"
+    assert latex(Notation().layout(ImmutableMatrix([a / 2, 0, b])), inline=True) == r"(a/2,\ 0,\ b)"

@@ -76,7 +76,7 @@ BETWEEN_TERMS = {
         "comma",
     )
 }
-STROKE = Operator("stroke")
+STROKE, COMMA = Operator("stroke"), Operator("comma")
 COLUMN_STRUT = r"\rule[-.95em]{0pt}{2.45em}"  # keeps fractions below one another apart
 
 
@@ -86,13 +86,21 @@ def latex(layout: Layout, *, inline: bool = False) -> str:
 
 
 def _with_strokes(layout: Layout) -> Layout:
-    """For running text: R > a/2, dL/dt, (a/2, 0); before or behind another factor a fraction stays one."""
+    """For running text: R > a/2, dL/dt, a(1, 2, 3); before or behind another factor a fraction stays one."""
     if isinstance(layout, Fenced):
         return Fenced(_with_strokes(layout.inside), layout.kind)
-    items = layout.items if isinstance(layout, Row) else (layout,)
+    items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
     around = (None, *items, None)
     alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
+
+
+def _flat(item: Layout) -> Layout:
+    """A column as a list of its components."""
+    if not isinstance(item, Array) or len(item.rows[0]) > 1:
+        return item
+    (first,), *others = item.rows
+    return Fenced(row(first, *(each for (entry,) in others for each in (COMMA, entry))))
 
 
 def _with_stroke(item: Layout) -> Layout:
