@@ -133,8 +133,8 @@ def yaml_of(variant: Variant) -> dict[str, str]:
     for name, value in variant.givens:
         (line,) = re.findall(rf"^  {name}: .*$", text, re.M)
         edits[line] = f"  {name}: {value}"
-    for line in re.findall(r"^values: .*$", text, re.M):
-        edits[line] = ""
+    for section in re.findall(r"^values: .*$|^limits:\n(?: +.*\n)+", text, re.M):
+        edits[section] = ""
     return edits
 
 

@@ -249,6 +249,15 @@ def _over_masses(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
     return tuple(kept)
 
 
+NAMED = (
+    r"(?:\\lvert .*?\\rvert (?:\^\{\d\})?|\\(?:bm|d*dot|math\w+)\{\\?\w+\}|\\[a-z]+|[A-Za-z])"
+    r"'*(?:_\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\})?"
+)
+DERIVATIVE = re.compile(
+    rf"(?<![\\\w])(?P<above>(?:d|\\partial )(?:\^\{{\d\}})?{NAMED})/(?P<below>(?:d|\\partial ){NAMED}(?:\^\{{\d\}})?)"
+)
+
+
 def read_printed(
     text: str,
     names: Mapping[Name, Any],
@@ -257,6 +266,7 @@ def read_printed(
     positions: list[Any] | None = None,
 ) -> tuple[list[list[Any]], list[str]]:
     """The sides of a printed chain, in each branch of its signs, and the marks between them."""
+    text = DERIVATIVE.sub(r"\\tfrac{\g<above>}{\g<below>}", text)
     branches: list[list[Any]] = []
     marks: list[str] = []
     for branch in (0, 1):

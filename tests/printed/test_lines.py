@@ -60,9 +60,9 @@ MENDED = [
     (ex.Ratio(sin(theta), Integer(2)), "(sin θ)/2"),
     (ex.Ratio(Integer(1), sin(theta)), "1/(sin θ)"),
     # numbers behind factors, plus or minus, places
-    (ex.Factors(a + b, 2 / sqrt(14)), "(a + b)·2/√14"),
+    (ex.Factors(a + b, 2 / sqrt(14)), "(a + b) √(2/7)"),
     (ex.applied(tensor, Rational(1, 2) * Matrix([1, 2, 3])), "I⃡ (1/2 (1, 2, 3))"),
-    (PLUS_MINUS * a / 2, "±1/2 a"),
+    (PLUS_MINUS * a / 2, "±a/2"),
     (ex.At(a * theta, theta, pi / 2), "(a θ)|(θ = π/2)"),
     # a matrix where there is room for one line only
     (ex.Root(ex.Dot(w, ex.applied(Matrix(3, 3, range(9)), w))), "√(ω⃗·((0, 1, 2), (3, 4, 5), (6, 7, 8)) ω⃗)"),
