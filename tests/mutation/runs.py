@@ -145,10 +145,8 @@ TOP = (PINNED / "top.yaml").read_text(encoding="utf-8")
 RATES = Run(  # the top without its last part, in a third of the time
     "top-rates",
     (
-        (TOP[TOP.index("  - ask: >\n      Set going upright") : TOP.index("wording:")], ""),
-        (TOP[TOP.index("  conserved_phi: >-") : TOP.index("  constant_spin: >-")], ""),
-        (TOP[TOP.index("  upright_momentum: ") :], ""),
-        ("points: 10", "points: 7"),
+        (TOP[TOP.index("  - ask: >\n      If it spins") : TOP.index("show:")], ""),
+        (TOP[TOP.index("  conserved_phi: >-") :], ""),
     ),
     (("    p_phi, p_psi =", "    return slow, fast, condition\n    p_phi, p_psi ="),),
 )
