@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Integral
+from sympy import Integral, MatrixBase, Symbol
 
 from derive.algebra.expressions import Relation
 from derive.page.abbreviations import shortened
@@ -68,6 +68,8 @@ class ChainWriter:
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
+        if names_results(step.symbol) and isinstance(step.result, MatrixBase):
+            return _listed(step.symbol, step.result)
         forms += self._decimals(step)
         before = [None, *(form.because for form in forms)]
         forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
@@ -120,3 +122,16 @@ class ChainWriter:
 
 def _sign_before(form: Form) -> str:
     return "approx" if form.because in {"rounded", "series"} else "equals"
+
+
+def names_results(symbol: Any) -> bool:
+    """Whether it is a list of letters, each the name of one result, and no vector."""
+    return isinstance(symbol, MatrixBase) and all(isinstance(name, Symbol) for name in symbol)
+
+
+def _listed(names: Any, values: Any) -> tuple[ChainLine, ...]:
+    """I_1 = I_2 = the one value, I_3 = the other: each value once, behind all its names."""
+    found: dict[Any, Any] = {}
+    for name, value in zip(names, values, strict=True):
+        found[value] = Relation(found[value], "=", name) if value in found else name
+    return tuple(ChainLine(left, "equals", value, presented=True) for value, left in found.items())

@@ -8,6 +8,8 @@ from collections.abc import Collection
 from dataclasses import replace
 from typing import Any
 
+from sympy import MatrixBase
+
 from derive.page.wording import Inline
 from derive.steps.step import Step
 
@@ -43,6 +45,8 @@ def results(step: Step, lines: Lines) -> int:
 
     Where numbers are put in, what they are of is the same formula with units: the decimals alone are the result.
     """
+    if isinstance(getattr(step, "symbol", None), MatrixBase):  # a list of names, each value of which has a line
+        return len(lines)
     decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
     return decimals if decimals and step.outcome == "measured" else min(decimals + 1, len(lines))
 
