@@ -59,6 +59,7 @@ def rendered(
         notes.write(f"{problem_id} {detail}\n" if evidence == "none" else f"{problem_id} {detail} {evidence}\n")
     return Rendered(
         id=problem_id,
+        detail="standard",
         title=said,
         points="3",
         texts={**dict.fromkeys(formats(), f"{said} ω\n"), "json": '{"steps": [{}, {}], "reference": []}\n'},

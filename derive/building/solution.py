@@ -83,13 +83,14 @@ def rendered(
     )
     Faults(faults).stop()
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
-    notation = Notation(document.dimensions)
+    notation = Notation(document.dimensions, flat=level is Level.BRIEF)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
     wanted = {*formats(), *TYPESET} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
     fragments = problem_latex(document, words, notation, template_folder(root)) if typeset else NOT_TYPESET
     return Rendered(
         id=problem_id,
+        detail=level.value,
         title=inline_text(document.title, notation),
         points="" if problem.points is None else points_text(problem.points),
         latex=fragments.solution,

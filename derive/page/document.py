@@ -215,7 +215,7 @@ class _Writer:
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
-        limits = self._limits()
+        limits = None if self.level is Level.BRIEF else self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
         checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)

@@ -32,6 +32,7 @@ class Rendered:
     """
 
     id: str
+    detail: str
     title: str
     points: str
     texts: dict[str, str]
@@ -59,6 +60,7 @@ class Rendered:
         try:
             return cls(
                 id=_text(data["id"]),
+                detail=_text(data["detail"]),
                 title=_text(data["title"]),
                 points=_text(data["points"]),
                 texts={_text(name): _text(page) for name, page in dict(data["texts"]).items()},

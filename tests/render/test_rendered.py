@@ -14,6 +14,7 @@ from derive.render.rendered import Rendered, Tex
 TOLD = Complaint("x", "y", Place("one.yaml", 1, 2, "text", 3), notes=("z",), help="mend it", severity="warning")
 PAGE = Rendered(
     id="hw1/one",
+    detail="standard",
     title="A top",
     points="",
     latex=Tex(r"$\omega$"),

@@ -92,10 +92,11 @@ class Notation:
     """The layout of any expression of the engine.
 
     dimensions   of the letters, so that masses come first and rates last; unknown letters stand with the lengths
+    flat         whether vectors are lists of their components and not columns, as on a page that is to be short
     """
 
-    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None):
-        self.known_dimensions = dimensions or {}
+    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None, flat: bool = False):
+        self.known_dimensions, self.flat = dimensions or {}, flat
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}  # worked out once: every format of a page asks for the same ones
         self._results: dict[Any, Layout] = {}
@@ -177,9 +178,8 @@ class Notation:
         if letters and not number_above and self._is_letter_before_functions(letters):
             return self._factors_behind(Fraction(self.layout(letters[0]), self._factors(number_below)), letters[1:])
         number = Fraction(self._factors(number_above), self._factors(number_below))
-        if len(letters) == 1:
-            return row(number, self._as_factor(letters[0]))
-        return row(number, within(self._factors(letters), Binding.OPEN)) if letters else number
+        behind = [self._as_factor(each) for each in letters] if len(letters) == 1 else [self._factors(letters)]
+        return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
         """a/2 and a/2 sin x, where a letter is alone or stands before functions; but 1/2 M a^2, and 1/2 x_dot."""
@@ -262,6 +262,8 @@ class Notation:
         if all(entry == 0 for entry in value):
             return Name("0", style="vector" if value.shape[1] == 1 else "tensor")
         rows, columns = value.shape
+        if self.flat and columns == 1:
+            return self.list_of(tuple(value))
         return Array(tuple(tuple(self.layout(value[i, j]) for j in range(columns)) for i in range(rows)))
 
     def _matrix_product(self, expr: MatMul) -> Layout:
