@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from sympy import Expr, ImmutableMatrix, Symbol, sin, symbols
+from sympy import Expr, ImmutableMatrix, Symbol, sin, sqrt, symbols
 
 from derive.errors import Rejected
 from derive.render.notation.latex import TEX_FUNCTIONS, TEX_OPERATORS, escaped, latex, unit_latex, unprintable
@@ -113,7 +113,8 @@ def test_a_prime_stands_close_to_its_letter_and_can_be_squared() -> None:
         (R * a / 2, r"\tfrac{1}{2}\,Ra"),
         (a / 2 * sin(R), r"\tfrac{a}{2}\,\sin R"),
         (R / (a + b), r"\tfrac{R}{a+b}"),
-        (R / (a * b), r"\tfrac{R}{ab}"),
+        (R / (a * b), "R/(ab)"),
+        (sqrt(R / a), r"\sqrt{R/a}"),
     ],
 )
 def test_in_running_text_a_fraction_has_a_stroke_where_it_cannot_be_misread(value: Expr, tex: str) -> None:

@@ -74,6 +74,7 @@ BETWEEN_TERMS = {
         "at_most",
         "at_least",
         "comma",
+        "tends",
     )
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
@@ -105,14 +106,23 @@ def _flat(item: Layout) -> Layout:
 
 def _with_stroke(item: Layout) -> Layout:
     """The fraction with a stroke, if one can see at once what is above it and what below."""
-    if isinstance(item, Fenced):
-        return _with_strokes(item)
-    if not isinstance(item, Fraction):
-        return item
-    is_single = isinstance(item.below, Digits | Name | Raised) or is_differential(first_of(item.below))
-    factors = item.above.items if isinstance(item.above, Row) else (item.above,)
-    are_letters = all(isinstance(factor, Digits | Name | Raised | Upright | RootSign) for factor in factors)
-    return row(item.above, STROKE, item.below) if is_single and are_letters else item
+    match item:
+        case Fenced():
+            return _with_strokes(item)
+        case RootSign(inside):
+            return RootSign(_with_strokes(inside))
+        case Lowered(base, word):
+            return Lowered(_with_strokes(base), word)
+        case Fraction(above, below) if _are_letters(above) and _are_letters(below):
+            is_product = isinstance(below, Row) and not is_differential(first_of(below))
+            return row(above, STROKE, Fenced(below) if is_product else below)
+    return item
+
+
+def _are_letters(layout: Layout) -> bool:
+    """Letters and numbers side by side, and nothing that is tall or is added."""
+    factors = layout.items if isinstance(layout, Row) else (layout,)
+    return all(isinstance(factor, Digits | Name | Raised | Upright | RootSign) for factor in factors)
 
 
 class _Printer:
