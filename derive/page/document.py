@@ -274,7 +274,9 @@ class _Writer:
         found, faults = depictions(self.problem, self.drawings, self.derivation, self.words, self._told)
         self.faults += faults
         stem = self.problem.id.rpartition("/")[2]
-        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in found]
+        away = {chr(ord("a") + i) for i, part in enumerate(self.problem.parts) if not self.level.shows(part.detail)}
+        here = [d for d in found if d.at not in away]  # a part that is not shown has no drawings either
+        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in here]
 
     def _part(self, index: int, part: Question, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
