@@ -134,7 +134,8 @@ def _source_faults(compared: Iterable[Told]) -> tuple[SourceFault, ...]:
         if told.erratum:
             of = told.erratum
             printed = of.quote or str(told.facts["states"])
-            found.append((of.line or 0, ("erratum", str(of.line or ""), printed, of.why)))
+            why = f"right: {of.instead}; {of.why}" if of.instead else of.why
+            found.append((of.line or 0, ("erratum", str(of.line or ""), printed, why)))
         if told.remark:
             note = told.remark
             found.append((note.line or 0, ("remark", str(note.line or ""), note.quote, note.why)))

@@ -43,14 +43,12 @@ ROUTES = frozenset(
         "impulses",
         "integration",
         "known",  # by a derivation of its own
-        "law_of_cosines",
         "linearised",
         "mass_points",
         "matter",
         "moments",
         "newton",
         "opposite",
-        "other_way",
         "pappus",
         "particles",
         "parts",
@@ -60,12 +58,9 @@ ROUTES = frozenset(
         "rotation_matrix",
         "second_moments",
         "second_order",
-        "sine",
         "small_force",
         "speeds",
-        "tangent",
         "trial",
-        "triangle",
         "virtual_work",
         "work",
     ]
@@ -102,6 +97,7 @@ CHECKS = frozenset(
         "in_numbers",
         "invariants",
         "law",
+        "law_of_cosines",  # identities of the same two vectors
         "length",
         "lowest",
         "mass_given_back",
@@ -116,6 +112,7 @@ CHECKS = frozenset(
         "one_by_one",
         "orthogonal",
         "other_form",
+        "other_way",  # what was compared
         "otherwise",
         "parallel",
         "perpendicular",
@@ -129,6 +126,7 @@ CHECKS = frozenset(
         "right_handed",
         "rules",
         "sign",
+        "sine",
         "size",
         "slope",
         "start",
@@ -136,7 +134,9 @@ CHECKS = frozenset(
         "sum",
         "sum_of_squares",
         "there_and_back",
+        "tangent",
         "trace",
+        "triangle",
         "turned",
         "unit",
         "velocity",
@@ -154,6 +154,7 @@ OTHERWISE = {
     ("energy_integral.speed_from_energy", "motion"): Compared.ROUTE,
     ("gyroscopic.characteristic", "quadrature"): Compared.ROUTE,  # cosines and sines, not complex amplitudes
     ("gyroscopic.stability", "quadrature"): Compared.ROUTE,
+    ("lagrangian.lagrangian", "energy"): Compared.CHECK,  # the energy function of the same T and U
     ("lagrangian.generalized_force", "given_virtual_work"): Compared.CHECK,  # the first order of the Lagrangian
     ("minima.stable_where", "energies"): Compared.CHECK,  # in numbers
     ("rolling.no_slip", "at_rest"): Compared.ROUTE,
