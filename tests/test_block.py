@@ -91,7 +91,7 @@ def test_nothing_is_merely_sampled(block: Rendered) -> None:
     ("detail", "shown", "hidden"),
     [
         ("brief", ["I_xx = J_xx", "13/12 M a²"], ["[y³/3]", "6a³ ρ"]),
-        ("standard", ["[y³/3](0..2a)", "(6a³ ρ)"], ["26a⁵ ρ"]),
+        ("standard", ["[y³/3](0..2a)", "ρ (8a⁵ + 18a⁵) = 13/3 M a²", "ρ = M/(6a³)"], ["6a³ ρ", "26a⁵ ρ"]),
         ("full", ["[y³/3](0..2a)", "(6a³ ρ)", "26a⁵ ρ"], []),
     ],
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from sympy import Symbol, cos, sin, symbols
 
-from derive.algebra.equality import equal
+from derive.algebra.equality import Compared, equal
 from derive.algebra.expressions import TIME, Relation
 from derive.building.solution import rendered
 from derive.course.problem import load_problem
@@ -89,7 +89,12 @@ def test_a_negative_rate_stands_in_brackets(course: Path) -> None:
 
 def test_a_period_by_let_has_its_unit_and_is_called_a_definition(course: Path) -> None:
     text = page(course, "period-without-unit")
-    assert "≈ 1.532 s   by definition" in text
+    assert "Write\n\n    τ = 2π/ω_0 = " in text
+    assert "≈ 1.532 s " in text
+    assert {e.compared for e in steps(course, "period-without-unit")["period"].step.evidence} == {
+        Compared.NOTHING,
+        Compared.LINES,
+    }
 
 
 def test_what_is_named_in_a_coordinate_moves_with_it(course: Path) -> None:

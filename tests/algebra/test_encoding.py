@@ -37,7 +37,7 @@ from sympy import (
 from derive.algebra import expressions as ex
 from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.encoding import as_data, decoded, encoded, from_data
-from derive.algebra.expansion import Approach, Expansion
+from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.node import NODES, Node
 from derive.algebra.rounding import Rounded
 from derive.algebra.swing import SwingTime
@@ -91,6 +91,7 @@ EXPRESSIONS = [
     Determinant(ImmutableDenseMatrix([[a, x], [y, b]])),
     Expansion(a * b / (a + b), a, oo, Integer(1)),
     Approach(a, oo),
+    FirstOrder(a * x + x**2 * y, x, y),
     SwingTime(b * (cos(x) - cos(a)), x, a, Integer(2)),
 ]
 

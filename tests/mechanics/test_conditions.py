@@ -103,7 +103,8 @@ def test_every_line_of_a_condition_is_proved() -> None:
     found = where(quantity(M * g * (R**2 - a * b) / a), ">", 0, R)
     lines = [e.grade for e in found.step.evidence if e.compared is Compared.LINES]
     assert lines and set(lines) == {Grade.PROVED}
-    assert any(e.compared is Compared.ROUTE for e in found.step.evidence)
+    checks = {e.claim: e.grade for e in found.step.evidence if e.compared is Compared.CHECK}
+    assert checks == {"beside": Grade.PROVED, "points": Grade.SAMPLED}
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)

@@ -144,7 +144,12 @@ def test_two_masses_one_of_them_damped() -> None:
     assert {first.step.outcome, second.step.outcome} == {"damped"}
 
 
-def test_a_drag_that_is_left_out_of_the_linear_equation_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("with_a_line_before", "refused_by"), [(True, "does not follow from line 1"), (False, "second_order")]
+)
+def test_a_drag_that_is_left_out_of_the_linear_equation_is_refused(
+    monkeypatch: pytest.MonkeyPatch, with_a_line_before: bool, refused_by: str
+) -> None:
     motion, _ = damped()
     whole = linearised_module._coefficients
 
@@ -152,7 +157,9 @@ def test_a_drag_that_is_left_out_of_the_linear_equation_is_refused(monkeypatch: 
         return whole(*args) * (0 if args[-1] == 1 else 1)
 
     monkeypatch.setattr(linearised_module, "_coefficients", without_rates)
-    with pytest.raises(Unverified, match="second_order"):
+    if not with_a_line_before:
+        monkeypatch.setattr(linearised_module, "_with_small_angles", lambda *_: None)
+    with pytest.raises(Unverified, match=refused_by):
         linearised(motion)
 
 
