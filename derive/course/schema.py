@@ -14,7 +14,7 @@ from collections.abc import Mapping as Table
 from dataclasses import dataclass, field, fields
 from typing import Any, Generic, TypeVar
 
-from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, abridged, shape_of
+from derive.course.yaml_tree import Formula, Mapping, Scalar, Sequence, Tree, Word, abridged, shape_of
 from derive.errors import Faults, Place, did_you_mean, nearest
 
 MAX_FIGURES = 15
@@ -124,7 +124,15 @@ def _yes_or_no(node: Tree, name: str, faults: Faults) -> bool | None:
     return None
 
 
+def _formula(node: Tree, name: str, faults: Faults) -> Formula | None:
+    if isinstance(node, Scalar) and not node.empty:
+        return Formula.of(node)
+    wrong_type(faults, f"`{name}`", "an expression", node)
+    return None
+
+
 TEXT = Reader({"type": "string"}, _text)
+FORMULA = Reader({"type": ["string", "number"]}, _formula)
 YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)
 FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _figures)
 

@@ -15,6 +15,7 @@ from derive.course.problem_set import mapping_in, path_of
 from derive.course.prose import PROSE, PROSE_OR_NOTHING, Prose, read_prose
 from derive.course.schema import (
     FIGURES,
+    FORMULA,
     SCALAR,
     TEXT,
     Reader,
@@ -28,7 +29,7 @@ from derive.course.schema import (
     read_record,
     record_of,
 )
-from derive.course.yaml_tree import Mapping, Scalar, Tree, Word, shape_of
+from derive.course.yaml_tree import Formula, Mapping, Scalar, Tree, Word, shape_of
 from derive.errors import Faults, nearest
 
 ANY_OUTCOME = ""
@@ -122,13 +123,13 @@ class LimitKeys(Record):
     """The keys of one of `limits:`."""
 
     of: Word | None = key("the step that is looked at in a limiting or a special case, by its key", TEXT)
-    letter: Tree | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", SCALAR)
-    to: Tree | None = key("where it goes: `infinity` or a value; 0 unless it is given", SCALAR)
-    where: dict[Word, Tree] = key(
-        "what letters become in a special case, `{b: a, c: a}`", mapping_of(SCALAR, "a mapping such as `{b: a, c: a}`")
+    letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
+    to: Formula | None = key("where it goes: `infinity` or a value; 0 unless it is given", FORMULA)
+    where: dict[Word, Formula] = key(
+        "what letters become in a special case, `{b: a, c: a}`", mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`")
     )
     step: Word | None = key("a step that the script has made for this, in place of `of`", TEXT)
-    stated: Tree | None = key("what the result then is; refused where it is not", SCALAR, called="is")
+    stated: Formula | None = key("what the result then is; refused where it is not", FORMULA, called="is")
     known: Word | None = key("a step that has the same result in another way, by its key", TEXT)
     why: Prose | None = key("what is added to the sentence, in prose: `as for a disc`", PROSE)
 
@@ -138,6 +139,8 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
+    if any(way in found.values_at and getattr(found, way) is None for way in ("letter", "step", "of")):
+        return None  # that it is of another shape has been told
     ways = [way for way in ("letter", "where", "step") if getattr(found, way)]
     if len(ways) != 1 or (found.of is None) != (ways == ["step"]):
         message = "a limit has `of` with `letter` or with `where`, or it has a `step` alone"

@@ -171,6 +171,18 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
     return 0 if char.isspace() and not here[:1].isspace() else 1
 
 
+class Formula(Word):
+    """An expression of a file, read when its letters are known; nothing but its text counts where it is compared."""
+
+    scalar: Scalar
+
+    @classmethod
+    def of(cls, scalar: Scalar) -> Formula:
+        formula = cls(scalar.text.strip())
+        formula.place, formula.scalar = scalar.place, scalar
+        return formula
+
+
 @dataclass(frozen=True)
 class Sequence:
     items: tuple[Tree, ...]

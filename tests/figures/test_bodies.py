@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import pytest
 import sympy
-from sympy import Expr, Rational, Symbol, diag, pi, symbols
+from sympy import Expr, Integer, Rational, Symbol, diag, pi, symbols
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
@@ -76,6 +76,10 @@ class Spheroid(RoundSolid):
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius * sympy.sqrt(self.half**2 - z**2) / self.half
+
+    def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
+        """Its section is an ellipse of half axes R and h."""
+        return r**2 / self.radius**2 + z**2 / self.half**2, Integer(1)
 
     @property
     def measures(self) -> Mapping[str, Any]:

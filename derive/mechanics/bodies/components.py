@@ -11,6 +11,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer
 from derive.algebra.expressions import AXES, Factors, Ratio, component_names
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.facts import Integrated
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.regions import Region
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -94,6 +95,7 @@ def centre_component(
         outcome="on_axis" if axis == "z" and is_round_solid(body) else "generic",
         kind="length",
         parents=[body.density, *body.radii(start, region)],
+        facts=[Integrated.over(region)],
         telling=Telling(words={"start": start.name}),
         key=key or f"centre_of_mass_{axis}",
         scope=Scope(about=Subject(body=body, point=start)),

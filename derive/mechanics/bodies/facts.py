@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from derive.mechanics.bodies.regions import Point
+from sympy import Symbol
+
+from derive.mechanics.bodies.regions import Point, Region
 from derive.steps.step import Fact
 
 
@@ -30,3 +32,15 @@ class CountedFrom(Fact):
     """The point that a place is counted from."""
 
     start: Point
+
+
+@dataclass(frozen=True)
+class Integrated(Fact):
+    """The variables of an integral that is carried out: the radius of a section depends on z, the volume does not."""
+
+    missing = "is no integral over a body"
+    eliminates: tuple[Symbol, ...]
+
+    @classmethod
+    def over(cls, region: Region) -> Integrated:
+        return cls(region.names)

@@ -22,6 +22,7 @@ from derive.mechanics.bodies.equimomental import (
     stretched,
     without,
 )
+from derive.mechanics.bodies.facts import Integrated
 from derive.mechanics.bodies.integration import worked_integral
 from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
 from derive.mechanics.bodies.regions import Point, Region, coordinates, round_by_chords
@@ -371,6 +372,7 @@ def volume(body: Cone) -> Quantity:
         lambda *_: region.integral(Integer(1)),
         {},
         parents=body.radii(start, region),
+        facts=[Integrated.over(region)],
         telling=Telling(judged_by={"element": region.element, "radius": region.names[2]}),
         lines=Lines(between=worked_integral(region, Integer(1), Integer(1), Integer(1)), put_in=None),
         routes={"pappus": lambda value: (value, _by_pappus(body))},

@@ -31,7 +31,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.components import over_mass
 from derive.mechanics.bodies.equimomental import squared_distance
-from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
+from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, Integrated, OfBody
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.rotation.tensors import shape_of
 from derive.steps.establish import Lines, Scope, Telling, establish
@@ -150,6 +150,7 @@ def moment_seen(body: Body, axis: str, about: str, symbol: str, key: str, seen: 
         routes=body.another_way(lambda r: _entry_by_moments(r, (i, i)), point),
         kind="moment of inertia",
         parents=[body.density, *body.radii(point, region)],
+        facts=[Integrated.over(region)],
         key=key,
         telling=Telling(
             formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis, **seen}
@@ -177,6 +178,7 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
         definition=True,
         kind="moment of inertia",
         parents=[body.density, *body.radii(point, region)],
+        facts=[Integrated.over(region)],
         lines=Lines(put_in=None, result=False),
         telling=Telling(words={"about": point.name}),
         key=f"{key}_definition",
@@ -234,6 +236,7 @@ def _entry_by_integration(
         outcome="mirrored" if pairs == MIRRORED else _entry_outcome(pair, pairs),
         kind="moment of inertia",
         parents=[definition, body.density, *body.radii(point, region)],
+        facts=[Integrated.over(region)],
         key=f"{key}_{named}",
         telling=Telling(formulas=_told_square(region, pair, weight), words={"about": point.name}),
         scope=Scope(about=Subject(body=body, point=point, axis=named)),

@@ -14,7 +14,7 @@ from derive.course.expression import Declared, read_expression
 from derive.course.problem import Problem, deriving
 from derive.course.stock import told_at
 from derive.course.written import LimitKeys
-from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.course.yaml_tree import Formula, Word
 from derive.errors import Faults, did_you_mean, rejected
 from derive.mechanics import case_in_letters, known_case, limiting_case, put_in
 from derive.steps.homogeneity import dimension_table
@@ -123,10 +123,8 @@ def _free(key: str, taken: Iterable[str]) -> str:
     return found
 
 
-def _read(node: Tree, letters: Mapping[str, Declared]) -> Expr:
-    if not isinstance(node, Scalar) or node.empty:
-        rejected("wrong-type", "this must be an expression", node.place)
-    return INFINITE[node.text.strip()] if node.text.strip() in INFINITE else read_expression(node, letters)[0]
+def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
+    return INFINITE[formula] if formula in INFINITE else read_expression(formula.scalar, letters)[0]
 
 
 def _as_stated(

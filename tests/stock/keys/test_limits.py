@@ -9,6 +9,7 @@ from sympy import sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.building.solution import derived, rendered
+from derive.building.solved import steps_key
 from derive.errors import Rejected
 from tests.stock.described import course_with, edited, loaded
 
@@ -49,6 +50,21 @@ def test_each_limit_is_a_step_that_the_page_tells_at_its_end(tmp_path: Path) -> 
     text = page(tmp_path)
     assert "Limiting cases" in text
     assert "as for a pendulum of length l." in text and "For m = M, ω_0 becomes" in text
+
+
+def test_where_a_limit_stands_in_the_file_changes_no_step_and_what_it_says_does(tmp_path: Path) -> None:
+    moved, other = (
+        edited(CART, ("A bob on a cart.", "A bob hangs on a cart.")),
+        edited(CART, ("letter: m/M", "letter: m")),
+    )
+    keys = [steps_key(loaded(tmp_path / name, text)) for name, text in {"a": CART, "b": moved, "c": other}.items()]
+    assert keys[0] == keys[1] != keys[2]
+
+
+def test_a_limit_of_another_shape_is_told_once(tmp_path: Path) -> None:
+    with pytest.raises(Rejected) as refusal:
+        loaded(tmp_path, edited(CART, ("letter: m/M", "letter: [m, M]")))
+    assert [c.message for c in refusal.value.complaints] == ["`letter` must be an expression, but it is a list"]
 
 
 def test_a_problem_without_limits_has_no_such_section(tmp_path: Path) -> None:
