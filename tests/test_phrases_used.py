@@ -99,7 +99,7 @@ def noted_phrases() -> _NotedPhrases:
 
 
 def used_by(page: str, folder: Path) -> set[str]:
-    """The phrases of a page: `transcript/block-cube`, `library/atwood`."""
+    """The phrases of a page: `transcript/block-cube`, `library/atwood`; of one that says no level, also at full."""
     sort, _, name = page.partition("/")
     root, problem_id, detail = folder, f"{sort}/{name}", None
     if sort == "transcript":
@@ -124,7 +124,8 @@ def used_by(page: str, folder: Path) -> set[str]:
     noted = noted_phrases()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(solution, "phrases", lambda _: noted)
-        rendered_once(root, problem_id, detail, only={"text"})
+        for level in (detail,) if detail else (None, "full"):
+            rendered_once(root, problem_id, level, only={"text"})
     return {key for key in noted.used if key.partition(".")[0] in OF_PAGES}
 
 
@@ -177,7 +178,7 @@ def test_each_word_of_the_frame_stands_in_a_template_or_in_the_code() -> None:
     sources = [*(ROOT / "derive").rglob("*.py"), *(ROOT / "templates" / "latex").iterdir()]
     text = "\n".join(file.read_text(encoding="utf-8") for file in sources if file.is_file())
     asked = set(re.findall(r"[a-z_]+", text))
-    names = {*read["labels"], *read["labels"]["checked_page"], *read["labels"]["explain"]}
+    names = {*read["labels"], *read["labels"]["explain"], *read["labels"]["report_page"]}
     assert sorted(names - asked) == []
 
 

@@ -1,9 +1,9 @@
 """What all documents of a set begin with, taken in by TeX once: its classes, packages and commands as a format.
 
-A template says by a line of its own where the documents begin to differ. What stands above it is loaded and dumped, and
-the format is kept with all else that a build keeps, unpacked, for so TeX reads it in half the time; a source then has
-these lines as comments, so that its lines have the same numbers as before. Where there is no such line, or TeX cannot
-do it, a document is typeset as it stands.
+A template says by a line of its own where the documents begin to differ; what stands above it depends on nothing but
+how much the pages show, `detail`. It is loaded and dumped, and the format is kept with all else that a build keeps,
+unpacked, for so TeX reads it in half the time; a source then has these lines as comments, so that its lines have the
+same numbers as before. Where there is no such line, or TeX cannot do it, a document is typeset as it stands.
 
 Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
 """
@@ -18,7 +18,6 @@ import subprocess
 import tempfile
 import zlib
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from derive.building.cache import Cache, digest
@@ -34,14 +33,12 @@ CANNOT = b""  # instead of a format: this engine cannot dump this preamble, and 
 Environment = Mapping[str, str]
 
 
-def beginning(templates: Path) -> str:
-    """What all documents begin with, before there is any; nothing if the template must be filled first."""
-    with suppress(OSError, ValueError):
-        text = (templates / "latex" / "document.tex.j2").read_text(encoding="utf-8")
-        above, differs, _ = text.partition(DIFFERS)
-        if differs and not any(sign in above for sign in ("<<", "<%", "<#")):
-            return above + differs
-    return ""
+def beginning(templates: Path, detail: str) -> str:
+    """What all documents of that level begin with, before there is any; nothing if the template asks for more."""
+    from derive.render.printing.templates import filled_above
+
+    above = filled_above(templates, "document.tex.j2", DIFFERS, {"detail": detail})
+    return above + DIFFERS if above else ""
 
 
 @functools.cache

@@ -14,6 +14,7 @@ from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.rendered import Rendered, Tex
+from derive.steps.level import Level
 
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
@@ -74,6 +75,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
         "set_id": Tex(heading.id),
         "heading": heading,
         "problems": problems,
+        "detail": problems[0].problem.detail if problems else Level.STANDARD.value,
         "total": _total(problems),
         "worth": lambda points: words.worth(Fraction(points)) if points else "",
         "rows": _rows(problems, words),

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from jinja2 import meta
 from pypdf import PdfReader
 
 from derive.building import preamble
 from derive.building.cache import Cache, Kept, digest
 from derive.building.preamble import DIFFERS, beginning
-from derive.building.set_document import sheet_document
+from derive.building.set_document import COUNTED, problem_document, report_document, set_document, sheet_document
 from derive.building.tex import Engine, chosen_engine, prepare, typeset
 from derive.course.problem_set import ProblemSet
 from derive.errors import BuildFailed
+from derive.page.template import environment
+from derive.render.rendered import Rendered, Tex
+from derive.steps.level import Level
 from tests.courses import ROOT
 
 ABOVE = r"""\documentclass{article}
@@ -26,6 +32,11 @@ BELOW = r"""\newcommand{\own}[1]{of #1}
 A block \own{two}: $\mass a^2$ %s
 \end{document}
 """
+PAGE = Rendered(
+    id="hw1/one", detail="standard", title="One", points="3", texts={}, latex=Tex("solved"), title_latex=Tex("One"),
+    sheet=Tex("asked"), report=Tex("checked"), warnings=(), inputs=(), grades={}, counts=dict.fromkeys(COUNTED, 1),
+    steps=1, compared=0, agreed=True,
+)  # fmt: skip
 
 
 @pytest.fixture
@@ -97,14 +108,32 @@ def test_the_documents_of_a_set_say_where_they_differ() -> None:
     template = (Path(__file__).parents[2] / "templates" / "latex" / "document.tex.j2").read_text()
     above, differs, below = template.partition(DIFFERS)
     assert differs
-    assert "<<" not in above, "what differs stands below the line"
+    asked = meta.find_undeclared_variables(environment().parse(above))
+    assert asked == {"detail"}, "what else differs stands below the line"
     assert "\\usepackage" not in below
 
 
-def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_one() -> None:
-    document = sheet_document(ROOT, ProblemSet("hw1", "Physics", "Homework", None, None, (), ()), [])
-    assert document.startswith(beginning(ROOT / "templates"))
-    assert beginning(ROOT / "templates").endswith(DIFFERS)
+@pytest.mark.parametrize("detail", [None, *Level])
+def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_one(detail: Level | None) -> None:
+    begins = beginning(ROOT / "templates", detail or Level.STANDARD)
+    assert begins.startswith("% Written by derive")
+    assert begins.endswith(DIFFERS)
+    assert "<<" not in begins
+    assert "<%" not in begins
+    heading = ProblemSet("hw1", "Physics", "Homework", None, None, (), ())
+    problems = [replace(PAGE, detail=detail.value)] if detail else []
+    kinds: list[Callable[[Path, ProblemSet, list[Rendered]], str]] = [sheet_document]
+    if problems:
+        kinds += [set_document, report_document, lambda root, of, pages: problem_document(root, pages[0], of)]
+    for kind in kinds:
+        assert kind(ROOT, heading, problems).startswith(begins)
+
+
+def test_a_brief_page_has_a_class_of_its_own() -> None:
+    brief, *others = (beginning(ROOT / "templates", level) for level in Level)
+    assert r"\documentclass[10pt]{article}" in brief
+    assert all(r"\documentclass[11pt]{article}" in each for each in others)
+    assert len({*others}) == 1, "they share a format"
 
 
 @pytest.mark.parametrize("text", [None, "no such line", "<< labels.title >>" + DIFFERS])
@@ -112,7 +141,7 @@ def test_what_a_template_must_be_filled_for_is_not_known_before(tmp_path: Path, 
     (tmp_path / "latex").mkdir()
     if text:
         (tmp_path / "latex" / "document.tex.j2").write_text(text)
-    assert beginning(tmp_path) == ""
+    assert beginning(tmp_path, Level.STANDARD) == ""
 
 
 def test_a_format_that_is_made_before_is_that_of_the_documents(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:

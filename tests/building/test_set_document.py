@@ -255,9 +255,9 @@ def test_the_sheet_has_the_questions_and_nothing_that_is_derived(course: Path, s
 def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path: Path) -> None:
     root = course_in(tmp_path, {"What torque must": "With <<spin>> from <<eq spin>>, what torque must"})
     solution = rendered_once(root, "hw9/block")
-    assert r"from \hyperlink{hw9.block.21}{(21)}, what torque" in solution.latex
+    assert r"from \hyperlink{hw9.block.18}{(18)}, what torque" in solution.latex
     assert r"from part (b), what torque" in solution.sheet
-    assert "With ω⃗ from (21), what torque" in solution.texts["text"]
+    assert "With ω⃗ from (18), what torque" in solution.texts["text"]
 
 
 def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:
@@ -276,7 +276,7 @@ def test_another_problem_is_referred_to_by_its_number_in_the_set(course: Path, s
 
 
 def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]) -> None:
-    assert "Part (c) has already given θ, equation (25)." in solved[1].texts["text"]
+    assert "Part (c) has already given θ, equation (22)." in solved[1].texts["text"]
 
 
 @pytest.mark.parametrize(

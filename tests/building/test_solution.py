@@ -78,13 +78,14 @@ def test_a_unit_of_another_dimension_is_told_where_it_is_written(tmp_path: Path)
 
 
 def test_an_equation_of_motion_has_no_unit(tmp_path: Path) -> None:
-    course_in(tmp_path, {"    answer: [equation_of_motion, frequency]\n": UNIT_OF_THE_EQUATION}, problem="slab")
+    asked = UNIT_OF_THE_EQUATION.splitlines(keepends=True)[0]
+    course_in(tmp_path, {asked: UNIT_OF_THE_EQUATION}, problem="slab")
     with pytest.raises(Rejected, match="is an equation between things that move"):
         rendered_once(tmp_path, "hw9/slab")
 
 
 UNIT_OF_THE_EQUATION = """\
-    answer: [equation_of_motion, frequency]
+    answer: [equation_of_motion, frequency, growth_rate]
     form: {equation_of_motion: {unit: [m/s^2]}}
 """
 

@@ -213,7 +213,7 @@ def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_pa
     page = root / "build" / "hw9" / "euler.tex"
     for file, old, new in (
         ("phrases/en/page.yaml", "solutions: Solutions", "solutions: Worked out"),
-        ("latex/document.tex.j2", r"{\jot}{5pt}", r"{\jot}{9pt}"),
+        ("latex/document.tex.j2", r"{\headheight}{14pt}", r"{\headheight}{15pt}"),
     ):
         text = (root / "templates" / file).read_text()
         assert text.count(old) == 1

@@ -40,6 +40,15 @@ def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Te
         raise Rejected(Complaint("template", f"the template fails: {_said(error)}", place)) from error
 
 
+def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
+    """What stands above that line of a template, filled; nothing if there is no such line, or it needs more facts."""
+    with suppress(TemplateError, OSError, UnicodeError):
+        above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
+        if found:
+            return Tex(_environment(folder).from_string(above).render(facts))
+    return Tex("")
+
+
 def compile_templates(folder: Path) -> None:
     """Have them compiled, for the processes that fill them; what is wrong with one is told where it is filled."""
     loaded = _environment(folder)
