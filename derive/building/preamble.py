@@ -33,11 +33,12 @@ CANNOT = b""  # instead of a format: this engine cannot dump this preamble, and 
 Environment = Mapping[str, str]
 
 
-def beginning(templates: Path, detail: str) -> str:
+def beginning(templates: Path, detail: str | None) -> str:
     """What all documents of that level begin with, before there is any; nothing if the template asks for more."""
     from derive.render.printing.templates import filled_above
+    from derive.steps.level import Level
 
-    above = filled_above(templates, "document.tex.j2", DIFFERS, {"detail": detail})
+    above = filled_above(templates, "document.tex.j2", DIFFERS, {"detail": Level(detail or "standard").value})
     return above + DIFFERS if above else ""
 
 

@@ -313,10 +313,8 @@ class _Build:
 
     def _prepared(self) -> None:
         from derive.page.template import template_folder
-        from derive.steps.level import Level
 
-        detail = Level(self.options.detail or Level.STANDARD)
-        prepare(beginning(template_folder(self.root), detail), self.engine, self.cache)
+        prepare(beginning(template_folder(self.root), self.options.detail), self.engine, self.cache)
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:
         if not self._took(outcome):

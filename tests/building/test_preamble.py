@@ -115,7 +115,7 @@ def test_the_documents_of_a_set_say_where_they_differ() -> None:
 
 @pytest.mark.parametrize("detail", [None, *Level])
 def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_one(detail: Level | None) -> None:
-    begins = beginning(ROOT / "templates", detail or Level.STANDARD)
+    begins = beginning(ROOT / "templates", detail)
     assert begins.startswith("% Written by derive")
     assert begins.endswith(DIFFERS)
     assert "<<" not in begins
