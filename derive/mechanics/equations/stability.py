@@ -77,7 +77,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
         lambda energy: Slope(energy, q, Integer(order)),
         {"potential": potential},
         lines=Lines(
-            put_in=None,
+            put_in=Level.FULL,
             law=Level.FULL,
             arranged=lambda value: spread_or_by_terms(value, _of_each_term(potential.value, q, order)),
         ),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, factor, sin, sqrt, tan
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, expand, factor, sin, sqrt, tan
 
 from derive.algebra.collect import by_rates, by_terms, spread, with_constants_together, with_weights_in_front
 from derive.algebra.derivatives import derivative
@@ -43,13 +43,14 @@ from derive.mechanics.systems.rigid import (
 from derive.mechanics.systems.system import HALF, ZERO, Eliminated, System
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import assumed, free_letter
-from derive.steps.step import Level, Quantity, compared_with, lettered, value_behind
+from derive.steps.step import Form, Level, Quantity, compared_with, lettered, value_behind
 from derive.steps.subject import EVERYTHING, Subject
 
 __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
 
 
 SPEEDS = ("v", "u", "w")  # the letter of a speed: the next where one is given
+MANY = 8  # terms; more of them are not written out
 
 
 @dataclass(frozen=True)
@@ -106,12 +107,19 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
         routes={"functions_of_time": compared_with(matter.kinetic_energy)},
         lines=Lines(
             put_in=Level.STANDARD if velocity else None,
+            between=_multiplied_out([v.value for v in velocity]),
             arranged=lambda value: by_rates(value, moving),
             means={letter: _speed(mover.place, moving)},
         ),
         parents=[known for _, known in mover.at.found] if velocity else [],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
+    """The squares multiplied out, before sines and cosines of one angle come together; nothing where that is long."""
+    terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
+    return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
