@@ -165,11 +165,16 @@ def test_a_limit_that_is_known_from_elsewhere_agrees_with_it_by_a_step() -> None
     assert agreed.step.inputs == ("hollow_limit", "shell")
 
 
+def _with_its_own_copy(limit: Quantity) -> tuple[Quantity, Quantity]:
+    return limit, let("copy", lambda value: value, limit, symbol="I_0")
+
+
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
         (lambda hollow: known_case(limiting_case(hollow, h, R), given(M * R**2 / 3, "other", symbol="I_0")), "is"),
         (lambda hollow: known_case(limiting_case(hollow, h, R), hollow), "would say nothing"),
+        (lambda hollow: known_case(*_with_its_own_copy(limiting_case(hollow, h, R))), "would say nothing"),
     ],
 )
 def test_what_is_not_known_or_not_from_elsewhere_is_refused(wrong: Callable[[Quantity], Any], said: str) -> None:

@@ -187,8 +187,9 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     values = [explicit(q.value.right if _solved_for(q) is not None else q.value) for q in (found, known)]
-    if found.rests_on(known):
-        message = f"`{found.key}` is derived from `{known.key}`, so that their agreement would say nothing"
+    if found.rests_on(known) or known.rests_on(found):
+        first, other = (found, known) if found.rests_on(known) else (known, found)
+        message = f"`{first.key}` is derived from `{other.key}`, so that their agreement would say nothing"
         raise Rejected(Complaint("same-source", message))
     if not equal(*values):
         raise Rejected(Complaint("wrong-limit", f"`{found.key}` is {values[0]}, but `{known.key}` is {values[1]}"))

@@ -61,7 +61,7 @@ class Momentary(Fact):
 
 
 class RateByParticles(Fact):
-    """The rate of change of a quantity of a body, without its equations of motion."""
+    """The rate of change of a quantity of a body, without its equations of motion; each has its class."""
 
     missing = "is not made of particles"
 
