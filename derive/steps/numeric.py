@@ -75,7 +75,7 @@ def value_of(
     unit      as text, and `factor`, what one of it is in the SI
     more      other units in which it is given too, each with its factor
     case      the name of the case of which these are the numbers, if there are several
-    Second route: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
+    Check: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
     Outcomes: measured (numbers were put in), exact; minimum or maximum, of a function's value where it is level.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
@@ -187,7 +187,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
     condition   an inequality or an equation between what is given, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit
-    Second route: both sides, and the sign of their difference, as for `value_of`.
+    Check: both sides, and the sign of their difference, as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
     Source: as `value_of`.
     """
@@ -230,7 +230,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
                  nor where the number is rational
     figures      significant figures
     of_vectors   whether it may be a vector of numbers times letters, whose numbers may be rational
-    Second route: what is left of the result without its letters, as for `value_of`.
+    Check: what is left of the result without its letters, as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
     """

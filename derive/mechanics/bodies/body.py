@@ -325,7 +325,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
 
     body    mass M; volume V, area A or length l
     part    what the page calls the body where it is one of several
-    Second route: the integral of the density over the body gives M back.
+    Check: the integral of the density over the body gives M back.
     Outcomes: along_edges (of a cuboid); volume, area, length (what the mass is spread over); derived, where that was a
     step of its own.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.

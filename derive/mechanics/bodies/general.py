@@ -293,7 +293,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     """Length, area or volume of a body, the integral of its cells.
 
     body   a body told by its position map
-    Second route: the sum over cells in numbers, their sizes by the scalar products of their edges.
+    Check: the sum over cells in numbers, their sizes by the scalar products of their edges.
     Outcomes: length, area, volume.
     Source: Apostol, *Calculus*, volume 2, sections 11.3 and 12.5.
     """
@@ -319,7 +319,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
     """Mass of a body of a given density, M = integral of the density over it.
 
     body   a body told by its position map, and its density
-    Second route: the sum over cells in numbers, their sizes by the scalar products of their edges.
+    Check: the sum over cells in numbers, their sizes by the scalar products of their edges.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     region = body.region(ORIGIN)
@@ -347,7 +347,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """Density of a body of given mass that is proportional to a function of the place, rho = M p/(integral of p dV).
 
     body   a body told by its position map, its mass, and what the density is proportional to
-    Second route: the sum of density times cell in numbers gives the mass back.
+    Check: the sum of density times cell in numbers gives the mass back.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     region, p = body.region(ORIGIN), body.profile

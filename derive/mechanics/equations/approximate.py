@@ -34,7 +34,7 @@ def equation_in_limit(
     to         0 where it is small, SymPy's `oo` where it is large, else the value that it is near
     order      the highest power of what is small that is kept; the leading terms alone if none is given
     Where a sine of the letter times the time is expanded, that is for short times: the sentence says so.
-    Second route: numbers; what is left out, divided by the last power that is kept, goes to zero with what is small.
+    Check: numbers; what is left out, divided by the last power that is kept, goes to zero with what is small.
     Outcomes: small, large, near (the leading terms alone); first_order, to_order; exact (nothing is left out).
     Errors: the equation does not contain the letter, or the letter changes with the time; it has no such expansion, or
     begins beyond that order.

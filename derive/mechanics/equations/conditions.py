@@ -65,7 +65,7 @@ def where(
     letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
     in its square; or what was given for a letter, 2b for R, of which one letter is taken
     through  the same in other letters, told on the way, and the results that these stand for
-    Second route: a little above the solved bound, at it and a little below, the sign of the difference; and at random
+    Check: a little above the solved bound, at it and a little below, the sign of the difference; and at random
     points both relations are true, or both false.
     What both sides are divided by must not vanish, which is told where nothing decides it; in an inequality its sign
     must be known, by the letters, their ranges or their numbers.
@@ -161,7 +161,7 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
     letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
     start    the value of that letter at the start, where the surfaces touch
     Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, take no part.
-    Second route: a little towards the start the force is still positive, a little beyond it would be negative; where
+    Check: a little towards the start the force is still positive, a little beyond it would be negative; where
     there are such factors also in numbers, along the coordinate itself.
     Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
     positive whatever the letter is).

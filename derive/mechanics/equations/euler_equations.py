@@ -367,7 +367,7 @@ def rate_in_body(
     momentum    angular momentum L, vector (3), kg m^2/s, body axes
     omega       angular velocity of the body, vector (3), 1/s, body axes
     equations   Euler's equations, for the axes x, y and z in turn
-    Second route: the components I_x omega_x and so on differentiated, the angular accelerations as the equations give
+    Check: the components I_x omega_x and so on differentiated, the angular accelerations as the equations give
     them.
     Outcomes: zero (constant in the body), in_general, driven (a torque acts).
     Errors: arguments of other kinds.

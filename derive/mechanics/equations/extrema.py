@@ -33,7 +33,7 @@ def maximum(of: Quantity, letter: Any, within: Within | None = None, key: str = 
     of       a scalar, any unit
     letter   what may be chosen: an angle, a frequency, a length
     within   the interval from which it is chosen; else all values that the letter can have
-    Second route: the value there against those at many other places of the interval.
+    Check: the value there against those at many other places of the interval.
     Outcomes: greatest, least; their condition is told, where the place exists for some values of the letters only.
     Errors: no place, or several, where the slope vanishes and the curvature has that sign.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
@@ -47,7 +47,7 @@ def minimum(of: Quantity, letter: Any, within: Within | None = None, key: str = 
     of       a scalar, any unit
     letter   what may be chosen: an angle, a frequency, a length
     within   the interval from which it is chosen; else all values that the letter can have
-    Second route: as `maximum`.
+    Check: as `maximum`.
     Errors: no place, or several, where the slope vanishes and the curvature has that sign.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """

@@ -29,7 +29,7 @@ def steady_amplitude(
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
-    Second route: the forced oscillation with this amplitude and this lag put back into the equation.
+    Check: the forced oscillation with this amplitude and this lag put back into the equation.
     Outcomes: damped, undamped (the oscillation is in step, or opposite).
     Errors: the equation is not linear with constant coefficients, or not driven by one oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.5.

@@ -49,7 +49,7 @@ def limiting_case(
     order    the highest power of what is small that is kept; the leading term alone if none is given
     Of a vector or a tensor that is the leading power of its largest entry: the others vanish beside it. Letters that
     are put equal, b = a, are `put_in`.
-    Second route: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
+    Check: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
     on each side: the rest, divided by the last power that is kept, goes to zero with what is small.
     Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
     left out).
@@ -215,7 +215,7 @@ def case_in_letters(
     found    the result in a limiting or a special case, any unit
     formula  the same in letters
     values   the results that these letters stand for
-    Second route: all letters replaced at once, against the limiting case.
+    Check: all letters replaced at once, against the limiting case.
     Outcomes: generic.
     Errors: the two are not equal.
     Source: none needed: substitution.

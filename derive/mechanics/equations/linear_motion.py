@@ -94,7 +94,7 @@ def solution(
     start        its value at t = 0
     start_rate   its rate at t = 0, for an equation of second order; 0 where none is given
     case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
-    Second route: put back into the equation; its value and its rate at t = 0.
+    Check: put back into the equation; its value and its rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
     uniform (no force of its position or rate), slows (no force of its position: the rate dies away), relaxes (of first
     order), accumulates (of first order, without q).

@@ -288,7 +288,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
     """Period of an oscillation, tau = 2 pi/omega.
 
     of   its angular frequency, 1/s
-    Second route: after that time, and not after half of it, cos(omega t) and its rate are what they were.
+    Check: after that time, and not after half of it, cos(omega t) and its rate are what they were.
     Errors: this is no angular frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.2.
     """
@@ -321,7 +321,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     slow, fast   the angular frequencies of two modes, 1/s
     cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2), whose size rises and
     falls with the difference.
-    Second route: the two swings added are that product, at any time.
+    Check: the two swings added are that product, at any time.
     Errors: the first is faster, or the two are the same; one is no frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """

@@ -40,7 +40,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     """Square of the frequency of small oscillations, omega_0^2 = k/m, in 1/s^2.
 
     linear   the equation m q_ddot + k q = 0, as `linearised` yields it
-    Second route: q = cos(omega_0 t) put back into the equation.
+    Check: q = cos(omega_0 t) put back into the equation.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (its sign depends on the letters).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
@@ -144,7 +144,7 @@ def frequency(
     squared     as `frequency_squared` yields it, 1/s^2
     condition   whether the sentence says for which letters there is an oscillation
     stands_for  keys of what there would be beside it, were the sign of the square open
-    Second route: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
+    Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and it is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the rate kappa of growth).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
@@ -159,7 +159,7 @@ def frequency_and_growth(
     squared     as `frequency_squared` yields it, 1/s^2
     keys        of the two; where the sign of the square is known one step stands for both
     condition   as for `frequency`
-    Second route: as for `frequency`.
+    Check: as for `frequency`.
     Outcomes: those of `frequency`; beside a conditional one that of the rate of growth, growing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """

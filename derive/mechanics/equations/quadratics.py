@@ -84,7 +84,7 @@ def roots_together(
     values     what letters of the coefficients stand for here
     key        of the step that has both; `keys` and `symbols` are those of each by itself
     As many are yielded as there are keys: what is the only one, or says that there is none, stands for all of them.
-    Second route: put back into the equation; their sum; the product of the two.
+    Check: put back into the equation; their sum; the product of the two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)
@@ -300,7 +300,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
     roots   one of them, as `roots` yields them with `together`
-    Second route: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
+    Check: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
     Outcomes: positive, negative, vanishing, conditional (not known from the letters); linear (b^2, a being zero).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
@@ -334,7 +334,7 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where") -> Quantit
     letter   what stands alone in the end
     The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish. Where values were put
     into the equation, the condition is told in letters first.
-    Second route: as `where`.
+    Check: as `where`.
     Outcomes: those of `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """

@@ -114,7 +114,7 @@ def roots(
     keys       what the steps are called; else by the letter, with _1, _2 where there are several
     key        what the keys begin with in place of the letter
     symbols    the letters of the roots; else that of the unknown, with _1, _2 where there are several
-    Second route: put back into the equation; by Vieta the sum and the product of all roots are those that the
+    Check: put back into the equation; by Vieta the sum and the product of all roots are those that the
     coefficients give.
     Factors that vanish elsewhere, sin(theta) where cos(theta) is sought, are told, or assumed not to vanish.
     Outcomes: single, double, only (the others are not positive, or complex), several, following (those behind it),

@@ -38,7 +38,7 @@ def solved_for(
     equations   one equation or several
     unknowns    letters, rates, accelerations (`x.acceleration`), or such as `theta.rate**2`, `cos(theta)`
     keys        what the steps are called; else each by the letter of its unknown
-    Second route: all values put back into all equations, and the unknowns eliminated one after another.
+    Check: all values put back into all equations, and the unknowns eliminated one after another.
     Outcomes: alone (one equation), several, following (the second of several unknowns and those behind it).
     Errors: another number of equations than of unknowns; equations that are not linear in them, or that do not
     determine them.

@@ -22,7 +22,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
 
     moments   principal moments (3), kg m^2, of which two are equal
     letter    a letter that stands for a positive number; or what was given for it, 2b for h
-    Second route: with the letter put in, the tensor is one moment times the unit tensor; and the two moments differ,
+    Check: with the letter put in, the tensor is one moment times the unit tensor; and the two moments differ,
     one way or the other, where the letter is a little greater and a little less.
     Outcomes: special; always, where they are equal as it is; never, where one is greater whatever the letters are.
     Errors: the three moments are all different; the equation has not one positive root for that letter.

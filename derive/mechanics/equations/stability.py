@@ -64,7 +64,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
     potential   a function of one coordinate, J
     order       1, 2, ...
     by          the coordinate, where it depends on several
-    Second route: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
+    Check: U expanded about an arbitrary point q + u; n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
     Errors: the potential depends on several coordinates, or on none.
     Source: Taylor, *Classical Mechanics*, section 4.6.
@@ -118,7 +118,7 @@ def extreme_value(
     potential   a function of one coordinate, J
     by          the coordinate, where it depends on several
     at          q_0; 0 unless given
-    Second route: the term of order zero of its expansion about that place.
+    Check: the term of order zero of its expansion about that place.
     Outcomes: minimum, maximum, level (the second derivative vanishes too), conditional (its sign is open).
     Errors: U' does not vanish there.
     Source: Taylor, *Classical Mechanics*, section 4.6.
@@ -158,7 +158,7 @@ def leading_order(
                 place and border
     where       a letter and the value for which the curvature of this potential vanishes, as a relation
     at          q_0; 0 unless given
-    Second route: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
+    Check: the derivatives of U up to the n-th, at that point, of which the n-th alone does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and where a letter is
     at its bound: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
     Errors: U' does not vanish there; the border is that of another potential.

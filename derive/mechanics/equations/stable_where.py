@@ -49,7 +49,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     """Condition under which a state of rest is stable, S >= S_0; S > S_0 where it is not stable at the border itself.
 
     of   the stability, as `stability` yields it where it depends on the letters
-    Second route: the sign of the second derivative a little above the border and a little below; in numbers, whether
+    Check: the sign of the second derivative a little above the border and a little below; in numbers, whether
     the energy beside the place is greater than there: above the border, at it, and not below it.
     Outcomes: with_border, without_border, open (the border is not decided by one letter).
     Errors: the stability depends on no condition, or on that of several coordinates.

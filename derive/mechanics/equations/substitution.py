@@ -53,7 +53,7 @@ def put_in(
     again    what is found once more in this way, so that it must be the same
     One after another, in this order, the values last. A coordinate that is given as a function of others, or of the
     time, takes its rates along.
-    Second route: the letters of the original replaced all at once by what they finally are; what is found once more.
+    Check: the letters of the original replaced all at once by what they finally are; what is found once more.
     Outcomes: results, values (letters only), identity (an equation that then holds by itself), again.
     Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold.
     Source: none needed: substitution.

@@ -71,7 +71,7 @@ def motions_by_modes(
     start_rate   its rate there; 0 without one
     case         `underdamped`, `critically_damped` or `overdamped` where the letters leave that open
     Keys: of_t and the name of the coordinate; or what `key` says.
-    Second route: put back into all linear equations together; the values and the rates at t = 0.
+    Check: put back into all linear equations together; the values and the rates at t = 0.
     Outcomes: generic, zero (this coordinate stays where it is).
     Errors: drag mixes the modes; forces linear in the rates turn them; a start that is not constant.
     Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,

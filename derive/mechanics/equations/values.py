@@ -41,7 +41,7 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
 
     general      established with the components of a vector left open
     particular   the vector to put in: same symbol, same axes
-    Second route: the law itself, evaluated with the particular vector from the start.
+    Check: the law itself, evaluated with the particular vector from the start.
     Errors: the general result does not contain that vector's components; it is one of another kind, or of a rotation
     about another point.
     Source: none needed: substitution.
@@ -107,7 +107,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
 
     general   a scalar in letters, any unit
     values    what some of its letters stand for
-    Second route: the law itself, evaluated with these values from the start.
+    Check: the law itself, evaluated with these values from the start.
     Errors: the general result contains none of these letters.
     Source: none needed: substitution.
     """
@@ -146,7 +146,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     """Length of a vector, |v| = sqrt(v.v).
 
     of      vector (3), any unit
-    Second route: turn the vector until it lies along one axis and read off its component.
+    Check: turn the vector until it lies along one axis and read off its component.
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
@@ -170,7 +170,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     """Square of a vector's length, |v|^2 = v.v.
 
     of      vector (3), any unit
-    Second route: turn the vector until it lies along one axis and square its component.
+    Check: turn the vector until it lies along one axis and square its component.
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """

@@ -273,7 +273,7 @@ def wobble_rate(squared: Quantity, symbol: str | None = None, key: str = "wobble
     """Rate Omega at which a disturbed axis goes round, the root of its square; where that is negative, that of growth.
 
     squared   as `wobble_squared` yields it, 1/s^2
-    Second route: components that go as e^(i Omega t), or as e^(kappa t), put into the two linear equations, whose
+    Check: components that go as e^(i Omega t), or as e^(kappa t), put into the two linear equations, whose
     determinant then vanishes; and it is not negative.
     Outcomes: stable, symmetric, conditional, unstable (the rate kappa of growth).
     Errors: the square vanishes, so that a disturbance grows as the time and not as an exponential.

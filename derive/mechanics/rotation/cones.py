@@ -191,7 +191,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
 
     of     vector (3), any unit
     axis   "x", "y" or "z"
-    Second route: a turn of the axes by which the three take each other's places, after which it is the first.
+    Check: a turn of the axes by which the three take each other's places, after which it is the first.
     Outcomes: generic, zero.
     Errors: no vector; no such axis.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.

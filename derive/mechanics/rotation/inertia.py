@@ -412,7 +412,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
 
     found   tensor (3, 3), kg m^2
     again   the tensor of the same body about the same point, found in another way, perhaps along axes that are turned
-    Second route: the tensor found in the other way, turned to the axes of the first.
+    Check: the tensor found in the other way, turned to the axes of the first.
     Outcomes: generic; turned, where z was counted the other way.
     Errors: the tensors are not of one body about one point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.

@@ -34,7 +34,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
 
     inertia   symmetric tensor (3, 3), kg m^2
     Of a diagonal tensor they are its diagonal, in the order of the axes; else they are given in increasing order.
-    Second route: sum, sum of products in pairs and product of the three are the invariants of the tensor.
+    Check: sum, sum of products in pairs and product of the three are the invariants of the tensor.
     Outcomes: isotropic (all equal), two_equal, distinct; where the tensor is not diagonal, two_equal_roots, roots.
     Errors: the roots are those of a cubic that has no rational factor, so no closed form that one could use.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
@@ -79,7 +79,7 @@ def principal_axes(
 
     moments   the principal moments of a tensor
     Where two moments are equal, their axes are at an angle that remains free; where all are, any three will do.
-    Second route: each is put back into I e = I_k e; they are unit vectors, and each at right angles to the others.
+    Check: each is put back into I e = I_k e; they are unit vectors, and each at right angles to the others.
     Outcomes: single, or symmetry of a round body, free (two equal moments: the axis of the third and those across it);
     any; distinct.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.

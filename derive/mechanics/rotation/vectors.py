@@ -147,7 +147,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     rate      angular speed, 1/s; with a minus sign left-handed
     along     vector (3) along the axis
     through   the point of the body that the axis goes through, which stays at rest
-    Second route: put back: its length is the size of the rate, and its scalar product with d that of parallel vectors.
+    Check: put back: its length is the size of the rate, and its scalar product with d that of parallel vectors.
     Outcomes: left_handed (the rate is negative), right_handed.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
@@ -294,7 +294,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
 
     a, b    vectors (3), not zero, same axes
     angle   the letter of the angle
-    Second route: the law of cosines in the triangle whose sides are the two directions.
+    Check: the law of cosines in the triangle whose sides are the two directions.
     Outcomes: parallel, opposite, perpendicular, generic.
     Errors: one of them vanishes; they belong to two bodies.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
@@ -367,7 +367,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
     a, b    vectors (3), not zero, same axes
-    Second route: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they leave one
+    Check: |a x b| = |a||b| sin theta, and tan theta = |a x b|/(a.b), cross-multiplied: together they leave one
     angle from 0 to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.

@@ -206,7 +206,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
 
     quantity   a scalar in coordinates and rates of the same motion
     of         the Hamiltonian, J
-    Second route: with the momenta put in, it is what it was.
+    Check: with the momenta put in, it is what it was.
     Errors: the Hamiltonian is that of another motion; the quantity holds no rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """

@@ -182,7 +182,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion, dx/dt, by the chain rule: the sum of dx/dq q_dot.
 
     quantity   a scalar that depends on coordinates; its unit per second is that of the result
-    Second route: the coordinates as functions of t, each by its Taylor series.
+    Check: the coordinates as functions of t, each by its Taylor series.
     Outcomes: generic, zero.
     Errors: the quantity has no plain letter as its name; it is known at one moment only.
     Source: Taylor, *Classical Mechanics*, section 7.1.

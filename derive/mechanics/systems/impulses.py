@@ -90,7 +90,7 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
 
     blow     the system, its state and the collisions; e is the coefficient of restitution of that one
     number   which of its conditions, from 0 on; those of constraints come last
-    Second route: the places as functions of the time, each coordinate by its Taylor series.
+    Check: the places as functions of the time, each coordinate by its Taylor series.
     Outcomes: together (one velocity), elastic, rebound (with a part of the speed), kept (a constraint that holds on).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14.
     """
@@ -133,7 +133,7 @@ def rates_after(blow: Blow, jumps: Sequence[Quantity], conditions: Sequence[Quan
     jumps        as `momentum_jump` yields them, one for each coordinate
     conditions   as `meeting_condition` yields them, one for each impulse that is not given
     Keys: q_dot_after, and the letter of each impulse.
-    Second route: as `solved_for`.
+    Check: as `solved_for`.
     Errors: a jump or a condition is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.
     """
@@ -155,7 +155,7 @@ def energy_after(
     blow      the system, its state and the impulses
     kinetic   its kinetic energy T, J
     after     the rates just after it, as `rates_after` yields them
-    Second route: as `put_in`.
+    Check: as `put_in`.
     Source: none needed: substitution.
     """
     held = explicit(kinetic.value).free_symbols

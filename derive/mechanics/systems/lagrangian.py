@@ -329,7 +329,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
 
     momentum   dL/dq_dot
     q          its coordinate
-    Second route: the coordinates as functions of t, each by its Taylor series.
+    Check: the coordinates as functions of t, each by its Taylor series.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     moving = list(momentum.coordinates)

@@ -26,7 +26,7 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
 
     condition   as `no_slip` yields it, where it gives one rate by others with constant factors
     Coordinates are counted from where all of them are zero.
-    Second route: differentiated as a function of t it is the condition again; and all are zero together.
+    Check: differentiated as a function of t it is the condition again; and all are zero together.
     Errors: the condition cannot be integrated.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
@@ -62,7 +62,7 @@ def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence
     conditions   as `no_slip` yields them: the coordinates that they give by others are put in
     names        of the components, which are their keys; x, y and z, the last of them upwards, unless given
     A place that `point` makes of them is called by their letters in speeds and energies.
-    Second route: the velocity, with what the conditions make of the rates, is that of the result; and so is the place
+    Check: the velocity, with what the conditions make of the rates, is that of the result; and so is the place
     where all coordinates are zero.
     Outcomes: centre (of a body), place.
     Errors: a condition cannot be integrated; the names are not as many as the components.

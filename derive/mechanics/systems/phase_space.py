@@ -156,7 +156,7 @@ def rates_by_momenta(
     given     momenta of some of its coordinates, each known from now on by its letter
     varying   whether those letters vary as coordinates do, and are not constant
     Keys: rate_ and the name of the coordinate, _by_ and the letters.
-    Second route: the rates put back into the momenta.
+    Check: the rates put back into the momenta.
     Outcomes: alone, together.
     Errors: the momenta do not determine the rates, or too many would have to be solved together.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.

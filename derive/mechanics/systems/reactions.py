@@ -170,7 +170,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
     of       the Lagrangian of a system with constraints
     number   which of them, 0 for the first
-    Second route: the coordinates as functions of t, differentiated by SymPy.
+    Check: the coordinates as functions of t, differentiated by SymPy.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     constraints = of.needed(Kept).constraints
