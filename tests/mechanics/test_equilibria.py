@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, Symbol, acos, cos, pi, sin, sqrt, symbols, tan
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, acos, cos, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME as t
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import Relation, explicit
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Particle,
@@ -23,6 +23,7 @@ from derive.mechanics import (
     lagrangian,
     let,
     point,
+    potential,
     potential_at_rest,
     potential_energy_of,
     space,
@@ -312,3 +313,52 @@ def test_a_quotient_has_the_sign_of_its_denominator_too() -> None:
     assert positive((a - R) / (k - m * w**2), letter=None).mark == ">"
     assert sign_where((a - R) / (k - m * w**2), None) is None
     assert different_from_zero((a - R) / (k - m * w**2)) == Relation(a, "!=", R)
+
+
+phi = Symbol("phi", real=True)
+
+
+def upright() -> Quantity:
+    """The potential energy of two pendulums that stand upright, joined by a spring."""
+    one, other = coordinate("theta"), coordinate("phi")
+    places = point(l * sin(one), l * cos(one)), point(a + l * sin(other), l * cos(other))
+    bobs = (Particle(mass, place) for mass, place in zip((m, M), places, strict=True))
+    return potential_energy_of(System(*bobs, weight(g), spring(k, *places, a)))
+
+
+def test_a_spring_between_two_upright_pendulums_does_not_hold_them() -> None:
+    """Both fall to one side, and the spring is not stretched."""
+    found = stability(upright(), {theta: 0, phi: 0})
+    assert found.step.outcome == "unstable_along"
+    assert equal(roles(found)["falling"], -(m + M) * g * l)
+
+
+def test_a_direction_in_which_nothing_is_stretched_is_found_for_other_lengths() -> None:
+    """By hand: l theta = R phi, and U'' = -m g l R^2 - M g R l^2 along it."""
+    one, other = coordinate("theta"), coordinate("phi")
+    heights = m * g * l * cos(one) + M * g * R * cos(other)
+    energy = heights + k * (l * sin(one) - R * sin(other)) ** 2 / 2
+    bobs = Particle(m, point(l * sin(one), 0)), Particle(M, point(R * sin(other), 0))
+    told = roles(stability(potential_energy_of(System(*bobs, potential(energy))), {theta: 0, phi: 0}))
+    first, second = explicit(told["direction"])
+    assert equal(first * l, second * R)
+    assert equal(told["falling"], -m * g * l * first**2 - M * g * R * second**2)
+
+
+@pytest.mark.parametrize("way", [(1, -1), (1, 2), (-1, -2)])
+def test_a_direction_in_which_the_energy_does_not_always_fall_is_refused(way: Any, monkeypatch: Any) -> None:
+    monkeypatch.setattr(minima, "_way_down", lambda matrix: ImmutableDenseMatrix(way))
+    with pytest.raises(Unverified):
+        stability(upright(), {theta: 0, phi: 0})
+
+
+def test_another_fall_than_that_of_the_direction_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = minima._falling
+
+    def wrong(*those: Any) -> dict[str, tuple[Any, Any]]:
+        told = right(*those)
+        return {**told, "falling": tuple(3 * each for each in told["falling"])}
+
+    monkeypatch.setattr(minima, "_falling", wrong)
+    with pytest.raises(Unverified):
+        stability(upright(), {theta: 0, phi: 0})

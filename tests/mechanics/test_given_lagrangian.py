@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from sympy import Expr, Rational, cos, exp, sin, sqrt, symbols
+from sympy import Expr, Rational, cos, exp, pi, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME as t
@@ -14,6 +14,7 @@ from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     conserved,
     coordinate,
+    couple,
     damping,
     energy_function,
     energy_function_rate,
@@ -31,6 +32,8 @@ from derive.mechanics import (
     routhian,
     stability,
 )
+from derive.mechanics.equations import equilibria as equilibria_module
+from derive.mechanics.equations.zeros import Zero
 from derive.mechanics.systems import energy as energy_module
 from derive.mechanics.systems import lagrangian as lagrangian_module
 from derive.mechanics.systems.given_lagrangian import Varied
@@ -171,3 +174,29 @@ def test_the_energy_identity_alone_refuses_a_wrong_equation(monkeypatch: pytest.
     monkeypatch.setattr(lagrangian_module, "Partial", lambda L, s: -partial(L, s) if s == x.symbol else partial(L, s))
     with pytest.raises(Unverified):
         equation_of_motion(relativistic(), x, derivatives=False)
+
+
+def twisted() -> Quantity:
+    """A bar on a wire of torsion constant k, that a constant couple g turns."""
+    theta = coordinate("theta")
+    return given_lagrangian(m * theta.rate**2 / 2 - k * theta.symbol**2 / 2, couple(g, theta))
+
+
+def test_a_twisted_wire_rests_where_it_balances_a_couple_perhaps_after_many_turns() -> None:
+    (rest,) = equilibria(twisted())
+    assert equal(rest.value, g / k)
+    assert stability(twisted(), rest).step.outcome == "stable"
+
+
+@pytest.mark.parametrize("found", [[-g / k], [2 * g / k], [g / k, -g / k], [g / k, 0], []])
+def test_another_rest_of_the_wire_is_refused(found: list[Expr], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(equilibria_module, "zeros_of", lambda force, q: [Zero(value + 0 * k) for value in found])
+    with pytest.raises(Unverified if found else Rejected):
+        equilibria(twisted())
+
+
+def test_a_force_that_comes_back_after_a_turn_is_counted_once_round() -> None:
+    """A pendulum that a couple holds aside: two places in one turn, and no more are told."""
+    theta = coordinate("theta")
+    pushed = given_lagrangian(m * theta.rate**2 / 2 + k * cos(theta.symbol), couple(k / 2, theta))
+    assert {rest.value for rest in equilibria(pushed)} == {pi / 6, 5 * pi / 6}

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from sympy import Expr, ImmutableDenseMatrix, cos, sin, sqrt, symbols
+from sympy import Expr, I, ImmutableDenseMatrix, cos, exp, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME as t
@@ -260,3 +260,53 @@ def test_springs_keep_their_modes() -> None:
         potential(k * x.symbol**2 / 2 + k * (x.symbol - y.symbol) ** 2 / 2 + k * y.symbol**2 / 2),
     )
     assert values(normal_modes(linear), "frequency") == [sqrt(k / m), sqrt(3 * k / m)]
+
+
+def falling_along_the_field() -> tuple[Quantity, ...]:
+    """A charge that is bound across a field, and along it on a hill."""
+    x, y = plane()
+    z = coordinate("z", "length")
+    hill = potential(k * (x.symbol**2 + y.symbol**2) / 2 - c * z.symbol**2 / 2)
+    at = point(x, y, z)
+    return small(Particle(m, at), hill, charge(q, at, B=(0, 0, B)))
+
+
+def on_saddle() -> tuple[Quantity, ...]:
+    x, y = plane()
+    at = point(x, y)
+    return small(Particle(m, at), potential(k * (x.symbol**2 - y.symbol**2) / 2), charge(q, at, B=B))
+
+
+def growing(found: tuple[Quantity, ...]) -> tuple[Expr, Any]:
+    """The rate of growth, and what grows with it, with that rate put in."""
+    rate = next(each for each in found if each.step.outcome == "growing")
+    mode = next(each for each in found if each.step.outcome == "departing")
+    return explicit(rate.value), explicit(mode.value)
+
+
+def test_a_charge_runs_away_along_a_field_and_circles_across_it() -> None:
+    found = normal_modes(falling_along_the_field())
+    rate, mode = growing(found)
+    assert equal(rate, sqrt(c / m))
+    assert tuple(mode) == (0, 0, exp(rate * t))
+    assert sorted(outcomes(found, "mode")) == ["circle_backwards", "circle_forwards", "departing"]
+
+
+def test_on_a_saddle_a_field_turns_what_grows() -> None:
+    """By hand, m y_ddot + q B x_dot - k y = 0 with e^(kappa t): y/x = q B kappa/(k - m kappa^2)."""
+    rate, mode = growing(normal_modes(on_saddle()))
+    assert equal(m**2 * rate**4 + q**2 * B**2 * rate**2, k**2)
+    assert equal(mode[1] / mode[0], q * B * rate / (k - m * rate**2))
+
+
+@pytest.mark.parametrize("motion", [cos, sin, lambda phase: exp(-phase), lambda phase: exp(2 * phase)])
+def test_another_motion_than_one_that_grows_at_its_rate_is_refused(motion: Any, monkeypatch: Any) -> None:
+    right = gyroscopic.exp
+    monkeypatch.setattr(gyroscopic, "exp", lambda phase: right(phase) if phase.has(I) else motion(phase))
+    with pytest.raises(Unverified):
+        normal_modes(on_saddle())
+
+
+def test_a_condition_has_no_number_that_stands_on_both_sides() -> None:
+    told = [dict(each.step.roles) for each in normal_modes(in_field(-k)) if each.step.outcome == "conditional"]
+    assert told and all(equal(each["condition_1"].residual, q**2 * B**2 - 4 * k * m) for each in told)

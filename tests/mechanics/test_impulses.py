@@ -7,11 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from sympy import Rational, Symbol, cos, pi, sin, symbols
+from sympy import Integer, Rational, Symbol, cos, pi, sin, symbols
 
 import derive.mechanics.systems.impulses as impulses
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation
+from derive.algebra.ranges import Range, within
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Ball,
@@ -251,3 +252,31 @@ def test_wrong_laws_of_a_blow_are_refused(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr(impulses, "Terms", lambda T, before: T + before / 2)
     with pytest.raises(Unverified, match="work_of_impulses"):
         work_of_impulses(blow, energy_after(blow, T, found), found)
+
+
+def rebounding() -> tuple[Blow, Coordinate, Coordinate]:
+    x, y = coordinate("x", "length"), coordinate("y", "length")
+    system = System(Particle(m, point(x + 0, 0)), Particle(M, point(y + 0, 0)))
+    return Blow(system, collision(point(x + 0, 0), point(y + 0, 0), (1, 0), e), before={x: v}), x, y
+
+
+@pytest.mark.parametrize(
+    "part, word",
+    [
+        (Range(Integer(0), Integer(1)), "lost"),
+        (Range(Integer(0), Integer(1), (True, True)), "generic"),
+        (Range(Integer(1), Integer(2)), "gained"),
+    ],
+)
+def test_the_range_of_the_restitution_tells_whether_energy_is_lost(part: Range, word: str) -> None:
+    with within({e: part}):
+        _, work = solved(*rebounding())
+    assert equal(work.value, (e**2 - 1) * m * M / (m + M) * v**2 / 2)
+    assert work.step.outcome == word
+
+
+@pytest.mark.parametrize("word", ["gained", "generic", "zero"])
+def test_another_word_for_the_energy_that_is_lost_is_refused(word: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(impulses, "_gain", lambda value: word)
+    with within({e: Range(Integer(0), Integer(1))}), pytest.raises(Unverified):
+        solved(*rebounding())

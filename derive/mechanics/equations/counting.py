@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Rational, Symbol, diff, lambdify
+from sympy import Expr, Rational, Symbol, diff, lambdify, pi
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import explicit
 from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
-from derive.steps.step import Quantity
+from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters
 
@@ -28,7 +28,7 @@ def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found:
     """Whether the force changes its sign as often as there are values, for some numbers in place of the letters."""
     force = diff(explicit(potential.value), q)
     letters = {s for s in force.free_symbols if s != q}
-    angle = potential.coordinates.get(q) == "angle"
+    once_round = potential.coordinates.get(q) == "angle" and is_zero(force.subs(q, q + 2 * pi) - force)
     drawn = points(letters, 4099)
     for _, point in zip(range(TRIALS), drawn, strict=False):
         there = [value.xreplace(point).evalf() for value in (*values, found)]
@@ -37,7 +37,7 @@ def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found:
         curve = lambdify([q], force.xreplace(point), "math")
         scale = max([abs(x) for x in expected if x] or [1.0])
         known = range_of(q)
-        grid = _grid(angle, bool(q.is_positive), scale) if known is None else _grid_within(known)
+        grid = _grid(once_round, bool(q.is_positive), scale) if known is None else _grid_within(known)
         signs = [s for s in (_sign(curve, x) for x in grid) if s]
         changes = sum(1 for one, other in pairwise(signs) if one != other)
         if changes != len(expected) or own is not None and own not in expected:
@@ -48,9 +48,12 @@ def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found:
     return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
 
 
-def _grid(angle: bool, positive: bool, scale: float) -> list[float]:
-    """Once round, from no likely zero; else from one end to the other, finest where zeros are expected."""
-    if angle:
+def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
+    """Once round, from no likely zero; else from one end to the other, finest where zeros are expected.
+
+    A wire that is twisted does not come back to the same force after one turn.
+    """
+    if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
     ends = [
         (i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)

@@ -177,7 +177,7 @@ def _frequency(
         signed = Add(*((-1 if s.sign == -1 else 1) * explicit(s.value) ** 2 * s.part.times for _, s in others))
         return turned * explicit(found) ** 2 * swing.part.times + signed, _sum_of_squares(together)
 
-    needs = [need for need in swing.needs if pencil.sign(need) != 1]
+    needs = [need.as_content_primitive()[1] for need in swing.needs if pencil.sign(need) != 1]
     conditions = [positive(need) for need in needs]
     pairs = enumerate(zip(conditions, needs, strict=True), 1)
     told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
@@ -238,14 +238,16 @@ def _motion(
     n: int,
     start: str,
 ) -> Quantity:
-    """One motion: a cosine or a sine for each coordinate.
+    """One motion: a cosine or a sine for each coordinate, or what grows with all of them.
 
-    Outcomes: circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight, generic.
+    Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight, generic.
     Source: Landau, Lifshitz, *Mechanics*, section 39, problem 3.
     """
     swing = frequency.needed(Turning).swing
 
     def moving(w: Expr) -> list[Expr]:
+        if swing.sign == -1:
+            return [entry.xreplace({OMEGA: w}) * exp(w * T) for entry in column]
         return [_of_time(entry, w, swing.turn) for entry in column]
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
@@ -297,6 +299,8 @@ def _letter(together: Linear) -> str:
 
 def _outcome(column: Sequence[Expr], swing: Swing) -> str:
     """What path it is where two coordinates move, and in which sense, from the first of them to the second."""
+    if swing.sign == -1:
+        return "departing"
     entries = [entry for entry in column if not is_zero(entry)]
     if not any(entry.has(I) for entry in entries):
         return "straight"

@@ -17,6 +17,7 @@ from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
 from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import At, Relation, Slope, explicit, rate, scalar, stand_in
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import coefficient_along, series_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -76,7 +77,8 @@ def stability(
     coordinates the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the sign of what is told), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
-    level (several coordinates: to second order the energy does not change in one direction, and nowhere falls).
+    of several coordinates also unstable_along (the energy falls in a direction that is told) and level (to second order
+    it does not change in one direction, and nowhere falls).
     Errors: a force is left there; coordinates are missing; of several coordinates the energy has no minimum, but what
     is linear in the rates, as in a frame that turns or a magnetic field, may hold the state all the same.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
@@ -263,7 +265,7 @@ def _small_force(place: Place, q: Symbol) -> Expr:
 def _of_several(place: Place, key: str) -> Quantity:
     """The leading minors of the second derivatives, all positive at a minimum.
 
-    Outcomes: stable, unstable, level, depends.
+    Outcomes: stable, unstable, unstable_along (a direction is told), level, depends.
     Source: that of `stability`.
     """
     moving = place.coordinates
@@ -272,8 +274,12 @@ def _of_several(place: Place, key: str) -> Quantity:
     values = [tidied(explicit(minor)) for minor in minors]
     letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
     outcome = _of_minors(matrix, values)
-    _check_nothing_else_holds_it(place, outcome)
     told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
+    way = _way_down(matrix) if outcome == "depends" else None
+    if way is not None:
+        outcome = "unstable_along"
+        told |= _falling(place, matrix, way)
+    _check_nothing_else_holds_it(place, outcome)
     if place.exists is not None:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
 
@@ -326,6 +332,34 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
     if any(sign_by_factors(tidied(value)) == -1 for value in falling):
         return "unstable"
     return "level" if signs[-1] == 0 and None not in signs and -1 not in signs else "depends"
+
+
+def _way_down(matrix: MatrixBase) -> MatrixBase | None:
+    """A direction in which the energy falls whatever the letters are, though no minor says so.
+
+    What one spring holds often leaves a direction free, in which it is not stretched: the columns that the share of a
+    letter takes to zero.
+    """
+    for letter in sorted(matrix.free_symbols, key=str):
+        share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))
+        if share.has(letter):
+            continue
+        for column in share.nullspace(iszerofunc=is_zero):
+            way = ImmutableDenseMatrix(column.applyfunc(tidied))
+            if strict_sign_within(tidied((way.T * matrix * way)[0])) == -1:
+                return way
+    return None
+
+
+def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
+    """The direction, and how the slope of the energy changes along it, by the matrix and by the energy itself."""
+    moved = Amplitudes(*place.coordinates)
+    along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
+    return {
+        "moving": (moved, moved),
+        "direction": (Amplitudes(*way), Amplitudes(*way)),
+        "falling": (tidied((way.T * matrix * way)[0]), 2 * along),
+    }
 
 
 def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:

@@ -209,7 +209,10 @@ class TurningPencil:
 
     def column(self, swing: Swing) -> tuple[Expr, ...] | None:
         """The amplitudes by the name OMEGA of the root, the first that is not zero being 1; nothing where there is no
-        one column, or the amplitudes are neither real nor imaginary."""
+        one column, or the amplitudes are neither real nor imaginary.
+
+        Of what grows OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        """
         if swing.part.times > 1 or swing.sign == 0 or not swing.turn:
             return None
         modulus = swing.part.polynomial
@@ -220,6 +223,8 @@ class TurningPencil:
             if first is None:
                 continue
             known = {OMEGA: explicit(swing.value)} if not is_irrational(explicit(swing.value)) else {}
+            if swing.sign == -1:
+                entries = [e.subs(OMEGA, -I * OMEGA).expand() for e in entries]
             ratios = tuple(ZERO if is_zero(e) else _tidy_ratio((e / entries[first]).subs(known)) for e in entries)
             return ratios if all(_is_plain(r) and not r.has(Abs) for r in ratios) else None
         return None

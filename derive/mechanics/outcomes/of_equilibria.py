@@ -11,7 +11,7 @@ from itertools import combinations_with_replacement
 from typing import Any
 
 from mpmath import mp
-from sympy import Expr, Rational, im, lambdify, prime
+from sympy import Dummy, Expr, Rational, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
@@ -20,7 +20,7 @@ from derive.algebra.ranges import rational_in_range
 from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, is_turned_aside, matter_of
 from derive.mechanics.outcomes.searched import none_is_missing
-from derive.mechanics.outcomes.signs import lasts, may_be_negative, vanishes
+from derive.mechanics.outcomes.signs import always_sign, lasts, may_be_negative, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -168,6 +168,15 @@ def _runs_away(facts: Judged) -> bool:
     return matter is None or grows_always(matter, _at_rest(facts), falling)
 
 
+def _falls_as_told(facts: Judged) -> bool:
+    """The energy along a straight line through the state of rest, in the direction that is told, and its curvature."""
+    along, told = Dummy("s"), facts.inputs["falling"]
+    moved = zip(_moving(facts), facts.inputs["place"], _entries(explicit(facts.inputs["direction"])), strict=True)
+    energy = facts.inputs["potential_here"].subs({q: at + along * way for q, at, way in moved}, simultaneous=True)
+    curvature = derivative(energy, along, 2).subs(along, 0)
+    return is_zero(curvature - told) and always_sign(-1, lambda _: told)(facts)
+
+
 def _nothing_turns_it(facts: Judged) -> bool:
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts)]
@@ -277,6 +286,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "minima.stability_of_several": {
         "stable": _always(1),
         "unstable": _both(_always(-1), _runs_away),
+        "unstable_along": _both(_always(-1), _runs_away, _falls_as_told),
         "level": _both(_always(0), _nothing_turns_it),
         "depends": _both(lambda facts: len(_signs(facts)) > 1, _runs_away),
     },

@@ -16,6 +16,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import TIME, Relation, explicit
 from derive.algebra.ranges import rational_in_range
+from derive.algebra.tidy import tidied
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
 
@@ -144,6 +145,13 @@ def _sense(wanted: int | None, circle: bool) -> Predicate:
     return is_so
 
 
+def _departing(facts: Judged) -> bool:
+    """All that move grow at one rate, which is real and positive."""
+    rates = {tidied(entry.diff(TIME) / entry) for entry in map(explicit, _moving(facts))}
+    (rate, *others) = rates
+    return not others and not rate.has(TIME) and all(rate.xreplace(n).evalf(20) > 0 for n in _numbers(facts))
+
+
 def _straight(facts: Judged) -> bool:
     """All that move vanish together."""
     first, *others = _moving(facts)
@@ -203,6 +211,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "conditional": _frequency(None),
     },
     "gyroscopic.motion": {
+        "departing": _departing,
         "circle_forwards": _sense(1, circle=True),
         "circle_backwards": _sense(-1, circle=True),
         "ellipse_forwards": _sense(1, circle=False),

@@ -13,6 +13,7 @@ from sympy import Add, Expr, Integer, diff
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, explicit, rate, scalar
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.solving import solved_for
@@ -204,4 +205,4 @@ def _gain(value: Expr) -> str:
     value = tidied(value)
     if is_zero(value):
         return "zero"
-    return "lost" if value.is_negative else "gained" if value.is_positive else "generic"
+    return {-1: "lost", 1: "gained", None: "generic"}[strict_sign_within(value)]
