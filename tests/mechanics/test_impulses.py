@@ -261,7 +261,7 @@ def rebounding() -> tuple[Blow, Coordinate, Coordinate]:
 
 
 @pytest.mark.parametrize(
-    "part, word",
+    ("part", "word"),
     [
         (Range(Integer(0), Integer(1)), "lost"),
         (Range(Integer(0), Integer(1), (True, True)), "generic"),

@@ -240,7 +240,8 @@ def _motion(
 ) -> Quantity:
     """One motion: a cosine or a sine for each coordinate, or what grows with all of them.
 
-    Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight, generic.
+    Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight,
+    generic.
     Source: Landau, Lifshitz, *Mechanics*, section 39, problem 3.
     """
     swing = frequency.needed(Turning).swing
