@@ -65,9 +65,20 @@ THEOREMS = (
                 Factors(M, Terms(Factors(r**2, scalar("delta_ij")), -scalar("r_i") * scalar("r_j"))),
             ),
         ),
-        {"inertia.entry_moved": ALWAYS, "assembly.part_tensor": frozenset({"moved", "turned_moved"})},
+        {
+            # Of one axis the sentence of the step says it.
+            "inertia.entry_moved": frozenset({"moment", "product", "outward"}),
+            "assembly.part_tensor": frozenset({"moved", "turned_moved"}),
+        },
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
         {"total": scalar("J_ij"), "centre": scalar("I_ij"), "way": vector("r")},
+    ),
+    Theorem(
+        "perpendicular_axes",
+        Relation(scalar("I_zz"), "=", Terms(scalar("I_xx"), scalar("I_yy"))),
+        {"assembly.own_moment": frozenset({"flat"})},
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
+        {"x": scalar("x"), "y": scalar("y")},
     ),
     Theorem(
         "rotating_axes",

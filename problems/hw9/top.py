@@ -36,7 +36,7 @@ def solve(
 
     p_phi, p_psi = conserved(L, phi), conserved(L, psi)
     upright = put_in(p_phi, S, {theta: 0}, key="upright_momentum")  # phi is cyclic: p_phi = I_z S at every tilt
-    V = put_in(effective_potential(L, p_phi, p_psi), upright, S, symbol="V", key="tilt_potential")
+    V = put_in(effective_potential(L, p_phi, p_psi), upright, S, key="tilt_potential")
     sleeping = put_in(stable_where(stability(V, {theta: 0}, spin)), *top.values, key="sleeping_spin")
 
     return slow, fast, condition, sleeping

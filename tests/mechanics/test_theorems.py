@@ -34,6 +34,15 @@ def test_parallel_axes_hold_for_a_block_about_its_corner_entry_by_entry() -> Non
         assert equal(left, Integer(0))
 
 
+def test_perpendicular_axes_hold_for_what_is_flat_and_for_nothing_else() -> None:
+    def difference(thickness: Expr) -> Expr:
+        J = inertia_tensor(Cuboid((a, b, thickness), M), about="corner", key="J").value
+        return put_in(BY_NAME["perpendicular_axes"], {f"I_{k}{k}": J[i, i] for i, k in enumerate("xyz")})
+
+    assert equal(difference(c), -2 * M * c**2 / 3), "z^2 counts in both moments on the right"
+    assert equal(difference(c).subs(c, 0), Integer(0))
+
+
 def test_the_rate_in_space_is_that_in_turning_axes_and_what_turning_adds() -> None:
     """A vector known by its components in axes that turn about z, differentiated by its components in space."""
     w = Symbol("omega", positive=True)

@@ -114,6 +114,10 @@ def test_a_prime_stands_close_to_its_letter_and_can_be_squared() -> None:
         (a / 2 * sin(R), r"\tfrac{a}{2}\,\sin R"),
         (R / (a + b), r"\tfrac{R}{a+b}"),
         (R / (a * b), "R/(ab)"),
+        (R / (a * sin(b)), r"R/(a\sin b)"),
+        (sin(R) / a, r"(\sin R)/a"),
+        (R / sin(a), r"R/\sin a"),
+        (R / sin(a * b), r"\tfrac{R}{\sin(ab)}"),
         (sqrt(R / a), r"\sqrt{R/a}"),
     ],
 )

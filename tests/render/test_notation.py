@@ -132,6 +132,7 @@ PINNED = [
     (ex.Ratio(M, ex.Factors(a, 2 * a, 3 * a)), r"\frac{M}{a\cdot 2a\cdot 3a}", "M/(a·2a·3a)"),
     (ex.Factors(Rational(13, 3), ex.Group(6 * a**3), a**2), r"\frac{13}{3}\,(6a^{3})\,a^{2}", "13/3 (6a³) a²"),
     (Integral(x**2, (x, 0, a)), r"\int_{0}^{a}\! x^{2}\,dx", "∫(0..a) x² dx"),
+    (Integral(x**2, (x, 0, y), (y, 0, a)), r"\int_{0}^{a}\! \int_{0}^{y}\! x^{2}\,dx\,dy", "∫(0..a) ∫(0..y) x² dx dy"),
     # numbers
     (rounded_form(acos(7 * sqrt(2779) / 397) * 180 / pi, 4), "21.64", "21.64"),
     (rounded_form(Rational(65, 100000), 3), r"6.50\times 10^{-4}", "6.50×10⁻⁴"),
@@ -173,6 +174,10 @@ def test_without_dimensions_letters_stand_in_their_own_order() -> None:
         ("dot", Name("dot")),
         ("v_AB", Name("v", "AB")),
         ("x_dotted", Name("x", "dotted")),
+        ("r_C_z", Name("z", "C")),
+        ("r'_C_x_dot", Name("x'", "C", 1)),
+        ("r_x", Name("r", "x")),
+        ("r_xy_z", Name("z", "xy")),
     ],
 )
 def test_a_name_is_a_letter_a_subscript_and_dots(name: str, layout: Name) -> None:

@@ -115,14 +115,27 @@ def _with_stroke(item: Layout) -> Layout:
             return Lowered(_with_strokes(base), word)
         case Fraction(above, below) if _are_letters(above) and _are_letters(below):
             is_product = isinstance(below, Row) and not is_differential(first_of(below))
-            return row(above, STROKE, Fenced(below) if is_product else below)
+            return row(Fenced(above) if _has_function(above) else above, STROKE, Fenced(below) if is_product else below)
     return item
 
 
 def _are_letters(layout: Layout) -> bool:
-    """Letters and numbers side by side, and nothing that is tall or is added."""
-    factors = layout.items if isinstance(layout, Row) else (layout,)
-    return all(isinstance(factor, Digits | Name | Raised | Upright | RootSign) for factor in factors)
+    """Letters, numbers and functions of one letter side by side, and nothing that is tall or is added."""
+    return all(
+        _are_letters(factor.argument) and not isinstance(factor.argument, Row)
+        if isinstance(factor, Applied)
+        else isinstance(factor, Digits | Name | Raised | Upright | RootSign)
+        for factor in _factors(layout)
+    )
+
+
+def _has_function(layout: Layout) -> bool:
+    """Whether a stroke behind it could be read as one within the argument: cos x/2."""
+    return any(isinstance(factor, Applied) for factor in _factors(layout))
+
+
+def _factors(layout: Layout) -> tuple[Layout, ...]:
+    return layout.items if isinstance(layout, Row) else (layout,)
 
 
 class _Printer:

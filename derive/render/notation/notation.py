@@ -348,18 +348,12 @@ class Notation:
     # --- integrals ---
 
     def _integral(self, expr: Integral) -> Layout:
-        """One variable: the integrand before its differential. Several: all signs first, outermost first."""
-        limits = list(reversed(expr.limits))
-        signs = []
-        for x, lower, upper in limits:
-            signs.append((IntegralSign(self.layout(lower), self.layout(upper)), row(Upright("d"), self.layout(x))))
-        if len(limits) == 1:
-            sign, differential = signs[0]
-            if expr.function == 1:
-                return row(sign, differential)
-            return row(sign, self._as_factor(expr.function), THIN_SPACE, differential)
-        items: list[Layout] = [item for sign in signs for item in sign]
-        return row(*items, *([THIN_SPACE, self._as_factor(expr.function)] if expr.function != 1 else []))
+        """The signs, outermost first; the integrand; the differentials, innermost first."""
+        signs = [IntegralSign(self.layout(lower), self.layout(upper)) for _, lower, upper in reversed(expr.limits)]
+        inside: list[Layout] = [self._as_factor(expr.function)] if expr.function != 1 else []
+        for x, *_ in expr.limits:
+            inside += [THIN_SPACE] * bool(inside) + [row(Upright("d"), self.layout(x))]
+        return row(*signs, *inside)
 
     def _swing(self, expr: SwingTime) -> Layout:
         """The constants of f under a root before the sign, and no fraction below the other."""
