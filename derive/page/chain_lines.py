@@ -69,7 +69,7 @@ class ChainWriter:
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
         if names_results(step.symbol) and isinstance(step.result, MatrixBase):
-            return _listed(step.symbol, step.result)
+            return listed(step.symbol, step.result)
         forms += self._decimals(step)
         before = [None, *(form.because for form in forms)]
         forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
@@ -129,7 +129,7 @@ def names_results(symbol: Any) -> bool:
     return isinstance(symbol, MatrixBase) and all(isinstance(name, Symbol) for name in symbol)
 
 
-def _listed(names: Any, values: Any) -> tuple[ChainLine, ...]:
+def listed(names: Any, values: Any) -> tuple[ChainLine, ...]:
     """I_1 = I_2 = the one value, I_3 = the other: each value once, behind all its names."""
     found: dict[Any, Any] = {}
     for name, value in zip(names, values, strict=True):

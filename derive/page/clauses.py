@@ -36,6 +36,11 @@ class Clauses:
         elif is_told:
             self.waiting.append(step)
 
+    def point_out(self, step: Step, said: tuple[Inline, ...]) -> None:
+        """A step whose sentence points to lines above."""
+        self.set_up += [*([Text(" ")] if self.set_up else []), *said]
+        self.told.add(step.key)
+
     def begun(self) -> tuple[Inline, ...]:
         """What is set up, to stand before the sentence that comes."""
         said, self.set_up = self.set_up, []

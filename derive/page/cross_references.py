@@ -86,9 +86,9 @@ class References:
 
 
 def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phrases) -> list[tuple[Inline, ...]]:
-    """A sentence for each part that has given some of these steps: which, and by which equations."""
+    """A sentence for each earlier part that has given some of these steps: which, and by which equations."""
     found: dict[str, list[tuple[Inline, ...]]] = {}
-    for step in steps:
+    for step in (each for each in steps if each.key in shown_in):
         names = {"name": name_of(step), "has_symbol": step.symbol is not None, "ref": Ref(step.key)}
         found.setdefault(shown_in[step.key], []).append(filled(words.labels["found"], names))
     return [

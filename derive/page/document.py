@@ -32,8 +32,9 @@ from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
+from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results
-from derive.page.selection import NOTHING_NEEDED, OWN, TOLD, Needed, Selection, needs_no_words
+from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection, needs_no_words
 from derive.page.theorems import Theorems
 from derive.page.wording import (
     Chain,
@@ -205,7 +206,7 @@ class _Writer:
         self.page_names = page_names(problem, derivation, words)
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.asked = {step.key for step in answered}
-        self.selection = Selection(derivation, level, self.asked, problem.show, problem.wording, needed)
+        self.selection = Selection(derivation, level, self.asked, problem.show, problem.wording, needed, values)
         self.clauses = Clauses(words)
         self.lines = ChainWriter(derivation, values, words, self.page_names, self.numbers)
 
@@ -282,9 +283,9 @@ class _Writer:
         label = chr(ord("a") + index)
         if not self.level.shows(part.detail):
             return PartPage(label, (), None, (), part.extra, shown=False)
-        blocks: list[Block] = self._found_before(part)
-        ends: dict[str, int] = {}
         answers = self.derivation.answering(part.answers)
+        blocks: list[Block] = [Paragraph(nodes) for nodes in found_before(answers, self.shown_in, self.words)]
+        ends: dict[str, int] = {}
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
@@ -292,7 +293,7 @@ class _Writer:
             self._append(blocks, self.selection.step(self.derivation.step(key)), framed=key in framed)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
             ends |= dict.fromkeys(self._completed(key), len(blocks))
-        blocks.extend([Paragraph(clause)] if (clause := self._clause(blocks)) else [])
+        blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
         steps, self.following = len(blocks), None
         values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
         for i, value in enumerate(v for v in values if v.outcome != "exact"):
@@ -314,11 +315,6 @@ class _Writer:
                 blocks.append(Paragraph(each))
         return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
 
-    def _found_before(self, part: Question) -> list[Block]:
-        """What an earlier part has answered already, with the numbers of the equations."""
-        before = [step for step in self.derivation.answering(part.answers) if step.key in self.shown_in]
-        return [Paragraph(nodes) for nodes in found_before(before, self.shown_in, self.words)]
-
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
         """The steps of a part whose last line is framed as its answer, each in its place.
 
@@ -326,7 +322,7 @@ class _Writer:
         """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
-        return set(asked) - measured
+        return self.selection.standing_for(set(asked) - measured)
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
         """A step's words and lines; one that goes on from the step before needs no words of its own.
@@ -341,6 +337,9 @@ class _Writer:
             return
         if (manner := self.selection.manner(step.key)) is not OWN:
             self.clauses.set_aside(step, manner is TOLD)
+            if manner is POINTED_OUT:
+                said = pointed_out(self._phrase(step), step, self.selection.having_it(step), self.words)
+                self.clauses.point_out(step, said)
             return
         nodes = (Chain(),) if goes_on or mode == "hidden" or step.key == self.told_before else self._phrase(step)
         for theorem in self.theorems.before(step):

@@ -19,6 +19,7 @@ from typing import Any
 from sympy import MatrixBase, preorder_traversal
 
 from derive.algebra.expressions import Relation, rate
+from derive.page.pointers import that_have_it
 from derive.steps.condensed import condensed
 from derive.steps.derivation import Derivation
 from derive.steps.step import Form, Level, Step
@@ -31,10 +32,17 @@ class Manner(StrEnum):
     TOLD = "told"  # in a clause behind the first lines that have its letter: "where rho = M/V"
     TAKEN_IN = "taken_in"  # by the step that uses it, which has its value in place of its letter
     LEFT_OUT = "left_out"
+    POINTED_OUT = "pointed_out"  # with its sentence, which points to lines that have its result
 
 
-OWN, TOLD, TAKEN_IN, LEFT_OUT = Manner
-LESS = {TAKEN_IN: TOLD, TOLD: OWN, LEFT_OUT: OWN, OWN: OWN}  # what becomes of a step whose letter is needed after all
+OWN, TOLD, TAKEN_IN, LEFT_OUT, POINTED_OUT = Manner
+LESS = {
+    TAKEN_IN: TOLD,
+    TOLD: OWN,
+    LEFT_OUT: OWN,
+    POINTED_OUT: OWN,
+    OWN: OWN,
+}  # what becomes of a step whose letter is needed after all
 
 # rule, or rule:outcome -> the manner at `brief` and at `standard`
 MANNERS: Mapping[str, tuple[Manner, Manner]] = {
@@ -56,6 +64,9 @@ MANNERS: Mapping[str, tuple[Manner, Manner]] = {
     # What is under the integrals of the entries; what the sentence of a sum says that it multiplies.
     "inertia.definition": (LEFT_OUT, OWN),
     "conservation.product": (LEFT_OUT, LEFT_OUT),
+    # What stands under the root of both roots.
+    "roots.discriminant": (LEFT_OUT, LEFT_OUT),
+    "roots.discriminant:linear": (OWN, OWN),
     # A direction, an angle, a number that the next line uses.
     "bodies.axis_vector": (TAKEN_IN, TAKEN_IN),
     "equations.let": (TOLD, TOLD),
@@ -105,6 +116,7 @@ class Selection:
     asked   keys of the answers
     shown   what the problem's `show:` says, by key
     worded  keys of the steps for which the problem has words of its own
+    values  the numbers of answers, by key: they may stand for the formula
     """
 
     def __init__(
@@ -115,8 +127,12 @@ class Selection:
         shown: Mapping[str, str],
         worded: Collection[str] = (),
         needed: Needed = NOTHING_NEEDED,
+        values: Mapping[str, Step] | None = None,
     ):
         self.level, self.asked, self.shown, self.worded, self.needed = level, asked, shown, worded, needed
+        self.measured = {key for key, value in (values or {}).items() if value.outcome == "measured"}
+        self._having_it = {step.key: that_have_it(step, derivation) for step in derivation.steps}
+        self._parts = derivation.parts
         self._manners: dict[str, Manner] = {}
         for step in derivation.steps:
             rules = {other.rule for other in derivation.steps if self._manners.get(other.key) is OWN}
@@ -125,6 +141,15 @@ class Selection:
 
     def manner(self, key: str) -> Manner:
         return self._manners.get(key, OWN)
+
+    def having_it(self, step: Step) -> tuple[Step, ...]:
+        """The steps whose lines have the result of one that is pointed out."""
+        return self._having_it[step.key]
+
+    def standing_for(self, keys: Collection[str]) -> set[str]:
+        """The steps in whose lines the results of these are."""
+        pointed = {key for key in keys if self.manner(key) is POINTED_OUT}
+        return (set(keys) - pointed) | {each.key for key in pointed for each in self._having_it[key]}
 
     def step(self, step: Step) -> Step:
         """The step with the lines that are shown."""
@@ -137,7 +162,17 @@ class Selection:
         """Whether it is the level that keeps it from standing on its own, and not the instructor."""
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
+    def _can_be_pointed_out(self, step: Step) -> bool:
+        """Whether lines above have its result, those of the same part if a part asks for it and has no number of it."""
+        having_it = {each.key for each in self._having_it[step.key]}
+        if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
+            return False
+        together = step.key not in self.asked or any({step.key, *having_it} <= set(part) for part in self._parts)
+        return all(map(self.stands, having_it)) and (together or step.key in self.measured)
+
     def _manner(self, step: Step, repeats: bool) -> Manner:
+        if self._can_be_pointed_out(step):
+            return POINTED_OUT
         if self.level is Level.FULL or step.key in self.asked or step.key in self.worded or step.key in self.shown:
             return OWN
         manners = MANNERS.get(f"{step.rule}:{step.outcome}", MANNERS.get(step.rule))

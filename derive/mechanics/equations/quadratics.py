@@ -235,7 +235,11 @@ def _one_of_two(
         lines=Lines(put_in=None, arranged=lambda _: _of_sign(both.value, sign)),
         routes={"put_back": lambda found: (quadratic.at(found), ZERO), "other_form": compared_with(other_form)},
         outcome=outcome,
-        telling=Telling(judged_by={"quadratic": quadratic}, stands_for=stands_for),
+        telling=Telling(
+            words={} if outcome == "coinciding" else {"sign": "upper" if sign > 0 else "lower"},
+            judged_by={"quadratic": quadratic},
+            stands_for=stands_for,
+        ),
         key=key,
         kind=both.step.kind,
         facts=[of],
@@ -340,4 +344,12 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where") -> Quantit
     """
     of, of_both = roots.needed(Roots), discriminant(roots)
     criterion = solved_in_letters(of_both, of.general.discriminant, ">=", letter) if of.values else None
-    return where(of_both, ">=", 0, letter, key, through=(criterion, of.values) if criterion is not None else None)
+    return where(
+        of_both,
+        ">=",
+        0,
+        letter,
+        key,
+        through=(criterion, of.values) if criterion is not None else None,
+        seen="radicand",
+    )

@@ -13,7 +13,7 @@ from typing import Any
 
 from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, pi, sin, tan
 
-from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import MARK_OF
 from derive.steps.known_numbers import sign_known
@@ -84,6 +84,21 @@ def _from_its_point_along_the_axis(facts: Judged, outcome: str) -> bool:
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
     """At the bound itself there still is a root, so that only what is beyond it has none."""
     return outcome != "none" or (facts.result.mark == "<" and is_zero(facts.result.right))
+
+
+def _a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
+    """With the upper or the lower sign in both roots there is the one that was found."""
+    if "sign" not in facts.words:
+        return _says_its_bound(facts, outcome)
+    sign = {"upper": 1, "lower": -1}[facts.words["sign"]]
+    return is_zero(explicit(facts.inputs["roots"]).xreplace({PLUS_MINUS: Integer(sign)}) - explicit(facts.result))
+
+
+def _vanish_again(facts: Judged, outcome: str) -> bool:
+    """Products of inertia vanish here too where a tensor about another point, from which this one is, has none."""
+    tensor = facts.quantities["inertia"]
+    before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
+    return facts.words["seen"] == "first" or any(each.is_diagonal() and each != tensor.value for each in before)
 
 
 def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
@@ -271,7 +286,7 @@ _TABLE: dict[str, Told] = {
     "free_rotation.rate_in_body": _of_their_kinds,
     "bodies.volume": _volume_of_its_sections,
     "roots.together": _equation_in_its_unknown,
-    "roots.one_of_two": _says_its_bound,
+    "roots.one_of_two": _a_root_of_its_sign,
     "conditions.where": _word_of_its_mark,
     "effective.value_kept": _of_its_coordinate,
     "bodies.axis_vector": _axis_as_named,
@@ -282,6 +297,7 @@ _TABLE: dict[str, Told] = {
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
     "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
+    "principal.principal_moments": _vanish_again,
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
     "tensors.radius_of_gyration": _not_negative,

@@ -242,7 +242,7 @@ POSITION = re.compile(r"^r(?P<primes>'*)_(?P<of>[^_]+)_(?P<axis>[xyz])(?=_d*dot$
 
 
 def layout_of_name(name: str) -> Name:
-    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots; the components of a position `r_C` are x_C, y_C, z_C."""
+    """`omega_x`, `theta_dot`, `J_xy`: letter, subscript and dots; `r_C_z`, of a position r_C, is z_C."""
     name = POSITION.sub(r"\g<axis>\g<primes>_\g<of>", name)
     match = re.fullmatch(r"(?P<base>[^_]+)(?:_(?P<sub>.*?))?(?:_(?P<dots>d*dot))?", name)
     if not match:

@@ -1,0 +1,53 @@
+"""Results that lines above have already: a root by the sign of both roots, a principal moment by its entry.
+
+Below `full` the sentence of such a step points to those lines in place of lines of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from sympy import MatrixBase, Symbol
+
+from derive.algebra.expressions import Relation
+from derive.page.chain_lines import listed
+from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, filled, joined, names_of_step
+from derive.steps.derivation import Derivation
+from derive.steps.step import Step
+
+BOTH_ROOTS, ENTRIES = "roots.together", {"inertia.entry", "inertia.entry_moved"}
+
+
+def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
+    """The steps in whose lines the result stands, one for each of several values; none where a value is in no line."""
+    inputs = [derivation.step(key) for key in step.inputs]
+    if step.rule == "roots.one_of_two" and "sign" in dict(step.words):
+        return tuple(each for each in inputs if each.rule == BOTH_ROOTS)
+    if step.rule == "principal.principal_moments":
+        entries = {each.result: each for each in reversed(inputs) if each.rule in ENTRIES}
+        values = list(dict.fromkeys(step.result))
+        return tuple(entries[value] for value in values) if entries.keys() >= set(values) else ()
+    return ()
+
+
+def pointed_out(
+    sentence: Iterable[Inline], step: Step, having_it: Sequence[Step], words: Phrases
+) -> tuple[Inline, ...]:
+    """The sentence of a step with what points to those lines in place of its own."""
+    several = isinstance(step.symbol, MatrixBase)
+    instead = _names_of_values(step, having_it, words) if several else _clause(step, having_it[0], words)
+    nodes = [each for node in sentence for each in (instead if isinstance(node, Chain) else (node,))]
+    ended = isinstance(nodes[-1], Text) and nodes[-1].text.rstrip().endswith(".")
+    return tuple(nodes) if ended else (*nodes, Text("."))
+
+
+def _names_of_values(step: Step, having_it: Sequence[Step], words: Phrases) -> tuple[Inline, ...]:
+    """I_1 = I_2 = I_xx and I_3 = I_zz."""
+    letters: dict[object, Symbol] = {each.result: each.symbol for each in having_it}
+    lines = listed(step.symbol, step.result)
+    return joined([(Math(Relation(line.left, "=", letters[line.right])),) for line in lines], words.labels["and"])
+
+
+def _clause(step: Step, having_it: Step, words: Phrases) -> tuple[Inline, ...]:
+    names = {**names_of_step(step, words, None), "shown": Ref(having_it.key)}
+    return filled(words.clauses[step.rule][step.outcome], names)
