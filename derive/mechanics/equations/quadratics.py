@@ -344,12 +344,4 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where") -> Quantit
     """
     of, of_both = roots.needed(Roots), discriminant(roots)
     criterion = solved_in_letters(of_both, of.general.discriminant, ">=", letter) if of.values else None
-    return where(
-        of_both,
-        ">=",
-        0,
-        letter,
-        key,
-        through=(criterion, of.values) if criterion is not None else None,
-        seen="radicand",
-    )
+    return where(of_both, ">=", 0, letter, key, through=(criterion, of.values) if criterion is not None else None)
