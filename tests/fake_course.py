@@ -32,6 +32,12 @@ fi
 """
 
 
+COUNTS = {
+    **{"steps_proved": 6, "steps_sampled": 0, "steps_approximation": 0, "steps_definition": 1},
+    **{"lines": 9, "routes": 4, "checks": 2, "claims_sampled": 1},
+}
+
+
 def rendered(
     root: Path,
     problem_id: str,
@@ -70,11 +76,13 @@ def rendered(
         warnings=warnings,
         inputs=(path,),
         grades={"proved": 2, "definition": 1},
-        counts={},
+        counts=COUNTS,
         steps=7,
         compared=3,
         agreed=said != "differs",
-        source_faults=(("erratum", "12", "$x^2$", "a slip"), ("remark", "14", "so", "why")) if said == "slips" else (),
+        source_faults=(("erratum", "12", "x²", "x", "a slip"), ("remark", "14", "so", "", "why"))
+        if said == "slips"
+        else (),
         files=((f"{problem_id.rpartition('/')[2]}-axes.pdf", said.encode()),)
         if draws and said.startswith("draws")
         else (),

@@ -5,7 +5,7 @@ Everything that leaves this module is plain text and numbers, so that it can cro
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -36,6 +36,7 @@ from derive.render.formats import TYPESET, Solution, formats
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
+from derive.render.notation.text import in_one_line
 from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered, SourceFault
@@ -105,7 +106,7 @@ def rendered(
         steps=len(derivation.steps) + len(values),
         compared=len(solved.compared),
         agreed=not failures,
-        source_faults=_source_faults(solved.compared),
+        source_faults=_source_faults(solved.compared, notation),
         files=drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else (),
     )
 
@@ -127,18 +128,25 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
     return solved, failures
 
 
-def _source_faults(compared: Iterable[Told]) -> tuple[SourceFault, ...]:
+def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
     """The errata of the source and the remarks on it, in the order of its lines."""
+    if not any(told.erratum or told.remark for told in compared):
+        return ()
+    from derive.render.notation.from_latex import in_plain_text  # which few problems need
+
     found: list[tuple[int, SourceFault]] = []
     for told in compared:
         if told.erratum:
             of = told.erratum
-            printed = of.quote or str(told.facts["states"])
-            why = f"right: {of.instead}; {of.why}" if of.instead else of.why
-            found.append((of.line or 0, ("erratum", str(of.line or ""), printed, why)))
+            printed, right = (
+                in_plain_text(quote) if quote else in_one_line(notation.result(value))
+                for quote, value in ((of.quote, of.printed), (of.instead, of.right))
+            )
+            found.append((of.line or 0, ("erratum", str(of.line or ""), printed, right, in_plain_text(of.why))))
         if told.remark:
             note = told.remark
-            found.append((note.line or 0, ("remark", str(note.line or ""), note.quote, note.why)))
+            told_in_words = (in_plain_text(note.quote), "", in_plain_text(note.why))
+            found.append((note.line or 0, ("remark", str(note.line or ""), *told_in_words)))
     return tuple(fault for _, fault in sorted(found, key=lambda each: each[0]))
 
 

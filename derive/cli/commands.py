@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from derive import FOLDER
 from derive.building.files import cannot_write, of_system
+from derive.cli.check_table import check_table
 from derive.cli.output import check_output, deliver
 from derive.cli.terminal import complain, faults_of_source, table, tell
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, did_you_mean
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 
 _REPORT = "   = help: this is a fault of derive: report it with the traceback and the files of the problem"
 _UNWRITTEN = {errno.EBADF, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
-_GRADES = ("proved", "sampled", "definition", "approximation")
 
 
 def exit_code(arguments: argparse.Namespace) -> int:
@@ -259,11 +259,11 @@ def _check(arguments: argparse.Namespace) -> int:
     from derive.building.sets import set_names
     from derive.building.solution import rendered
     from derive.building.workers import Crew, job_of
-    from derive.course.problem_set import problem_ids
+    from derive.course.problem_set import ids_in_order
 
     root = _root(arguments)
     _warn_of_names(root)
-    ids = _selected([_problem_id(name) for name in arguments.ids], problem_ids(root), set_names(root))
+    ids = _selected([_problem_id(name) for name in arguments.ids], ids_in_order(root), set_names(root))
     if len(ids) > 1:
         load(root, draws=False)
     wanted = TYPESET if arguments.report else ()
@@ -279,8 +279,7 @@ def _check(arguments: argparse.Namespace) -> int:
             outcomes[jobs[outcome.job]] = outcome
     tell("")
     ordered = [(problem, outcomes[problem]) for problem in ids]
-    heading = ("problem", "steps", *_GRADES, "references", "seconds", "verdict")
-    print(table([heading, *(_row(problem, outcome) for problem, outcome in ordered)]), flush=True)
+    print(check_table(ordered), flush=True)
     solved = {problem: outcome.value for problem, outcome in ordered if not outcome.error}
     for problem, page in solved.items():
         if page.source_faults:
@@ -298,17 +297,6 @@ def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
     """Every problem, or those named, where a set stands for its problems."""
     named = {name: [name] for name in asked} | {name: [p for p in known if p.startswith(f"{name}/")] for name in sets}
     return list(dict.fromkeys(problem for name in asked for problem in named[name])) if asked else known
-
-
-def _row(problem_id: str, outcome: Outcome) -> tuple[str, ...]:
-    seconds = f"{outcome.seconds:.1f}"
-    if outcome.error:
-        codes = dict.fromkeys(c.code for c in getattr(outcome.error, "complaints", ())) or ["internal error"]
-        return (problem_id, "", *("" for _ in _GRADES), "", seconds, f"failed: {', '.join(codes)}")
-    rendered: Rendered = outcome.value
-    grades = [str(rendered.grades.get(grade, 0)) for grade in _GRADES]
-    verdict = "ok" if rendered.agreed else "differs from its reference"
-    return (problem_id, str(rendered.steps), *grades, str(rendered.compared), seconds, verdict)
 
 
 def _verdict_code(outcome: Outcome) -> int:

@@ -13,6 +13,8 @@ from derive.errors import Complaint
 
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
 MOST = 50  # complaints that are shown
+WIDTH = 98
+_INDENT = 22  # of what is told of a fault of the source
 _PAINT = {"error": "1;31", "warning": "1;33"}
 
 
@@ -40,17 +42,18 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]
     lines = [f"{problem_id}: {' and '.join(counts)}"]
-    for sort, line, printed, why in faults:
+    for sort, line, printed, right, why in faults:
         where = f"line {line}" if line else "printed"
-        lines.append(f"  {where:9}  {sort:7}  {_shown(printed)}")
-        lines += textwrap.wrap(_shown(why, most=400), 98, initial_indent=" " * 22, subsequent_indent=" " * 22)
+        lines += _wrapped(printed, f"  {where:9}  {sort:7}  ")
+        told = {"right": right, "why": why}
+        lines += [row for word, text in told.items() if text for row in _wrapped(text, f"{word:>{_INDENT - 2}}: ")]
     return "\n".join(lines)
 
 
-def _shown(text: str, most: int = 76) -> str:
-    """Text of a file, in one line and without what a terminal would obey."""
-    plain = " ".join("".join(c if c.isprintable() else " " for c in text.replace("$", "")).split())
-    return plain if len(plain) <= most else f"{plain[: most - 1]}\u2026"
+def _wrapped(text: str, before: str) -> list[str]:
+    """Text of a file, never cut off, for a slip may stand at its end, and without what a terminal would obey."""
+    plain = "".join(c if c.isprintable() else " " for c in text)
+    return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:

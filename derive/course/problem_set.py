@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence as List
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from derive.course.names import DOCUMENTS, NAME, EvidenceShown
 from derive.course.schema import TEXT, Record, as_written, key, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
-from derive.errors import Complaint, Faults, Misused, Rejected, did_you_mean, nearest
+from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
 _NOT_PROBLEMS = ("set", "reference")
 
@@ -48,6 +49,16 @@ class SetKeys(Record):
 def problem_ids(root: Path) -> list[str]:
     """`hw9/block` for every problem file below the root, also for those in the folder of a topic of their set."""
     return sorted(problem_paths(root))
+
+
+def ids_in_order(root: Path) -> list[str]:
+    """The same set by set, as each lists its problems; behind them those that it does not list."""
+    listed: list[str] = []
+    for set_id in set_ids(root):
+        with suppress(DeriveError):
+            listed += problem_set(root, set_id).problems
+    place = {full: number for number, full in enumerate(listed)}
+    return sorted(problem_ids(root), key=lambda full: (full.partition("/")[0], place.get(full, len(place)), full))
 
 
 def problem_paths(root: Path) -> dict[str, str]:

@@ -22,10 +22,11 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Steps that follow each other, are of one rule and were checked alike: how many lines were compared, and in words
-    the second routes that were taken and the checks that were made."""
+    """Steps that follow each other, are of one rule and were checked alike: what they were made from, how many lines
+    were compared, and in words the second routes that were taken and the checks that were made."""
 
     steps: tuple[str, ...]
+    made_from: tuple[str, ...]
     rule: str
     grade: Grade
     lines: int
@@ -33,10 +34,14 @@ class Row:
     checks: tuple[str, ...]
 
     def is_like(self, other: Row) -> bool:
-        return replace(self, steps=(), lines=0) == replace(other, steps=(), lines=0)
+        return replace(self, **_NOT_ALIKE) == replace(other, **_NOT_ALIKE)
 
     def with_more(self, other: Row) -> Row:
-        return replace(self, steps=(*self.steps, *other.steps), lines=self.lines + other.lines)
+        made_from = tuple(dict.fromkeys((*self.made_from, *other.made_from)))
+        return replace(self, steps=(*self.steps, *other.steps), made_from=made_from, lines=self.lines + other.lines)
+
+
+_NOT_ALIKE: Mapping[str, Any] = {"steps": (), "made_from": (), "lines": 0}  # in which steps of one row may differ
 
 
 @dataclass(frozen=True)
@@ -67,6 +72,7 @@ class Checks:
             "routes": sum(self.routes.values()),
             "routes_proved": self.routes.get(Grade.PROVED, 0),
             "checks": sum(self.checks.values()),
+            "claims_sampled": sum(counts.get(Grade.SAMPLED, 0) for counts in (self.lines, self.routes, self.checks)),
             "agree": self.agree,
             "agree_to_figures": self.agree_to_figures,
             "errata": len(self.errata),
@@ -123,7 +129,7 @@ def _rows(steps: Sequence[Step], words: Phrases) -> tuple[Row, ...]:
     for step in steps:
         lines = sum(e.compared is Compared.LINES for e in step.evidence)
         routes, checks = (second_ways_of(step, sort, words) for sort in (Compared.ROUTE, Compared.CHECK))
-        row = Row((step.key,), step.rule, step.grade, lines, routes, checks)
+        row = Row((step.key,), step.inputs, step.rule, step.grade, lines, routes, checks)
         if rows and rows[-1].is_like(row):
             rows[-1] = rows[-1].with_more(row)
         else:

@@ -219,7 +219,7 @@ class _Writer:
         limits = None if self.level is Level.BRIEF else self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
-        checks = checks_of([*self.derivation.steps, *self.values.values()], self.words, compared)
+        checks = checks_of([*self.selection.steps, *self.values.values()], self.words, compared)
         self.faults += unknown_keys(problem, self.derivation, self.words)
         return Document(
             id=problem.id,

@@ -139,6 +139,11 @@ class Selection:
             self._manners[step.key] = self._manner(step, repeats=step.rule in rules)
         self._steps = self._as_shown(derivation)
 
+    @property
+    def steps(self) -> Collection[Step]:
+        """All of them, shown or not, with the evidence of the lines that the level has written anew."""
+        return self._steps.values()
+
     def manner(self, key: str) -> Manner:
         return self._manners.get(key, OWN)
 

@@ -13,7 +13,7 @@ from typing import Any
 from derive.errors import Complaint, Place
 
 Files = tuple[tuple[str, bytes], ...]
-SourceFault = tuple[str, str, str, str]
+SourceFault = tuple[str, str, str, str, str]
 
 
 class Tex(str):
@@ -28,7 +28,8 @@ class Rendered:
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     counts                  the numbers of how it was checked, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
-    source_faults           errata of the source and remarks on it: which of them, line, what is printed, why
+    source_faults           errata of the source and remarks on it: which of them, line, what is printed,
+                            what is right (of an erratum), and why, as plain text
     """
 
     id: str
@@ -89,8 +90,8 @@ def _text(value: Any) -> str:
 
 
 def _source_fault(value: Any) -> SourceFault:
-    sort, line, printed, why = map(_text, value)
-    return sort, line, printed, why
+    sort, line, printed, right, why = map(_text, value)
+    return sort, line, printed, right, why
 
 
 def _counts(value: Any) -> dict[str, int]:

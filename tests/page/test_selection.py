@@ -26,7 +26,7 @@ from derive.page.selection import (
 )
 from derive.page.wording import Text, phrases
 from derive.steps.step import Level
-from tests.courses import ROOT, course_in, solved_once
+from tests.courses import ROOT, course_in, rendered_once, solved_once
 
 WORDS = phrases(ROOT / "templates")
 Known = tuple[Problem, Solved]
@@ -158,3 +158,12 @@ def test_a_condition_is_the_relation_and_its_solution(slab: Known) -> None:
 
 def _has_key(slab: Known) -> bool:
     return any(step.key == "stable_by_frequency" for step in slab[1].derivation.steps)
+
+
+def test_lines_that_a_level_writes_anew_are_counted_and_those_of_full_are_as_they_were(tmp_path: Path) -> None:
+    root = course_in(tmp_path, problem="slab")
+    lines = {
+        detail: rendered_once(root, "hw9/slab", detail=detail, only={"json"}).counts["lines"]
+        for detail in ("full", "standard")
+    }
+    assert lines["standard"] > lines["full"]

@@ -248,7 +248,8 @@ class _EntryReader:
             if (why := unquotable(text)) is not None:
                 self.faults.error("quotation", f"this cannot be quoted: {why}", entry.places[""])
                 return "", ""
-        return str(entry.quote or printed), right
+        unit = f" {entry.unit}" if entry.unit and right else ""  # which the transcribed number has beside it
+        return str(entry.quote or printed), f"{right}{unit}"
 
     def factor(self, entry: EntryKeys) -> Statement | None:
         node = entry.times

@@ -119,6 +119,11 @@ def plain(layout: Layout) -> str:
     return "\n".join(line.rstrip() for line in text_box(layout).lines)
 
 
+def in_one_line(layout: Layout) -> str:
+    """A layout as text of a single line, a matrix row by row in brackets."""
+    return plain(_on_one_line(layout))
+
+
 def text_box(layout: Layout) -> TextBox:
     match layout:
         case Array(rows):
@@ -129,7 +134,7 @@ def text_box(layout: Layout) -> TextBox:
             inner = text_box(inside)
             if len(inner.lines) > 1:
                 return _tall_fence(inner, kind)
-            left, right = {"(": ("(", ")"), "|": ("|", "|"), "{": ("{", "}")}[kind]
+            left, right = {"(": ("(", ")"), "[": ("[", "]"), "|": ("|", "|"), "{": ("{", "}")}[kind]
             return TextBox((f"{left}{inner.lines[0]}{right}",))
         case Lowered(base, word):
             return text_box(base).beside(TextBox((f"_{word}",)))

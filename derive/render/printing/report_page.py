@@ -44,14 +44,25 @@ class ReportPage:
         return self.document.checks.source
 
     def steps(self, row: Row) -> Tex:
-        """The steps of a row, each by its symbol and the number of its equation."""
-        return Tex(", ".join(self._step(key) for key in row.steps))
+        """The steps of a row, each by its symbol and the number of its equation; those that have neither, by what they
+        were made from."""
+        named = [name for key in row.steps if (name := self._step(key))]
+        if len(named) < len(row.steps):
+            named += self._made_from(row)
+        return Tex(", ".join(named))
+
+    def _made_from(self, row: Row) -> list[str]:
+        numbers = sorted(self.document.numbers[key] for key in row.made_from if key in self.document.numbers)
+        symbols = [name for key in row.made_from if (name := self._step(key))]
+        found = [f"({number})" for number in dict.fromkeys(numbers)] or symbols
+        return [f"{escaped(self.words.labels['report_page']['made_from'])} {', '.join(found)}"] if found else []
 
     def _step(self, key: str) -> str:
+        """Nothing if it has neither a symbol nor a number."""
         symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
         numbered = f"({number})" if number is not None else ""
         if symbol is None:
-            return numbered or escaped(key.replace("_", " "))
+            return numbered
         formula = rf"\fitto{{\linewidth}}{{{latex(self.notation.layout(symbol), inline=True)}}}"
         return rf"{formula}~{numbered}" if numbered else formula
 

@@ -1,0 +1,50 @@
+"""The table of `derive check`: how many steps each problem has, how many claims were checked for them, and how sure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from derive.cli.terminal import table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from derive.building.workers import Outcome
+    from derive.render.rendered import Rendered
+
+HEADING = (
+    "problem", "steps", "proved", "sampled", "approx.", "defined", "claims", "sampled", "compared", "seconds", "verdict"
+)  # fmt: skip
+LEGEND = """\
+steps     each counted by the least sure of its lines and the surest of its second routes and checks
+claims    every line compared, every second route and every check; how many of them are only sampled
+compared  statements of the source that were compared, and remarks on it"""
+_OF_STEPS = ("steps_proved", "steps_sampled", "steps_approximation", "steps_definition")
+_OF_CLAIMS = ("lines", "routes", "checks")
+
+
+def check_table(outcomes: Iterable[tuple[str, Outcome]]) -> str:
+    """A line for each problem, and what its columns count."""
+    return f"{table([HEADING, *(_row(problem, outcome) for problem, outcome in outcomes)])}\n\n{LEGEND}"
+
+
+def _row(problem_id: str, outcome: Outcome) -> tuple[str, ...]:
+    seconds = f"{outcome.seconds:.1f}"
+    if outcome.error:
+        codes = dict.fromkeys(c.code for c in getattr(outcome.error, "complaints", ())) or ["internal error"]
+        return (problem_id, *("" for _ in HEADING[1:-2]), seconds, f"failed: {', '.join(codes)}")
+    rendered: Rendered = outcome.value
+    verdict = "ok" if rendered.agreed else "differs from its reference"
+    return (problem_id, *map(str, _numbers(rendered)), seconds, verdict)
+
+
+def _numbers(rendered: Rendered) -> tuple[int, ...]:
+    counts = rendered.counts
+    claims = sum(counts[name] for name in _OF_CLAIMS)
+    return (
+        rendered.steps,
+        *(counts[name] for name in _OF_STEPS),
+        claims,
+        counts["claims_sampled"],
+        rendered.compared,
+    )

@@ -1,0 +1,261 @@
+"""The layout of a quoted formula, so that a terminal shows it as it shows our own.
+
+What is quoted may be garbled, so that nothing is understood here, only laid out: a fraction, a root, an index, letters
+in the order in which they are printed. `course/latex/quoting.py` has seen to it that every command is known and nests.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from derive.course.latex.quoting import Quoted, quoted
+from derive.course.latex.vocabulary import (
+    ALIGNMENTS,
+    ARROW_COMMANDS,
+    BOLD_COMMANDS,
+    DOTS,
+    FONTS,
+    FRACTIONS,
+    GREEK_COMMANDS,
+    LATEX_FUNCTIONS,
+    MATRICES,
+    RELATIONS,
+)
+from derive.render.notation.layout import (
+    DEGREE_SIGN,
+    Applied,
+    Array,
+    Bracketed,
+    Digits,
+    Fenced,
+    Fraction,
+    IntegralSign,
+    Layout,
+    Name,
+    Operator,
+    Raised,
+    RootSign,
+    Row,
+    Upright,
+    row,
+)
+from derive.render.notation.text import in_one_line
+
+DEEPEST = 40
+_TOKEN = re.compile(r"\\text\{[^{}]*\}|\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|.", re.DOTALL)
+_KINDS = {"=": "equals", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least", "!=": "unequal", "~": "approx"}
+_OPERATORS = {
+    **{mark: _KINDS[meaning] for mark, meaning in RELATIONS.items()},
+    **{"+": "plus", "-": "minus", "\\cdot": "dot", "\\times": "cross", "\\pm": "plus_minus", ",": "comma"},
+}
+_SIGNS = {
+    "\\mp": "∓", "\\ldots": "…", "\\cdots": "…", "\\iint": "∬", "\\iiint": "∭", "\\sum": "∑", "\\partial": "partial",
+    "\\circ": "°", "\\min": "min", "\\max": "max", "\\lim": "lim", "\\prime": "′",
+}  # fmt: skip
+_OTHER_LETTERS = {"ell": "ℓ", "hbar": "ħ", "imath": "i", "jmath": "j"}
+_OPENING = {"(": "(", "[": "[", "\\{": "{", "\\lbrace": "{", "|": "|", "\\lvert": "|", "\\|": "|"}
+_CLOSING = frozenset([")", "]", "\\}", "\\rbrace", "|", "\\rvert", "\\|", "."])
+_NOTHING = Row(())
+
+
+def in_plain_text(text: str) -> str:
+    """Prose with formulas between dollar signs as a terminal shows it."""
+    return "".join(_formula(piece) if piece.is_formula else piece.text for piece in quoted(text))
+
+
+def _formula(piece: Quoted) -> str:
+    depths = [0]
+    for brace in re.findall(r"[{}]", piece.text):
+        depths.append(depths[-1] + (1 if brace == "{" else -1))
+    return in_one_line(layout_of_latex(piece.text)) if max(depths) <= DEEPEST else piece.text
+
+
+def layout_of_latex(tex: str) -> Layout:
+    """One formula, of commands that may be quoted."""
+    return _Reader(_TOKEN.findall(tex)).whole()
+
+
+class _Reader:
+    """Goes through the tokens once; what has no partner, a bracket or a command without value, stands for itself."""
+
+    def __init__(self, tokens: Sequence[str]):
+        self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]
+        self.at = 0
+
+    @property
+    def next(self) -> str:
+        return self.tokens[self.at] if self.at < len(self.tokens) else ""
+
+    def taken(self) -> str:
+        token = self.next
+        self.at += 1
+        return token
+
+    def whole(self) -> Layout:
+        found: list[Layout] = []
+        while self.next:
+            found.append(self.until(lambda token: False))
+            if self.next:
+                self.at += 1
+        return row(*found)
+
+    def until(self, ends: Callable[[str], bool]) -> Layout:
+        items: list[Layout] = []
+        while self.next and not ends(self.next):
+            item = self.scripted(self.atom())
+            items += [] if item is None else [item]
+        return row(*items) if items else _NOTHING
+
+    def group(self) -> Layout:
+        """A value in braces, or the one thing that stands there."""
+        if self.next != "{":
+            return (self.atom() or _NOTHING) if self.next else _NOTHING
+        self.at += 1
+        inside = self.until("}".__eq__)
+        self.at += 1
+        return inside
+
+    def atom(self) -> Layout | None:
+        token = self.taken()
+        if token.startswith("\\text{"):
+            word = token[len("\\text{") : -1].strip()
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # no product with a number
+        command = token.removeprefix("\\") if token.startswith("\\") else ""
+        if token == "{":
+            self.at -= 1
+            return self.group()
+        if token in _OPERATORS:
+            return Operator(_OPERATORS[token])
+        if token == ")":
+            return Operator("close")
+        if token in _SIGNS:
+            return Upright(_SIGNS[token])
+        if token in _OPENING and token != "|":
+            return self.fenced(token)
+        if token[0].isdigit():
+            return Digits(token)
+        if not command:
+            return self.letter(token) if token.isalpha() else None if token in "&}" else Upright(token)
+        if command in GREEK_COMMANDS | {"pi", "infty"} | _OTHER_LETTERS.keys():
+            return Name(_OTHER_LETTERS.get(command, command.removeprefix("var")))
+        return self.applied(command)
+
+    def letter(self, token: str) -> Layout:
+        """A letter, or the sign of a differential before another one."""
+        before_letter = re.fullmatch(r"[A-Za-z]|\\[a-zA-Z]+", self.next) and self.next[1:] not in ("right", "end")
+        return Upright("d") if token == "d" and before_letter else Name(token)
+
+    def applied(self, command: str) -> Layout | None:
+        """A command with what it is applied to; one that only moves things apart prints nothing."""
+        if command in FRACTIONS:
+            return Fraction(self.group(), self.group())
+        if command == "sqrt":
+            return self.root()
+        if command in DOTS:
+            return _named(self.group(), dots=DOTS[command])
+        if command in ARROW_COMMANDS | BOLD_COMMANDS:
+            return _named(self.group(), style="vector")
+        if command == "hat":
+            inside = self.group()
+            return Name(f"{inside.base}\u0302") if isinstance(inside, Name) else inside
+        if command in FONTS:
+            return self.words()
+        if command in LATEX_FUNCTIONS:
+            return self.function(command)
+        if command == "int":
+            lower, upper = self.scripts()
+            return IntegralSign(lower, upper)
+        if command == "left":
+            return self.fenced(self.taken()) if self.next else None
+        if command == "begin":
+            return self.environment()
+        return Upright(";") if command == "\\" else None
+
+    def root(self) -> Layout:
+        degree: Layout = _NOTHING
+        if self.next == "[":
+            self.at += 1
+            degree = Fenced(self.until("]".__eq__))
+            self.at += 1
+        return row(degree, RootSign(self.group()))
+
+    def words(self) -> Layout:
+        """Letters that are printed upright, as a word."""
+        text = in_one_line(self.group()).replace(" ", "")
+        return Upright(text)
+
+    def function(self, name: str) -> Layout:
+        """The function and the one factor behind it, a letter behind a number too."""
+        _, power = self.scripts()
+        if not self.next or self.next in _OPERATORS or self.next in _CLOSING | {"}"}:
+            return Upright(name)
+        argument = self.scripted(self.atom()) or _NOTHING
+        if isinstance(argument, Digits) and re.fullmatch(r"[A-Za-z]|\\[a-z]+", self.next):
+            argument = Fenced(row(argument, self.scripted(self.atom()) or _NOTHING))
+        return Applied(name, argument, power)
+
+    def scripts(self) -> tuple[Layout | None, Layout | None]:
+        """What stands below and what above."""
+        found: dict[str, Layout] = {}
+        while self.next in ("_", "^") and self.next not in found:
+            sign = self.taken()
+            found[sign] = self.group()
+        return found.get("_"), found.get("^")
+
+    def scripted(self, base: Layout | None) -> Layout | None:
+        below, above = self.scripts()
+        if base is None or below is None and above is None:
+            return base
+        if isinstance(base, Fenced) and below is not None and above is not None:
+            return Bracketed(base.inside, below, above)
+        if below is not None:
+            subscript = in_one_line(below).replace(" ", "")
+            base = replace(base, subscript=subscript) if isinstance(base, Name) else row(base, Upright(f"_{subscript}"))
+        if above is None:
+            return base
+        if above == Upright("′") and isinstance(base, Name):
+            return replace(base, base=f"{base.base}'")
+        return row(base, DEGREE_SIGN) if above == Upright("°") else Raised(base, above)
+
+    def fenced(self, opening: str) -> Layout:
+        inside = self.until(lambda token: token in _CLOSING | {"\\right", "}", "&", "\\\\", "\\end"})
+        self.at += self.next == "\\right"
+        if self.next not in _CLOSING:
+            return row(Operator("open"), inside)
+        self.at += 1
+        return inside if isinstance(inside, Array) else Fenced(inside, _OPENING.get(opening, "("))
+
+    def environment(self) -> Layout:
+        """Rows of cells, or aligned lines one after the other."""
+        name = self.braced()
+        if name == "array" and self.next == "{":
+            self.braced()
+        rows: list[list[Layout]] = [[]]
+        while self.next and self.next != "\\end":
+            rows[-1].append(self.until(lambda token: token in {"&", "\\\\", "\\end"}))
+            if self.next == "\\\\":
+                rows.append([])
+            self.at += self.next != "\\end"
+        self.at += 1
+        self.braced()
+        if name in ALIGNMENTS or name not in MATRICES:
+            return row(*[item for line in rows for item in (Upright(";"), *line)][1:])
+        filled = [line for line in rows if line]
+        columns = max(map(len, filled), default=0)
+        return Array(tuple((*line, *(_NOTHING,) * (columns - len(line))) for line in filled)) if columns else _NOTHING
+
+    def braced(self) -> str:
+        """The plain text of a value in braces."""
+        found = ""
+        if self.next == "{":
+            end = self.tokens.index("}", self.at)
+            found, self.at = "".join(self.tokens[self.at + 1 : end]), end + 1
+        return found
+
+
+def _named(inside: Layout, dots: int = 0, style: str = "") -> Layout:
+    if not isinstance(inside, Name):
+        return inside
+    return replace(inside, dots=inside.dots + dots, style=style or inside.style)
