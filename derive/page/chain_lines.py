@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Integral, MatrixBase, Symbol
+from sympy import Integral, MatrixBase, Rational, Symbol
 
 from derive.algebra.expressions import Relation
 from derive.page.abbreviations import shortened
@@ -37,6 +37,12 @@ class Equations:
     lines: tuple[ChainLine, ...]
     number: int
     framed: int = 0
+
+    @property
+    def frames_bare_number(self) -> bool:
+        """Whether what is framed is a mere 0, which says nothing without its left side."""
+        last = self.lines[-1]
+        return self.framed == 1 and last.left is None and _is_bare_number(last.right)
 
     def beside(self, other: Equations) -> Equations:
         """Both, with one number, in one row if there is room."""
@@ -96,7 +102,7 @@ class ChainWriter:
             relation=sign_before(form),
             right=form.expr,
             reason=reason,
-            presented=form.because == "result",
+            presented=form.because == "result" or form is step.chain[-1] and isinstance(form.expr, MatrixBase),
             numeric=numeric,
         )
 
@@ -120,8 +126,11 @@ class ChainWriter:
         return filled(template, {**self.names, **own, **references})
 
 
-def _sign_before(form: Form) -> str:
-    return "approx" if form.because in {"rounded", "series"} else "equals"
+def _is_bare_number(value: Any) -> bool:
+    """0, 2, or a vector that vanishes: neither a letter nor decimals with a unit."""
+    if isinstance(value, MatrixBase):
+        return all(entry == 0 for entry in value)
+    return isinstance(value, Rational)
 
 
 def names_results(symbol: Any) -> bool:

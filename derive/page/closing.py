@@ -11,8 +11,9 @@ from derive.algebra.expansion import Approach
 from derive.algebra.expressions import Relation
 from derive.course.problem import Problem
 from derive.page.signs import sign_before
-from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, filled
+from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, around_chain, filled
 from derive.steps.derivation import Derivation
+from derive.steps.outcomes import ZERO
 from derive.steps.step import Step
 
 PUT_IN = "substitution.put_in"  # of which the sentence names what is put into
@@ -58,6 +59,9 @@ def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
     """The sentence of a step with its result in it; nothing for what is too tall, a vector or a tensor."""
     last = step.chain[-1]
+    if step.rule == PUT_IN and step.outcome == ZERO:  # its sentence says it all
+        said, _ = around_chain(nodes)
+        return *said[:-1], Text(said[-1].text.rstrip(" ,")) if isinstance(said[-1], Text) else said[-1]
     if isinstance(last.expr, MatrixBase):
         return None
     return tuple(part for node in nodes for part in (_result(step) if isinstance(node, Chain) else (node,)))

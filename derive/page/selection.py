@@ -86,6 +86,9 @@ TOLD_ALONG = {"generic", "curvature"}  # outcomes of which the sentence of the s
 # Steps of which a second one of the same form only repeats the law, so that its result is enough.
 LAW_ONCE = {"lagrangian.equation_of_motion", "forced.equation_of_motion"}
 RESULTS_ONLY = {*LAW_ONCE, "inertia.entry", "inertia.entry_moved"}  # at `brief`
+# Steps of one form of which each has an argument of its own: what cancels in one sum does so by another identity than
+# what cancels in the next.
+EACH_WORKED_OUT = {"conservation.sum"}
 # Of several coordinates the first is worked out, the others are alike.
 FIRST_ONLY = {"lagrangian.generalized_force", "lagrangian.momentum_rate"}
 # Left out at `standard` too, where they are long.
@@ -223,7 +226,7 @@ class Selection:
             return step.chain
         if repeats and in_turn and step.rule in (RESULTS_ONLY if self.level is Level.BRIEF else LAW_ONCE):
             return step.chain[-1:]
-        level = Level.BRIEF if repeats else self.level
+        level = Level.BRIEF if repeats and step.rule not in EACH_WORKED_OUT else self.level
         return tuple(form for form in step.chain[:-1] if level.shows(form.level)) + step.chain[-1:]
 
 

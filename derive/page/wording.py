@@ -15,12 +15,12 @@ from typing import Any
 
 from jinja2 import Template, UndefinedError
 from jinja2.meta import find_undeclared_variables
-from sympy.core.symbol import Str
+from sympy.core.symbol import Str, Symbol
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.direction import Direction
 from derive.algebra.equality import Grade
-from derive.algebra.expressions import AXES, IN_DEGREES, TIME, Amount, explicit, scalar
+from derive.algebra.expressions import AXES, IN_DEGREES, TIME, Amount, Relation, explicit, scalar
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
@@ -83,6 +83,7 @@ class Chain:
 AND = " and "  # between the outcome that a phrase is for and the rule of the step that it tells as well
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
+VALUE = "value_"  # what roles that tell the values of letters begin with
 ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case"}  # words by which a phrase chooses
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
@@ -106,9 +107,11 @@ class Phrases:
     labels: Mapping[str, Any]
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
-        """The sentence of a step; there may be another where a step of the same rule was shown just before."""
+        """The sentence of a step; there may be another where a certain step was shown just before: one of the same
+        rule with that outcome, or one of that other rule."""
         of_rule = self.rules.get(step.rule, {})
-        following = f"{step.outcome}{AFTER}{before.outcome}" if before and before.rule == step.rule else ""
+        preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
+        following = f"{step.outcome}{AFTER}{preceded_by}"
         phrase = of_rule.get(following, of_rule.get(step.outcome))
         if phrase is None:
             message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
@@ -273,7 +276,8 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
         "symbol": name_of(step),
         "result": Math(step.result),
     }
-    names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in step.roles})
+    roles = letters_put_equal(step.roles)
+    names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in roles})
     names.update({name: word if name in ASKED else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
     if dimension is not None:
@@ -282,6 +286,17 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     if unit:
         names["unit"] = UnitMark(unit)
     return names
+
+
+def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]:
+    """b = c = a, where value_1 is b = a and value_2 is c = a; what else is told keeps its role."""
+    values = [told for role, told in roles if role.startswith(VALUE) and isinstance(told, Relation)]
+    joined_at: dict[Any, Any] = {}
+    for each in values:
+        at = each.right if each.mark == "=" and isinstance(each.right, Symbol) else each  # a number is not joined
+        joined_at[at] = Relation(Relation(joined_at[at].left, "=", each.left), "=", at) if at in joined_at else each
+    others = [(role, told) for role, told in roles if not (role.startswith(VALUE) and isinstance(told, Relation))]
+    return [*others, *((f"{VALUE}{i}", told) for i, told in enumerate(joined_at.values(), 1))]
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:

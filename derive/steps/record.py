@@ -199,6 +199,11 @@ def add(quantity: Quantity, case_of: Quantity | None) -> None:
         run.cases.append(case_of)
 
 
+def _is_the_same(one: Quantity, other: Quantity) -> bool:
+    """Whether they are one step, or one value that two steps have, as a tensor and its definition."""
+    return one is other or one.step == other.step or same_value(one.value, other.value)
+
+
 def _check_one_meaning(
     quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
 ) -> None:
@@ -215,7 +220,7 @@ def _check_one_meaning(
             continue
         if _is_open(other) or _is_open(quantity):
             continue
-        if case_of is not None and (other is case_of or other.step == case_of.step or other.key in case_of.step.inputs):
+        if case_of is not None and (_is_the_same(other, case_of) or other.key in case_of.step.inputs):
             continue
         message = f"`{other.key}` and `{quantity.key}` are both called {symbol}, but they are different things"
         raise Rejected(Complaint("letter-clash", message, help='give one of their verbs `symbol="..."`'))

@@ -619,3 +619,9 @@ def test_a_wrong_root_and_a_wrong_bound_are_refused(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(RootOf, "value", property(lambda self: R / 3))
     with pytest.raises(Unverified):
         roots(equation(k * x.symbol, m * g), x)
+
+
+@pytest.mark.parametrize(("at", "outcome"), [({"x": 0}, "zero"), ({"x": 1}, "values")])
+def test_what_vanishes_for_the_values_put_in_says_so(at: dict[str, int], outcome: str) -> None:
+    squared = let("f", lambda: symbols("x", real=True) ** 2)
+    assert put_in(squared, **at).step.outcome == outcome

@@ -26,7 +26,7 @@ from derive.mechanics import (
 )
 from derive.steps.derivation import derivation_of, from_json, to_json, with_ancestors
 from derive.steps.establish import Scope, establish
-from derive.steps.step import Quantity
+from derive.steps.step import Level, Quantity
 
 I_x, I_y, I_z, A, C = symbols("I_x I_y I_z A C", positive=True)
 N = symbols("N_x N_y N_z", real=True)
@@ -298,3 +298,10 @@ def test_the_steps_go_to_json_and_back(torque: tuple[Expr, Expr, Expr]) -> None:
     known = found(torque=torque)
     derivation = derivation_of([["kinetic_energy_rate", "squared_magnitude_rate"], ["in_space"]], known)
     assert from_json(to_json(derivation)) == derivation
+
+
+@pytest.mark.parametrize("torque", [NONE, N])
+def test_only_at_full_is_the_torque_found_from_what_was_found_from_it(torque: tuple[Expr, Expr, Expr]) -> None:
+    """dL/dt = -omega x L + omega x L = 0 uses Euler's equations, which are dL/dt = 0."""
+    chain = found(torque=torque)["in_space"].step.chain
+    assert [form.level for form in chain[:-1]] == [Level.FULL] * (len(chain) - 1) and len(chain) > 1

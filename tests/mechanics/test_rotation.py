@@ -22,7 +22,7 @@ from derive.mechanics import (
     spin,
     torque,
 )
-from derive.steps.step import Quantity
+from derive.steps.step import Level, Quantity
 from tests.mechanics.block import M, a, b, c, known_block, omega, outcomes, values
 
 GENERAL = {"sides": (a, b, c)}
@@ -76,6 +76,21 @@ def test_energy_of_any_rotation_is_the_sum_over_the_principal_axes() -> None:
 
 def test_energy_about_the_diagonal_is_seven_twenty_fourths() -> None:
     assert values()["energy_about_axis"] == Rational(7, 24) * M * a**2 * omega**2
+
+
+def test_energy_has_its_sum_in_sight_where_it_is_one_of_numbers() -> None:
+    def reasons(sides: tuple[Any, ...], **how: Any) -> list[str]:
+        body = Cuboid(sides, M)
+        axis = Direction(how.pop("axis", "diagonal"))
+        turning = how.pop("turning", None) or spin(omega, along=body.direction(axis))
+        step = kinetic_energy(inertia_tensor(body, **how), turning).step
+        return [form.because for form in step.chain if form.level is not Level.FULL]
+
+    assert "products" in reasons((a, 2 * a, 3 * a))
+    assert "products" not in reasons((a, a, a)), "equal moments leave nothing to be added up"
+    assert "products" not in reasons((a, 2 * a, 3 * a), axis="z"), "one term is no sum"
+    assert "products" not in reasons((a, b, c)), "the letters would only stand there twice"
+    assert "products" not in reasons((a, 2 * a, 3 * a), turning=any_angular_velocity())
 
 
 def test_energy_of_a_cube_is_a_twelfth_about_every_axis() -> None:

@@ -64,3 +64,18 @@ def test_what_is_known_but_not_shown_is_named_by_its_letter(tmp_path: Path) -> N
     limits = limiting_cases(problem, derivation, WORDS, told_in_full, lambda pieces: (), {})
     sentence = next(each for each in limits if not isinstance(each, Step))
     assert Math(derivation.step("alone").symbol) in sentence and Ref("alone") not in sentence
+
+
+def test_what_vanishes_in_a_case_is_told_in_words_alone(tmp_path: Path) -> None:
+    problem = loaded(tmp_path, edited(CART, ("where: {m: M}, is: sqrt(2*g/l)}", "where: {g: 0}, why: without weight}")))
+    derivation, *_ = derived(problem)
+    *_, last = limiting_cases(problem, derivation, WORDS, told_in_full, lambda pieces: (Text("as <<it>> must"),), {})
+    assert [node.text for node in last if isinstance(node, Text)] == [
+        "For ",
+        ", ",
+        " vanishes",
+        ", ",
+        "as <<it>> must",
+        ".",
+    ]
+    assert [str(node.expr) for node in last if isinstance(node, Math)] == ["g = 0", "omega_0"]

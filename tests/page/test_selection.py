@@ -12,6 +12,7 @@ from derive.course.problem import Problem, load_problem
 from derive.page.document import Display, Document, Paragraph, document_of
 from derive.page.introduced import expressions_in, letters_in
 from derive.page.selection import (
+    EACH_WORKED_OUT,
     FIRST_ONLY,
     LAW_ONCE,
     LEFT_OUT,
@@ -73,10 +74,17 @@ def said(document: Document) -> str:
 
 
 def test_the_rules_are_of_steps_that_there_are() -> None:
-    rules = {rule.partition(":")[0] for rule in MANNERS} | LAW_ONCE | RESULTS_ONLY | FIRST_ONLY | LEFT_OUT_IF_LONG
+    of_several = LAW_ONCE | RESULTS_ONLY | FIRST_ONLY | LEFT_OUT_IF_LONG | EACH_WORKED_OUT
+    rules = {rule.partition(":")[0] for rule in MANNERS} | of_several
     assert rules - set(WORDS.rules) == set()
     outcomes = {tuple(rule.split(":")) for rule in MANNERS if ":" in rule}
     assert {(rule, outcome) for rule, outcome in outcomes if outcome not in WORDS.rules[rule]} == set()
+
+
+def test_each_sum_shows_by_which_identity_its_terms_cancel(tmp_path: Path) -> None:
+    known = solved_once(course_in(tmp_path, problem="euler"), "hw9/euler")
+    shown = lines(page(known, Level.STANDARD))
+    assert shown["kinetic_energy_sum"] == shown["squared_momentum_sum"] == 2
 
 
 def test_a_lower_level_leaves_out_no_less() -> None:

@@ -9,6 +9,7 @@ import pytest
 from sympy import Integer, Symbol
 
 from derive.algebra.equality import Compared
+from derive.algebra.expressions import Relation
 from derive.algebra.kinds import dimension_of_kind
 from derive.course.prose import Mention
 from derive.errors import Place, Rejected
@@ -21,6 +22,7 @@ from derive.page.wording import (
     UnitMark,
     filled,
     joined,
+    letters_put_equal,
     names_asked,
     names_of_step,
     phrases,
@@ -192,3 +194,23 @@ def test_a_step_offers_its_roles_its_unit_and_its_dimension() -> None:
 
 def test_a_number_offers_no_unit() -> None:
     assert "unit" not in names_of_step(known_block()["cosine"].step, WORDS, None)
+
+
+def test_a_step_of_a_certain_other_rule_before_it_may_change_its_words() -> None:
+    factor = known_block()["torque"].step
+    total = replace(factor, rule="conservation.sum", outcome="cancel")
+    product = replace(factor, rule="conservation.product", outcome="one_of_several")
+    assert WORDS.phrase(total, before=factor) == WORDS.phrase(total) != WORDS.phrase(total, before=product)
+
+
+def test_letters_that_are_put_equal_to_one_are_told_together() -> None:
+    def told_as(*values: Relation) -> list[str]:
+        roles = [("original", a), *((f"value_{i}", value) for i, value in enumerate(values, 1))]
+        found = dict(letters_put_equal(roles))
+        assert found.pop("original") == a
+        assert list(found) == [f"value_{i}" for i in range(1, len(found) + 1)]
+        return [str(value) for value in found.values()]
+
+    assert told_as(Relation(b, "=", a), Relation(c, "=", a)) == ["b = c = a"]
+    assert told_as(Relation(b, "=", a), Relation(c, "=", omega)) == ["b = a", "c = omega"]
+    assert told_as(Relation(b, "=", NIL), Relation(c, "=", NIL)) == ["b = 0", "c = 0"]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from sympy import Symbol, sin, symbols
+from dataclasses import replace
+
+from sympy import ImmutableDenseMatrix, Integer, Symbol, sin, symbols
 
 from derive.algebra.expressions import Relation
 from derive.page.chain_lines import ChainLine, Equations
@@ -41,6 +43,25 @@ def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -
         assert (line.framed, line.frames_all) == (framed, whole)
     apart = printed_lines(Equations("T", chain, 7, 2), NOTATION, 4)
     assert [(line.framed, line.frames_all) for line in apart] == [(0, False), (1, False), (1, False)]
+
+
+def test_a_mere_number_is_framed_with_its_left_side() -> None:
+    """What is in a frame is an equation that one may copy: not 0 alone, but T = 0."""
+    T, nothing = Symbol("T"), Integer(0)
+    chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", nothing, (Text("why"),)))
+    (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)
+    assert line.frames_all and len(line.sides) == 1
+    for begins, limit in ((LONG, 40), (LETTERS[0], 40), (LETTERS[0], 9)):
+        lines = printed_lines(Equations("T", (replace(chain[0], right=begins), chain[1]), 7, 1), NOTATION, limit)
+        assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
+        assert lines[-1].left == NOTATION.layout(T) and lines[-1].sides == (("equals", NOTATION.layout(nothing)),)
+        assert lines[-1].reason and not any(line.reason for line in lines[:-1])
+    for other in (LETTERS[1], ImmutableDenseMatrix([LETTERS[1], 0])):
+        (line,) = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", other)), 7, 1), NOTATION)
+        assert not line.frames_all
+    vector = ImmutableDenseMatrix([0, 0, 0])
+    *_, last = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", vector)), 7, 1), NOTATION)
+    assert last.frames_all
 
 
 def test_a_framed_line_that_is_broken_is_framed_as_a_whole() -> None:

@@ -10,7 +10,7 @@ from sympy import Symbol, cos, exp, pi, sin, sqrt, symbols, tan
 from derive.algebra.expressions import TIME, rate
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.notation import Notation
-from derive.render.notation.order import motion_first, plain_first, rank_of_factor
+from derive.render.notation.order import motion_first, ordered_factors, plain_first
 from derive.render.notation.text import plain
 
 m, M, k, b = symbols("m M k b", positive=True)
@@ -77,5 +77,13 @@ def test_fractions_stand_behind_letters_and_functions_last() -> None:
 
 def test_rates_stand_behind_all_that_is_constant() -> None:
     factors = [rate(theta), cos(theta), sqrt(k), l, M + m, m, Symbol("unknown")]
-    ordered = sorted(factors, key=lambda f: rank_of_factor(f, NOTATION.known_dimensions.get))
+    ordered = ordered_factors(factors, NOTATION.known_dimensions.get)
     assert ordered == [m, M + m, l, Symbol("unknown"), sqrt(k), rate(theta), cos(theta)]
+
+
+def test_components_of_an_angular_velocity_stand_in_cyclic_order() -> None:
+    x, y, z, r_x, r_z, I_xz = symbols("omega_x omega_y omega_z r_x r_z I_xz", real=True)
+    kinds = {**dict.fromkeys((x, y, z), "angular speed"), **dict.fromkeys((r_x, r_z), "length")}
+    turning = Notation({letter: dimension_of_kind(kind) for letter, kind in kinds.items()})
+    read = [plain(turning.layout(product)) for product in (x * y, y * z, z * x, x * y * z, r_x * r_z, I_xz * x * z)]
+    assert read == ["ω_x ω_y", "ω_y ω_z", "ω_z ω_x", "ω_x ω_y ω_z", "r_x r_z", "I_xz ω_x ω_z"]

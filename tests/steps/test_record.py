@@ -68,6 +68,17 @@ def test_a_case_of_a_thing_may_have_its_letter() -> None:
         assert named("case", 2 * a, scope=Scope(case_of=general)).value == 2 * a
 
 
+def test_a_case_may_have_the_letter_of_what_is_the_same_as_its_general_case() -> None:
+    with recorded():
+        named("definition", a + b)
+        general = named("general", b + a)
+        assert named("case", 2 * a, scope=Scope(case_of=general)).value == 2 * a
+    with recorded():
+        named("other", a + b)
+        with pytest.raises(Rejected, match="are both called s"):
+            named("case", 2 * a, scope=Scope(case_of=sum_of_squares(key="another")))
+
+
 def test_the_letter_of_a_coordinate_may_be_given_a_value_in_one_motion() -> None:
     with recorded():
         coordinate_named(q, "angle")

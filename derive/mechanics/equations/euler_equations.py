@@ -270,6 +270,8 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
+            # That in the body was found from the torque: what the two parts add up to is no news, but a check.
+            law=Level.FULL if in_body else Level.BRIEF,
             result=in_body is not None,  # else Euler's equations have its components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
             means=motion,
@@ -304,7 +306,7 @@ def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None)
     if in_body is not None:
         seen = in_body.step.chain[0].expr
         parts = seen.args if isinstance(seen, MatAdd) else (seen,)
-        return [Form(MatAdd(*parts, Cross(omega.symbol, momentum.symbol)), "in_body", Level.STANDARD)]
+        return [Form(MatAdd(*parts, Cross(omega.symbol, momentum.symbol)), "in_body", Level.FULL)]
     in_components = explicit(BodyRate(momentum.value, *omega.coordinates))
     return [Form(MatAdd(in_components, Cross(omega.value, momentum.value)), "differentiated", Level.STANDARD)]
 

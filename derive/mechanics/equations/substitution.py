@@ -54,7 +54,8 @@ def put_in(
     One after another, in this order, the values last. A coordinate that is given as a function of others, or of the
     time, takes its rates along.
     Check: the letters of the original replaced all at once by what they finally are; what is found once more.
-    Outcomes: results, values (letters only), identity (an equation that then holds by itself), again.
+    Outcomes: results, values (letters only), zero (with these values), identity (an equation that then holds by
+    itself), again.
     Errors: nothing there to replace; an equation that is not solved for a letter; a relation that cannot hold.
     Source: none needed: substitution.
     """
@@ -106,7 +107,9 @@ def put_in(
 
 
 def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
-    return "identity" if _is_identity(result) else "results" if rests else "values"
+    if _is_identity(result) or rests:
+        return "identity" if _is_identity(result) else "results"
+    return "values" if isinstance(result, Relation) or not is_zero(result) else "zero"
 
 
 @dataclass(frozen=True)

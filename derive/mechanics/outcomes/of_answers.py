@@ -282,6 +282,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "substitution.put_in": {
         "results": _put_in(False),
         "values": _put_in(True),
+        "zero": lambda facts: _put_in(True)(facts) and is_zero(facts.result),
         "identity": _identity,
         "again": lambda facts: bool(equal(facts.result, facts.inputs["found"])),
     },

@@ -252,7 +252,10 @@ def kinetic_energy(
         lambda w, tensor: Factors(Rational(1, 2), Dot(w, applied(tensor, w))),
         {"omega": omega, "inertia": inertia},
         lines=Lines(
-            between=[Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.FULL)],
+            between=[
+                Form(Factors(Rational(1, 2), Dot(omega.value, product)), "applied", Level.FULL),
+                *_energy_by_components(inertia.value, omega.value),
+            ],
             put_in=Level.FULL,
         ),
         routes={"speeds": compared_with(by_speeds)},
@@ -261,6 +264,25 @@ def kinetic_energy(
         telling=Telling(words=words),
         facts=[RateOfEnergy(inertia, omega)],
     )
+
+
+def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
+    """(1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2): the sum in sight, where it is of numbers along principal axes.
+
+    Moments that are equal leave nothing to be added up.
+    """
+    (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
+    terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
+    is_of_numbers = moments.is_diagonal() and not moments.free_symbols | along.free_symbols
+    if not is_of_numbers or len(terms) < 2 or len(set(moments.diagonal())) == 1:
+        return []
+    return [Form(Factors(Rational(1, 2), _as_ratio(w**2), _as_ratio(I), Terms(*terms)), "products", Level.STANDARD)]
+
+
+def _as_ratio(size: Expr) -> Expr:
+    """omega^2/14, not (1/14) omega^2."""
+    above, below = size.as_numer_denom()
+    return size if below == 1 else Ratio(above, below)
 
 
 def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key: str = "angular_momentum") -> Quantity:

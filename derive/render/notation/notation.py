@@ -71,7 +71,7 @@ from derive.render.notation.layout import (
     layout_of_name,
     row,
 )
-from derive.render.notation.order import holds_rates, ordered_terms, rank_of_factor
+from derive.render.notation.order import holds_rates, ordered_factors, ordered_terms
 from derive.render.notation.products import (
     between_factors,
     decimal,
@@ -191,7 +191,7 @@ class Notation:
         return side_by_side([first, *(self._as_factor(other) for other in others)]) if others else first
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
-        return sorted(factors, key=lambda f: rank_of_factor(f, self.known_dimensions.get))
+        return ordered_factors(factors, self.known_dimensions.get)
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:

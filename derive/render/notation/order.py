@@ -14,9 +14,11 @@ from sympy import Add, Expr, Function, Mul, Pow, Rational, Symbol, exp, fraction
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension, power, product
+from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
 RATE_ENDS = ("_ddot", "_dot")  # in the names of accelerations and of rates
+RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
 def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
@@ -67,6 +69,27 @@ def holds_rates(expr: Expr) -> bool:
 def _coordinate(letter: Symbol) -> str:
     name: str = letter.name
     return next(name.removesuffix(end) for end in RATE_ENDS if name.endswith(end))
+
+
+def ordered_factors(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
+    """The factors of a product as they are written."""
+    return _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+
+
+def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
+    """omega_z omega_x, as omega_x omega_y and omega_y omega_z in the other components of a cross product.
+
+    Beside a product of inertia I_xz they stand in the order of its axes.
+    """
+    names = [factor.name if isinstance(factor, Symbol) else "" for factor in factors]
+    for i, name in enumerate(names):
+        root = name.removesuffix("_x")
+        if root == name or f"{root}_z" not in names or any(n.endswith("xz") for n in names):
+            continue
+        if f"{root}_y" not in names and dimension_of(factors[i]) == RATE_OF_TURNING:
+            k = names.index(f"{root}_z")
+            factors[i], factors[k] = factors[k], factors[i]
+    return factors
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:

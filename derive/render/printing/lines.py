@@ -73,8 +73,16 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
+    packed = _with_bare_number_framed(packed, begun) if equations.frames_bare_number else packed
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
+
+
+def _with_bare_number_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
+    """What is framed is an equation that one may copy, and no more: the left side of the chain once more, and 0."""
+    *others, last = packed
+    chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
+    return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
