@@ -21,6 +21,7 @@ _SHAPE: dict[str, Any] = {
     "routes": {_ANY: _TABLE},
     "reasons": {_ANY: _TABLE},
     "theorems": _TABLE,
+    "theorems_again": _TABLE,
     "setups": {_ANY: _TABLE},
     "clauses": {_ANY: _TABLE},
     "terms": _TABLE,

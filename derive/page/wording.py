@@ -88,7 +88,24 @@ ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "cas
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
 
-Inline = Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain
+
+@dataclass(frozen=True)
+class ToldIn:
+    """The problem of a document that has told a theorem first: Problem 1."""
+
+    problem: str
+
+
+@dataclass(frozen=True)
+class ToldOnce:
+    """A theorem: what a page tells, and what it says where an earlier problem of the same document has told it."""
+
+    name: str
+    nodes: tuple[Inline, ...]
+    again: tuple[Inline, ...]
+
+
+Inline = Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain | ToldOnce | ToldIn
 
 
 @dataclass(frozen=True)
@@ -99,6 +116,7 @@ class Phrases:
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
     theorems: Mapping[str, str]
+    theorems_again: Mapping[str, str]
     setups: Mapping[str, Mapping[str, str]]
     clauses: Mapping[str, Mapping[str, str]]
     terms: Mapping[str, str]

@@ -9,7 +9,7 @@ import pytest
 
 from derive.mechanics.theorems import THEOREMS
 from derive.page.theorems import Theorems
-from derive.page.wording import Math, phrases
+from derive.page.wording import Math, ToldIn, ToldOnce, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT
 
@@ -23,8 +23,9 @@ def a_step(rule: str, outcome: str = "generic") -> Any:
 @pytest.mark.parametrize("level", [Level.STANDARD, Level.FULL])
 def test_a_theorem_is_told_once(level: Level) -> None:
     theorems = Theorems(WORDS, level)
-    (told,) = theorems.before(a_step("rotation.torque"))
-    assert any(isinstance(node, Math) for node in told)
+    ((told,),) = theorems.before(a_step("rotation.torque"))
+    assert isinstance(told, ToldOnce) and any(isinstance(node, Math) for node in told.nodes)
+    assert any(isinstance(node, ToldIn) for node in told.again)
     assert theorems.before(a_step("free_rotation.rate_in_space")) == [], "it has been told"
     assert len(theorems.before(a_step("inertia.entry_moved", "moment"))) == 1
     assert theorems.before(a_step("forced.equation_of_motion", "applied")) == []
@@ -36,7 +37,7 @@ def test_a_brief_page_has_only_their_names() -> None:
 
 
 def test_each_theorem_has_its_sentence_and_each_sentence_its_theorem() -> None:
-    assert {theorem.name for theorem in THEOREMS} == set(WORDS.theorems)
+    assert {theorem.name for theorem in THEOREMS} == set(WORDS.theorems) == set(WORDS.theorems_again)
     for theorem in THEOREMS:
         assert "<<formula>>" in WORDS.theorems[theorem.name]
         assert set(theorem.used_by) <= set(WORDS.rules)

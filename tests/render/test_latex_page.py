@@ -14,7 +14,7 @@ from derive.algebra.expressions import column
 from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.document import Document, Paragraph
-from derive.page.wording import DimensionMark, Text, UnitMark
+from derive.page.wording import DimensionMark, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
 from tests.courses import ROOT
 from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
@@ -82,6 +82,19 @@ def test_a_page_does_not_end_within_a_step() -> None:
     first, between, second, within, third = chain(solution(page(display("mass", "energy"))))
     assert (between, within) == (r"\nextstep", r"\samestep")
     assert r"\eqnumber{1}" in first and r"\eqnumber" not in second and r"\eqnumber{2}" in third
+
+
+def test_a_page_does_not_part_a_few_equations_of_one_row_each() -> None:
+    def between(count: int) -> set[str]:
+        groups = tuple(Equations("mass", (ChainLine(T, "equals", a**i),), i) for i in range(1, count + 1))
+        return set(chain(solution(page(replace(display("mass"), groups=groups))))[1::2])
+
+    assert between(3) == {r"\samestep"} and between(9) == {r"\nextstep"}
+
+
+def test_a_theorem_says_which_it_is_and_what_stands_for_it_later_in_the_document() -> None:
+    told = ToldOnce("inertia", (Text("Bodies persist."),), (Text("See "), ToldIn("Problem")))
+    assert r"\theorem{inertia}{Bodies persist.}{See \toldproblem{Problem}}" in solution(page(Paragraph((told,))))
 
 
 def test_a_page_may_end_in_the_middle_of_a_long_step() -> None:

@@ -13,7 +13,7 @@ from derive.algebra.dimensions import Dimension
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.document import Block, Display, Document, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
@@ -26,6 +26,7 @@ from derive.render.rendered import Tex
 # About how much room things take on the page, in points, and how many characters a line of text and of a note hold.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
+FEW_ROWS = 4  # that no page parts
 NARROW = 26  # less than half of a line, in characters
 
 
@@ -125,6 +126,10 @@ class _Page:
                 return self._reference(key)
             case ProblemRef(of, text):
                 return rf"\problemlink{{{dotted(of)}}}{{{escaped(text)}}}"
+            case ToldOnce(name, nodes, again):
+                return rf"\theorem{{{name}}}{{{self.inline(nodes)}}}{{{self.inline(again)}}}"
+            case ToldIn(problem):
+                return rf"\toldproblem{{{escaped(problem)}}}"
         return ""
 
     def _reference(self, key: str) -> str:
@@ -142,9 +147,14 @@ class _Page:
         return passages_of(part.blocks)
 
     def display(self, display: Display) -> Tex:
-        """The rows of a chain; a page ends between steps, or far from both ends of a long one."""
+        """The rows of a chain; a page ends between steps, or far from both ends of a long one.
+
+        It does not end within a few equations of one row each: Euler's equations stand together.
+        """
         steps: list[str] = []
         tall: list[bool] = []
+        are_low = all(_is_low(printed_lines(group, self.notation)) for group in display.groups)
+        between = r"\samestep" if are_low and len(display.groups) <= FEW_ROWS else r"\nextstep"
         for group, stop in zip(display.groups, display.stops, strict=True):
             printed = printed_lines(group, self.notation)
             tall.append(_is_tall_and_narrow(printed))
@@ -152,7 +162,7 @@ class _Page:
                 steps[-1], tall = rf"\sidebyside{{{steps[-1]}}}{{{self._step(printed, stop)}}}", []
             else:
                 steps.append(self._step(printed, stop))
-        return Tex("\n\\nextstep\n".join(steps))
+        return Tex(f"\n{between}\n".join(steps))
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = _rows(printed)
@@ -260,6 +270,11 @@ def _rows(lines: Sequence[Printed]) -> list[list[Printed]]:
         else:
             rows.append([line])
     return rows
+
+
+def _is_low(lines: Sequence[Printed]) -> bool:
+    """One row without a column or a tensor."""
+    return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
 
 
 def _is_tall_and_narrow(lines: Sequence[Printed]) -> bool:

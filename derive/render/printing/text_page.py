@@ -9,7 +9,7 @@ from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.document import Display, Document, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import columns, plain, text_box, to_the_right
@@ -43,6 +43,8 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, int]) -> str:
             return f"({numbers[key]})"
         case ProblemRef(_, text):
             return text
+        case ToldOnce(nodes=told):  # a page of plain text is a document of one problem
+            return "".join(_node(each, notation, numbers) for each in told)
     return ""
 
 
