@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from sympy import Symbol
+
 from derive.algebra.expressions import Amount
 from derive.course.placement import HIDDEN, STATEMENT, Placement
 from derive.course.problem import Problem
@@ -53,7 +55,7 @@ def depictions(
     drawings: Sequence[m.Recorded],
     derivation: Derivation,
     words: Phrases,
-    told: Callable[[Any], tuple[Inline, ...]],
+    told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
     """The drawings in the order of the page, and what is wrong with where the problem puts them."""
     faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
@@ -66,7 +68,7 @@ def depictions(
         if fault:
             faults.append(fault)
         elif index is not None:
-            caption = told(placement.caption.pieces) if placement and placement.caption else ()
+            caption = told(placement.caption.pieces, _lettered(drawing)) if placement and placement.caption else ()
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
                 alt = alternative(problem, drawing, placement, words)
@@ -77,6 +79,12 @@ def depictions(
                 continue
             found.append((index, Depicted(drawing, placement, at, alt, numbers.get(drawing.key), caption)))
     return [depicted for _, depicted in sorted(found, key=lambda entry: entry[0])], faults
+
+
+def _lettered(drawing: m.Recorded) -> dict[str, Any]:
+    """The letters beside its marks, which its caption may mention as it does what is given: C of `<<C>>`."""
+    labels = (getattr(mark, "label", None) for mark in getattr(drawing, "marks", ()))
+    return {label.name: (Math(label),) for label in labels if isinstance(label, Symbol)}
 
 
 def placement_of(problem: Problem, key: str) -> Placement | None:

@@ -56,13 +56,22 @@ def given(value: Any, key: str = "f", **more: Any) -> Quantity:
         (M * (R**2 / 4 + h**2 / 3), h / R, 0, M * R**2 / 4, "finite"),  # a disc
         (M * (R**2 / 4 + h**2 / 3), h / R, oo, M * h**2 / 3, "diverges"),  # a rod
         (sqrt(R + h) - sqrt(R), h, oo, sqrt(h), "diverges"),  # half a power, which no series has
-        (5 * m * a, a, 0, 5 * m * a, "exact"),
+        (5 * m * a, a, 0, Integer(0), "finite"),  # of one power the limit says more than itself
+        (5 * m * a, a, oo, 5 * m * a, "exact"),
     ],
 )
 def test_a_result_goes_to_what_the_textbooks_say(value: Expr, letter: Expr, to: Any, found: Expr, outcome: str) -> None:
     limit = limiting_case(given(value), letter, to)
     assert equal(limit.value, found)
     assert limit.step.outcome == outcome
+
+
+def test_of_a_condition_the_border_goes_to_a_limit() -> None:
+    least, largest = (given(Relation(S, mark, 2 * sqrt(I_x * M * g * l) / I_z)) for mark in (">=", "<="))
+    limit = limiting_case(least, l)
+    assert (limit.value, limit.symbol.name, limit.step.outcome) == (0, "S_min", "finite")
+    assert limiting_case(largest, l).symbol.name == "S_max"
+    assert [e.claim for e in limit.step.evidence][-2:] == ["arithmetic", "numbers"]
 
 
 def test_a_limit_is_proved_and_a_leading_term_said_to_its_order() -> None:

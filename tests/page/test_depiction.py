@@ -9,7 +9,7 @@ import pytest
 
 from derive.errors import Rejected
 from derive.render.rendered import Rendered
-from tests.courses import course_in, rendered_once
+from tests.courses import ROOT, course_in, rendered_once
 
 CAPTION = "  vectors:\n"
 CUBE = {"[a, 2*a, 3*a]": "[a, a, a]"}
@@ -49,6 +49,13 @@ def test_the_words_are_made_of_the_derived_values(block: Rendered) -> None:
     assert "ω⃗ along (1, 2, 3)" in told
     assert "L⃗ along (13, 20, 15)" in told
     assert "the angle θ of 21.6°" in told
+
+
+def test_a_caption_may_mention_the_letters_beside_the_marks(tmp_path: Path) -> None:
+    cone = rendered_once(ROOT, "hw9/cone")
+    assert "its centre of mass $C$, and a slice" in cone.texts["latex"]
+    (fault,) = faults(tmp_path / "block", {"true directions": "true <<C>> directions"})
+    assert "nothing on this page is called `C`" in fault, "the drawing has no mark of that name"
 
 
 def test_a_terminal_shows_the_words_in_the_place_of_the_drawing(block: Rendered) -> None:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from derive.algebra.expressions import rate
+from derive.algebra.expressions import Relation, rate
 from derive.building.solution import derived
 from derive.building.solved import Solved, steps_key
 from derive.course.problem import Problem, load_problem
@@ -68,6 +68,8 @@ def equated(document: Document) -> set[object]:
                 if isinstance(node, Math) and isinstance(sign, Text) and sign.text.startswith(" = ")
                 for letter in letters_of(node.expr)
             }
+            said = [node.expr for node in nodes if isinstance(node, Math) and isinstance(node.expr, Relation)]
+            found |= {letter for each in said if each.mark == "=" for letter in letters_in([each.left])}  # I_1 = I_xx
     return found
 
 

@@ -56,7 +56,7 @@ def called(letter: str) -> dict[str, str]:
         ("omega_x", "it is a component of `omega`"),
         ("L_y", "it is a component of `L`"),
         ("I_yx", "it is an entry of `I`"),
-        ("r_Cz", "but `r_C_z` is printed so too: "),
+        ("z_C", "but `r_C_z` is printed so too: "),
         ("rho", "the step `density` calls its result so too"),
     ],
 )
@@ -76,7 +76,7 @@ def test_a_letter_that_looks_otherwise_is_free(letter: str, block: Known, tmp_pa
 
 @pytest.mark.parametrize(
     ("letter", "why"),
-    [("theta", "integrates over it"), ("I_1", "`principal_moments` calls its result so too"), ("r_Cz", "`r_C_z`")],
+    [("theta", "integrates over it"), ("I_1", "`principal_moments` calls its result so too"), ("z_C", "`r_C_z`")],
 )
 def test_a_letter_of_integration_is_not_free_either(letter: str, why: str, cone: Known, tmp_path: Path) -> None:
     (complaint,) = clashes(tmp_path, "cone", cone, called(letter))
@@ -121,7 +121,7 @@ def test_letters_of_the_problem_that_look_alike_are_told(block: Known, tmp_path:
 
 
 def test_what_is_compared_is_what_is_printed() -> None:
-    assert as_printed(Symbol("r_Cz")) == as_printed(Symbol("r_C_z"))
+    assert as_printed(Symbol("z_C")) == as_printed(Symbol("r_C_z"))
     assert as_printed(Symbol("omega_x")) != as_printed(Symbol("omega_y"))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
 
 from derive.algebra.equality import equal
 from derive.algebra.expansion import (
@@ -36,14 +36,17 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
+BORDERS = {"=": "", ">=": "min", "<=": "max"}  # what is to be said of the letter for its value on the border
+
 
 def limiting_case(
     of: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None, symbol: str | None = None
 ) -> Quantity:
     """What a result is in a limiting case, f = c_n e^n + ... with e what is small: x, 1/x or x - a.
 
-    of       a scalar, a vector or a tensor, any unit; an equation solved for a letter; or another equation, of which
-             `equation_in_limit` tells what is left
+    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, of which the
+             least or the largest value is what goes to a limit; or another equation, of which `equation_in_limit` tells
+             what is left
     letter   the letter that is small or large, or a ratio, h/R, of which the first letter goes there
     to       0 where it is small, SymPy's `oo` where it is large, else the value that it is near
     order    the highest power of what is small that is kept; the leading term alone if none is given
@@ -73,6 +76,9 @@ def limiting_case(
     series = beginnings(of, value, x, place, order)
     found = _added_up(series, value, x, place)
     power = Rational(order) if order is not None else max((n for each in series for n in each), default=Rational(0))
+    if order is None and power > 0 and is_zero(value - found):  # its leading term is all of it: the limit says more
+        series, power = [{Rational(0): Integer(0)} for _ in series], Rational(0)
+        found = _added_up(series, value, x, place)
     exact, is_limit = is_zero(value - found), order is None and power == 0
     again = terms_by_arithmetic(value, series, x, place, power)
     return establish(
@@ -104,11 +110,14 @@ def limiting_case(
 
 
 def _solved_for(of: Quantity) -> Symbol | None:
-    """The letter that an equation gives: x of x = f, where f does not hold it."""
-    if not isinstance(of.value, Relation) or of.value.mark != "=":
+    """The letter that an equation gives, x of x = f, where f does not hold it; of x >= f the least value, x_min."""
+    if not isinstance(of.value, Relation) or of.value.mark not in BORDERS:
         return None
     left, right = of.value.sides
-    return left if isinstance(left, Symbol) and left not in explicit(right).free_symbols else None
+    if not isinstance(left, Symbol) or left in explicit(right).free_symbols:
+        return None
+    border = BORDERS[of.value.mark]
+    return Symbol(f"{left.name}_{border}", real=True) if border else left
 
 
 def _what_goes(letter: Any) -> tuple[Expr, Symbol]:

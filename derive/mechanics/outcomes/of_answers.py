@@ -174,6 +174,11 @@ def _nothing_left_out(facts: Judged) -> bool:
     return is_zero(explicit(facts.inputs["value"]) - facts.result)
 
 
+def _is_nothing(facts: Judged) -> bool:
+    """The limit is zero, and what goes there is not."""
+    return is_zero(facts.result) and not _nothing_left_out(facts)
+
+
 def _goes_as(wanted: int) -> Predicate:
     """By the result alone, which is one power of what is small: it stays, vanishes with it, or grows."""
 
@@ -294,7 +299,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "equal": lambda facts: _always(False)(facts) and is_zero(facts.inputs["difference"]),
     },
     "limits.limiting_case": {
-        "finite": _goes_as(0),
+        "finite": lambda facts: _is_nothing(facts) or _goes_as(0)(facts),
         "vanishes": _goes_as(1),
         "diverges": _goes_as(-1),
         "small": _near(Integer(0)),

@@ -1,7 +1,7 @@
 """One letter, one thing: what each letter of a page stands for, and the letters of a problem that stand for two.
 
 Steps bring in letters of their own: symbols, components and entries, coordinates and their rates, variables of
-integration. What counts is what is printed: `r_Cz` looks just like the component `r_C_z`; a bold `I` is not `I`.
+integration. What counts is what is printed: `z_C` looks just like the component `r_C_z`; a bold `I` is not `I`.
 """
 
 from __future__ import annotations
