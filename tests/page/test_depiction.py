@@ -53,7 +53,7 @@ def test_the_words_are_made_of_the_derived_values(block: Rendered) -> None:
 
 def test_a_caption_may_mention_the_letters_beside_the_marks(tmp_path: Path) -> None:
     cone = rendered_once(ROOT, "hw9/cone")
-    assert "its centre of mass $C$, and a slice" in cone.texts["latex"]
+    assert "its centre of mass C, and a slice" in drawings(cone)["from_apex"]["caption"]
     (fault,) = faults(tmp_path / "block", {"true directions": "true <<C>> directions"})
     assert "nothing on this page is called `C`" in fault, "the drawing has no mark of that name"
 
