@@ -12,12 +12,14 @@ from typing import Any
 from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, diff, preorder_traversal
 
 from derive.algebra.equality import Compared, Evidence, Grade, Verdict, equal
+from derive.algebra.expansion import Expansion
 from derive.algebra.expressions import Relation, Truncated, bound, component_names, explicit
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Unverified
 from derive.steps.second_ways import sort_of
 from derive.steps.step import NUMBERS, Form, Level, Quantity, Route
 
+ONLY_ABOUT = ("limit", "series")  # why a form stands behind what it is not equal to
 BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
 
 
@@ -104,10 +106,23 @@ def line_evidence(
     if form.because == "motion":
         claim = f"{claim} {BY_MOTION}"
         left, right = bound(left, motion), bound(right, motion)
+    _check_sign(key, i, before, form)
     verdict = equal(left, right, [explicit(bound(factor, bindings)) for factor in form.nonzero])
     if not verdict:
         raise refused(key, f"line {i + 1} ({form.because}) does not follow from line {i}", left, right, verdict)
     return Evidence(claim, Compared.LINES, verdict.grade, verdict.detail)
+
+
+def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
+    """Behind what is only expanded a sign of equality needs the whole of it, and a limit may not hold what goes there."""
+    cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
+    if not cut:
+        return
+    if form.because == "limit" and form.expr.free_symbols & {each.args[1] for each in cut}:
+        raise Unverified(Complaint("unverified", f"`{key}`: line {i + 1} holds what goes to its limit"))
+    whole = before.expr.xreplace({each: each.args[0] for each in cut})
+    if form.because not in ONLY_ABOUT and not equal(explicit(whole), explicit(form.expr)):
+        raise Unverified(Complaint("unverified", f"`{key}`: line {i + 1} is only about equal to line {i}"))
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:

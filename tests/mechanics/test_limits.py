@@ -9,6 +9,7 @@ import pytest
 from sympy import Abs, Expr, Integer, Matrix, Rational, Symbol, cos, diag, exp, log, oo, pi, sin, sqrt, symbols, tanh
 
 from derive.algebra.equality import Grade, equal
+from derive.algebra.expansion import Approach
 from derive.algebra.expressions import TIME, Relation, scalar
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
@@ -26,7 +27,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.equations import leading, limits
 from derive.steps.record import Run, recorded
-from derive.steps.step import Quantity
+from derive.steps.step import Form, Quantity
 
 M, m, g, l, R, h, a, b, k, v = symbols("M m g l R h a b k v", positive=True)
 I_x, I_z, S, w = symbols("I_x I_z S omega", positive=True)
@@ -190,3 +191,27 @@ def test_what_is_not_known_or_not_from_elsewhere_is_refused(wrong: Callable[[Qua
     hollow = given(2 * M * (h**5 - R**5) / (5 * (h**3 - R**3)), "hollow", symbol="I")
     with pytest.raises(Rejected, match=said):
         wrong(hollow)
+
+
+SAID_WRONG: dict[str, tuple[str, Any]] = {
+    "equal, not in the limit": ("_last_line", lambda found, *_: Form(found, "result")),
+    "it vanishes, of two terms": ("_sort_of", lambda place: "vanishes"),
+    "no place that it goes to": ("Approach", lambda goes, aim: goes),
+    "another letter goes there": ("Approach", lambda goes, aim: Approach(m, aim)),
+    "it goes somewhere else": ("Approach", lambda goes, aim: Approach(goes, oo)),
+}
+
+
+@pytest.mark.parametrize("slip", SAID_WRONG)
+def test_a_limit_is_told_as_it_is(slip: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    name, wrong = SAID_WRONG[slip]
+    monkeypatch.setattr(limits, name, wrong)
+    with pytest.raises(Unverified):
+        limiting_case(given(k + k**2 / (1 + k)), k, 0, order=2)
+
+
+@pytest.mark.parametrize(("wrong", "at"), [("limit", 1), ("result", 0)])
+def test_a_leading_term_is_no_limit_and_a_limit_is_not_equal(wrong: str, at: int, monkeypatch: Any) -> None:
+    monkeypatch.setattr(limits, "_last_line", lambda found, *_: Form(found, wrong))
+    with pytest.raises(Unverified):
+        limiting_case(given(k**at / (1 + k)), k)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Float, ImmutableMatrix, Symbol, sin, symbols
+from sympy import Float, ImmutableMatrix, Integer, Symbol, sin, symbols
 
 from derive.algebra.equality import Compared, Grade, Verdict, equal
+from derive.algebra.expansion import Expansion
 from derive.algebra.expressions import Relation, Truncated, column, component_names, scalar, vector
 from derive.algebra.rounding import rounded_form
 from derive.errors import Unverified
@@ -135,3 +136,25 @@ def test_a_refusal_tells_both_values_cut_to_a_readable_length() -> None:
     assert len(complaint.notes[0]) < 330
     assert complaint.notes[1] == "otherwise      a"
     assert short(a) == "a"
+
+
+@pytest.mark.parametrize(
+    ("last", "because", "said"),
+    [
+        (b, "result", "only about equal"),
+        (b + a * x, "limit", "holds what goes to its limit"),
+        (b + 2 * a * x, "series", "does not follow"),
+    ],
+)
+def test_a_sign_behind_an_expansion_says_no_more_than_is_so(last: Any, because: str, said: str) -> None:
+    """(b + a x)/(1 + x^2) is b + a x to first order, and not equal to it."""
+    order = 0 if because == "result" else 1
+    with pytest.raises(Unverified, match=said):
+        evidence_of(Expansion((b + a * x) / (1 + x**2), x, Integer(0), Integer(order)), last, because=because)
+
+
+def test_what_is_left_of_an_expansion_is_about_equal_or_equal_to_the_whole() -> None:
+    cut = Expansion((b + a * x) / (1 + x**2), x, Integer(0), Integer(1))
+    assert evidence_of(cut, b + a * x, because="series")
+    assert evidence_of(Expansion(b / (1 + x), x, Integer(0), Integer(0)), b, because="limit")
+    assert evidence_of(Expansion(b + a * x, x, Integer(0), Integer(1)), b + a * x, because="result")

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from sympy import Integer
 
 from derive.algebra.equality import Compared, Grade
+from derive.algebra.expressions import Truncated
 from derive.errors import Unverified
 from derive.steps.condensed import condensed
-from derive.steps.step import Step
+from derive.steps.step import NUMBERS, Form, Step
 from tests.courses import course_in, solved_once
 
 
@@ -50,3 +52,14 @@ def test_nothing_is_changed_where_nothing_is_put_in(steps: dict[str, Step]) -> N
     energy = steps["kinetic_energy"]
     assert condensed(energy, {}) is energy
     assert condensed(energy, {steps["potential_energy"].symbol: 1}) == replace(energy)
+
+
+@pytest.mark.parametrize("because", [None, *sorted(NUMBERS)])
+def test_numbers_stay_as_they_were_read_and_so_does_a_series(steps: dict[str, Step], because: str | None) -> None:
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
+    first = energy.chain[0].expr
+    series = Truncated(first, square.symbol, Integer(0), Integer(1))
+    line = Form(first, because) if because else Form(series, "series")
+    assert line.expr.has(square.symbol)
+    written = condensed(replace(energy, chain=(line, *energy.chain)), {square.symbol: square.result})
+    assert written.chain[0] == line

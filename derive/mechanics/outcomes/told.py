@@ -11,8 +11,9 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, pi, sin, tan
+from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, oo, pi, sin, tan
 
+from derive.algebra.expansion import Approach
 from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import MARK_OF
@@ -251,6 +252,15 @@ def _about_an_energy(facts: Judged, outcome: str) -> bool:
     return not isinstance(facts.inputs["potential"], MatrixBase)
 
 
+def _goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
+    """What is named goes to its limit where the letter that was expanded in does: h/R with h."""
+    goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
+    if not isinstance(approach, Approach) or approach.args[0] != goes:
+        return False
+    aim = approach.args[1]
+    return aim == to if aim in (oo, -oo) else is_zero(aim * facts.inputs["x"] / goes - to)
+
+
 def _lag_as_written(facts: Judged, outcome: str) -> bool:
     """With a loss its tangent is told, without one the angle itself."""
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
@@ -276,6 +286,7 @@ _TABLE: dict[str, Told] = {
     "gyroscopic.characteristic": _an_oscillation,
     "extrema.place": _there_where_told,
     "solving.solved_for": _says_what_it_divides_by,
+    "limits.limiting_case": _goes_where_it_is_said,
     "minima.stability_of_several": _about_an_energy,
     "minima.stability": _steady_as_its_potential,
     "equilibria.condition": _steady_as_its_potential,
