@@ -362,3 +362,30 @@ def test_another_fall_than_that_of_the_direction_is_refused(monkeypatch: pytest.
     monkeypatch.setattr(minima, "_falling", wrong)
     with pytest.raises(Unverified):
         stability(upright(), {theta: 0, phi: 0})
+
+
+def on_turning_rod() -> Quantity:
+    """A bead on a rod that turns, held by a spring from the axis."""
+    q = coordinate("r", "length", positive=True)
+    rod = space.turned(Z, w * t)
+    at = rod.place(q + 0, 0, 0)
+    return lagrangian(System(Particle(m, at), spring(k, rod.place(0, 0, 0), at, a)))
+
+
+def test_a_distance_at_rest_exists_where_it_is_positive() -> None:
+    """k (r - a) = m omega^2 r: r = k a/(k - m omega^2) for omega^2 < k/m."""
+    (rest,) = equilibria(on_turning_rod())
+    assert equal(rest.value, k * a / (k - m * w**2))
+    assert rest.step.outcome == "where"
+    condition = roles(rest)["exists"]
+    assert condition.mark == "<" and equal(condition.residual, w**2 - k / m)
+    assert stability(on_turning_rod(), rest).step.outcome == "stable"
+
+
+@pytest.mark.parametrize("slip", [-1, 2, None])
+def test_a_distance_that_is_no_rest_or_has_no_condition_is_refused(slip: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    value, exists = k * a / (k - m * w**2), Relation(w**2, "<", k / m)
+    wrong = Zero(value) if slip is None else Zero(slip * value, exists)
+    monkeypatch.setattr(equilibria_module, "zeros_of", lambda force, q: [wrong])
+    with pytest.raises(Unverified):
+        equilibria(on_turning_rod())

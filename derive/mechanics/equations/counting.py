@@ -32,7 +32,7 @@ def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found:
     drawn = points(letters, 4099)
     for _, point in zip(range(TRIALS), drawn, strict=False):
         there = [value.xreplace(point).evalf() for value in (*values, found)]
-        *numbers, own = [float(value) if value.is_real else None for value in there]
+        *numbers, own = [float(value) if _is_place(value, q) else None for value in there]
         expected = sorted(number for number in numbers if number is not None)
         curve = lambdify([q], force.xreplace(point), "math")
         scale = max([abs(x) for x in expected if x] or [1.0])
@@ -46,6 +46,11 @@ def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found:
         if any(not math.isfinite(x) for x in expected):
             return Verdict(Grade.REFUTED, "a value is not finite")
     return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
+
+
+def _is_place(value: Expr, q: Symbol) -> bool:
+    """Whether it is real, and positive where it is a distance: else it is no place for these letters."""
+    return bool(value.is_real and (value > 0 or not q.is_positive))
 
 
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
