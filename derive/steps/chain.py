@@ -114,7 +114,7 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Behind what is only expanded a sign of equality needs the whole of it, and a limit may not hold what goes there."""
+    """Behind what is only expanded a sign of equality needs the whole, and a limit may not hold what goes there."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return

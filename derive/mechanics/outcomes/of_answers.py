@@ -187,7 +187,11 @@ def _goes_as(wanted: int) -> Predicate:
         small = 1 / x if to in (oo, -oo) else x - to
         entries = list(facts.result) if isinstance(facts.result, MatrixBase) else [facts.result]
         slopes = [tidied(diff(entry, x) / diff(small, x) * small / entry) for entry in entries if entry != 0]
-        return not _nothing_left_out(facts) and bool(slopes) and all(sign(each) == wanted and not each.has(x) for each in slopes)
+        return (
+            not _nothing_left_out(facts)
+            and bool(slopes)
+            and all(sign(each) == wanted and not each.has(x) for each in slopes)
+        )
 
     return is_so
 
