@@ -40,6 +40,7 @@ from derive.mechanics import (
     weight,
     where,
 )
+from derive.mechanics.equations import roots as roots_module
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 
@@ -169,6 +170,23 @@ def test_a_positive_letter_keeps_its_positive_roots() -> None:
     (found,) = roots(equation(r.symbol**2 + 2 * R * r.symbol - h**2), r)
     assert equal(found.value, sqrt(R**2 + h**2) - R)
     assert found.step.outcome == "only"
+
+
+def test_of_two_opposite_roots_a_positive_letter_has_one_under_a_condition() -> None:
+    """m r^2 = c k: the root that is positive, for c > 0, and no other."""
+    r = coordinate("r", "length", positive=True)
+    (found,) = roots(equation(m * r.symbol**2 - c * k), r)
+    assert (found.step.outcome, found.value) == ("only", sqrt(c * k / m))
+    condition = dict(found.step.roles)["condition"]
+    assert condition.mark == ">" and equal(condition.residual, c)
+
+
+@pytest.mark.parametrize("mark", ["<", "<="])
+def test_another_condition_of_a_positive_root_is_refused(mark: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(roots_module, "_condition", lambda root, unknown: Relation(c, mark, 0))
+    r = coordinate("r", "length", positive=True)
+    with pytest.raises(Unverified):
+        roots(equation(m * r.symbol**2 - c * k), r)
 
 
 def test_a_cubic_equation_is_solved_where_it_factors() -> None:

@@ -383,7 +383,7 @@ def _sign(root: RootOf) -> int | None:
     a, b, c = root.coefficients
     upper = root.sign * (sign_known(a) or 0)
     product, total = sign_known(c / a), sign_known(-b / a)
-    if product == -1:
+    if product == -1 or b == 0:
         return upper or None
     if product == 1 and total is not None:
         return total
@@ -396,7 +396,9 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Under which the root is real, or positive where it must be."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        mark = ">" if b == 0 and sign_known(c) else ">="  # of a x^2 + c with a = 0 there is no root
+        mark = (
+            ">" if b == 0 and (sign_known(c) or strict_sign_within(unknown) == 1) else ">="
+        )  # of a x^2 + c with a = 0 there is no root
         return Relation(lecture_form(_without_positive(root.discriminant)), mark, ZERO)
     if strict_sign_within(unknown) == 1 and _sign(root) is None:
         return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
