@@ -396,9 +396,8 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Under which the root is real, or positive where it must be."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        mark = (
-            ">" if b == 0 and (sign_known(c) or strict_sign_within(unknown) == 1) else ">="
-        )  # of a x^2 + c with a = 0 there is no root
+        lost = sign_known(c) or strict_sign_within(unknown) == 1  # of a x^2 + c with a = 0; or it is 0 there
+        mark = ">" if b == 0 and lost else ">="
         return Relation(lecture_form(_without_positive(root.discriminant)), mark, ZERO)
     if strict_sign_within(unknown) == 1 and _sign(root) is None:
         return Relation(lecture_form(_without_positive(root.value)), ">", ZERO)
