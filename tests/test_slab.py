@@ -78,7 +78,7 @@ def test_a_part_alone_shows_the_steps_that_it_rests_on(tmp_path: Path) -> None:
     head = head.replace("points: 15\n", "")
     file.write_text(head + "parts:\n" + parts[last:].split("\nwording:")[0] + "\n", encoding="utf-8")
     text = " ".join(rendered_once(root, "hw9/slab", only={"text"}).texts["text"].split())
-    assert text.index("Lagrange's equation is") < text.index(" again, ")
+    assert text.index("Lagrange's equation for θ is") < text.index(" again")
 
 
 def test_a_part_that_is_left_out_takes_its_words_with_it(tmp_path: Path) -> None:
@@ -110,8 +110,8 @@ PLOT = {
 def test_an_answer_has_its_number_in_each_case_of_a_plot(tmp_path: Path) -> None:
     root = course_in(tmp_path, PLOTTED, PLOT, problem="slab")
     text = " ".join(rendered_once(root, "hw9/slab", only={"text"}).texts["text"].split())
-    assert "In case (a) this is a minimum" in text and "= 2.205 J" in text
-    assert "In case (b) this is a maximum" in text and "= 2.450 J" in text
+    assert "In case (i) this is a minimum" in text and "= 2.205 J" in text
+    assert "In case (ii) this is a maximum" in text and "= 2.450 J" in text
 
 
 def test_cases_are_those_of_a_plot(tmp_path: Path) -> None:

@@ -23,6 +23,14 @@ _KEY = re.compile(r"[a-z][a-z0-9_]+", re.ASCII)
 WIDEST, NARROWEST = 15.0, 1.0  # centimetres
 
 
+ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
+
+
+def case_label(index: int) -> str:
+    """What a case is called, so that it is not taken for a part: i, ii, iii."""
+    return ROMAN[index] if index < len(ROMAN) else str(index + 1)
+
+
 @dataclass(frozen=True)
 class Range:
     """The two ends of a plot: numbers of a kind that is known when the script has run."""

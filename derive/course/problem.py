@@ -25,7 +25,7 @@ from derive.course.declared import declared_letters
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers
 from derive.course.parts import Question
-from derive.course.placement import Placement, placements
+from derive.course.placement import Placement, case_label, placements
 from derive.course.problem_set import path_of
 from derive.course.prose import Prose
 from derive.course.schema import read_record
@@ -123,7 +123,7 @@ class Problem:
         the first."""
         cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
         numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)
-        return {chr(ord("a") + i): amounts for i, amounts in enumerate(numbers)}
+        return {case_label(i): amounts for i, amounts in enumerate(numbers)}
 
     @property
     def every_amount(self) -> list[tuple[Symbol, Amount]]:

@@ -20,6 +20,7 @@ from derive.algebra.expressions import (
     Partial,
     Relation,
     Terms,
+    TimeRate,
     rate,
     scalar,
     vector,
@@ -29,17 +30,21 @@ __all__ = ["THEOREMS", "Theorem"]
 
 M, r, q = Symbol("M", positive=True), Symbol("r", positive=True), scalar("q")
 G, OMEGA = vector("G"), vector("omega")
-MULTIPLIER, CONSTRAINT = scalar("lambda_k"), scalar("f_k")
+L, MULTIPLIER, CONSTRAINT = scalar("L"), scalar("lambda_k"), scalar("f_k")
+INERTIA_AND_FORCE = Terms(TimeRate(Partial(L, rate(q))), -Partial(L, q))  # the left side of Lagrange's equation
 
 
 @dataclass(frozen=True)
 class Theorem:
     """A theorem that a phrase tells by its name.
 
-    formula   what it says, or the term that it adds to a law which the step itself has
-    letters   what else the phrase names
-    used_by   rules of the steps that use it, each with the outcomes in which it does; none for all of them
-    source    book and section
+    formula      what it says
+    letters      what else the phrase names
+    used_by      rules of the steps that use it, each with the outcomes in which it does; none for all of them
+    source       book and section
+    between      what the word `between` of those steps must be, where it matters
+    prepared_by  rule of the steps on which those rest, before which it is told; unless given it is told before them
+    law_of       rules of the steps of which it is the law, so that they need not write it once more
     """
 
     name: str
@@ -47,12 +52,17 @@ class Theorem:
     used_by: Mapping[str, frozenset[str]]
     source: str
     letters: Mapping[str, Any] = field(default_factory=dict)
+    between: frozenset[str] = frozenset()
+    prepared_by: str | None = None
+    law_of: frozenset[tuple[str, str]] = frozenset()
 
-    def is_used_by(self, rule: str, outcome: str) -> bool:
-        return rule in self.used_by and (not self.used_by[rule] or outcome in self.used_by[rule])
+    def is_used_by(self, rule: str, outcome: str, between: str = "") -> bool:
+        fits = rule in self.used_by and (not self.used_by[rule] or outcome in self.used_by[rule])
+        return fits and (not self.between or between in self.between)
 
 
 ALWAYS: frozenset[str] = frozenset()
+PLAIN, WITH_FORCES = "lagrangian.equation_of_motion", "forced.equation_of_motion"
 
 THEOREMS = (
     Theorem(
@@ -88,15 +98,30 @@ THEOREMS = (
         {"any": G, "turning": OMEGA},
     ),
     Theorem(
+        "lagrange",
+        Relation(INERTIA_AND_FORCE, "=", 0),
+        {PLAIN: ALWAYS},
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
+        {"coordinate": q},
+        prepared_by="lagrangian.generalized_force",
+        law_of=frozenset({(PLAIN, "generic"), (PLAIN, "cyclic")}),
+    ),
+    Theorem(
         "multipliers",
-        MULTIPLIER * Partial(CONSTRAINT, q),  # what Lagrange's equation of q has on its right
-        {"forced.equation_of_motion": frozenset({"kept", "both"})},
+        Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # summed over k
+        {WITH_FORCES: frozenset({"kept", "both"})},
         "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-        {
-            "coordinate": q,
-            "multiplier": MULTIPLIER,
-            "constraint": CONSTRAINT,
-            "between_rates": MULTIPLIER * Partial(CONSTRAINT, rate(q)),  # as of rolling
-        },
+        {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
+        between=frozenset({"coordinates", "both"}),
+        law_of=frozenset({(WITH_FORCES, "kept")}),
+    ),
+    Theorem(
+        "multipliers_of_rates",
+        Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # as of rolling
+        {WITH_FORCES: frozenset({"kept", "both"})},
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+        {"coordinate": q, "multiplier": MULTIPLIER, "constraint": CONSTRAINT},
+        between=frozenset({"rates", "both"}),
+        law_of=frozenset({(WITH_FORCES, "kept")}),
     ),
 )

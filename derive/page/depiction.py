@@ -247,7 +247,8 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
             words.drawings["extremum"],
             {
                 "kind": words.drawings[extremum.kind],
-                "at": with_unit(extremum.at * curves.per_unit, curves.unit),
+                "variable": _named(plot.variable),
+                "at": with_unit(extremum.at * curves.per_unit, curves.unit) if extremum.at else "0",
                 "value": told_value(plot, extremum),
             },
         )

@@ -33,7 +33,7 @@ from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.pointers import pointed_out
-from derive.page.repeats import Stated, noted, results
+from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection, needs_no_words
 from derive.page.theorems import Theorems
 from derive.page.wording import (
@@ -186,7 +186,7 @@ class _Writer:
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
-        self.theorems = Theorems(words, level)
+        self.theorems = Theorems(words, level, derivation.steps)
         self.numbers: dict[str, int] = {}
         self.shown_in: dict[str, str] = {}
         every = [*derivation.steps, *values.values()]
@@ -316,10 +316,7 @@ class _Writer:
         return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
-        """The steps of a part whose last line is framed as its answer, each in its place.
-
-        Where its number follows at once, with nothing but other answers between, the number alone has the frame.
-        """
+        """The steps of a part whose last line is framed, but where its number follows at once and has the frame."""
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         return self.selection.standing_for(set(asked) - measured)
@@ -345,8 +342,12 @@ class _Writer:
         for theorem in self.theorems.before(step):
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *theorem)))
         self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
-        lines = self.stated.without_repeats(self.lines.of(step, mode), self.symbols.values())
+        lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
+        if again is not None and (sentence := told_by_number(step, nodes, self.level)):
+            self.numbers[step.key] = self.numbers[again]
+            blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
+            return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
         count = results(step, lines) if framed and not again else 0
         equations = Equations(step.key, lines, self.numbers[step.key], count)

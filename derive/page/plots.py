@@ -12,7 +12,7 @@ from sympy import Expr, Symbol, pi
 
 from derive.algebra.expressions import explicit
 from derive.course.given import Measured
-from derive.course.placement import Placement
+from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected
 from derive.figures.extrema import Extremum, extrema
@@ -99,7 +99,7 @@ def _curve(
 def panel_letters(curves: Curves) -> list[str]:
     """By which letter each panel is called, where there are several."""
     several = len(curves.curves) > 1
-    return [chr(ord("a") + i) if several else "" for i, _ in enumerate(curves.curves)]
+    return [case_label(i) if several else "" for i, _ in enumerate(curves.curves)]
 
 
 def told_value(plot: Plot, extremum: Extremum) -> str:

@@ -10,11 +10,12 @@ from typing import Any
 
 from sympy import MatrixBase
 
-from derive.page.wording import Inline
-from derive.steps.step import Step
+from derive.page.wording import Inline, Text, around_chain
+from derive.steps.step import Level, Step
 
 Lines = tuple[Any, ...]  # of a chain, as a page has them
 Formula = tuple[Any, str, Any]
+AGAIN = "again"  # the outcome whose sentence names the equation
 
 
 class Stated:
@@ -49,6 +50,17 @@ def results(step: Step, lines: Lines) -> int:
         return len(lines)
     decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
     return decimals if decimals and step.outcome == "measured" else min(decimals + 1, len(lines))
+
+
+def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
+    """The sentence of what is found once more: it names the equation that has it, so that no line need follow.
+
+    Nothing where the step is another, or the page has every line.
+    """
+    before, _ = around_chain(nodes)
+    if step.outcome != AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
+        return ()
+    return (*before[:-1], Text(before[-1].text.rstrip(" ,") + "."))
 
 
 def noted(lines: Lines, note: tuple[Inline, ...]) -> Lines:

@@ -6,22 +6,30 @@ is typeset has the choice: it tells a theorem once, and in a later problem says 
 
 from __future__ import annotations
 
-from derive.mechanics.theorems import THEOREMS
+from collections.abc import Iterable
+from dataclasses import replace
+
+from derive.mechanics.theorems import THEOREMS, Theorem
 from derive.page.wording import Inline, Math, Phrases, ToldIn, ToldOnce, filled
 from derive.steps.step import Level, Step
 
 
 class Theorems:
-    """Those that the page has not told yet; a brief page has only their names, in the sentences of its steps."""
+    """Those that the page has not told yet; a brief page has only their names, in the sentences of its steps.
 
-    def __init__(self, words: Phrases, level: Level):
-        self._words = words
-        self._left = [] if level == Level.BRIEF else list(THEOREMS)
+    A full page has every line, and so the laws of its steps, and needs no theorem that says them before.
+    """
+
+    def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
+        self._words, self._steps, self._drops_laws = words, tuple(steps), level is Level.STANDARD
+        self._left = [] if level is Level.BRIEF else [t for t in THEOREMS if self._drops_laws or not t.prepared_by]
+        self._told: list[Theorem] = []
 
     def before(self, step: Step) -> list[tuple[Inline, ...]]:
         """What is told before that step."""
-        used = [theorem for theorem in self._left if theorem.is_used_by(step.rule, step.outcome)]
+        used = [theorem for theorem in self._left if self._is_told_at(theorem, step)]
         self._left = [theorem for theorem in self._left if theorem not in used]
+        self._told += used
         told: list[tuple[Inline, ...]] = []
         for theorem in used:
             letters = {name: Math(letter) for name, letter in theorem.letters.items()}
@@ -30,3 +38,20 @@ class Theorems:
             again = filled(self._words.theorems_again[theorem.name], {"problem": first})
             told.append((ToldOnce(theorem.name, nodes, again),))
         return told
+
+    def without_law(self, step: Step) -> Step:
+        """The step without the line that says what a theorem has said already."""
+        said = any((step.rule, step.outcome) in theorem.law_of for theorem in self._told)
+        if not (said and self._drops_laws and len(step.chain) > 1 and step.chain[0].because == "law"):
+            return step
+        return replace(step, chain=step.chain[1:])
+
+    def _is_told_at(self, theorem: Theorem, step: Step) -> bool:
+        if theorem.prepared_by is None:
+            return _uses(step, theorem)
+        resting = (other for other in self._steps if step.key in other.inputs)
+        return step.rule == theorem.prepared_by and any(_uses(other, theorem) for other in resting)
+
+
+def _uses(step: Step, theorem: Theorem) -> bool:
+    return theorem.is_used_by(step.rule, step.outcome, dict(step.words).get("between", ""))

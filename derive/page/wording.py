@@ -84,7 +84,8 @@ AND = " and "  # between the outcome that a phrase is for and the rule of the st
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
 VALUE = "value_"  # what roles that tell the values of letters begin with
-ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case"}  # words by which a phrase chooses
+# words by which a phrase chooses
+ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case", "between"}
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # and the name of the time
 

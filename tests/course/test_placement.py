@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from sympy import Expr, Integer, Rational, Symbol, pi
 
-from derive.course.placement import Placement
+from derive.course.placement import Placement, case_label
 from derive.errors import Complaint, Rejected
 from tests.course.problem_file import loaded
 
@@ -90,3 +90,8 @@ def test_each_case_of_a_plot_has_its_own_numbers(tmp_path: Path) -> None:
         {"a": Rational(1, 5), "M": Integer(1)},
         {"a": Rational(1, 10)},
     ]
+
+
+def test_cases_are_not_called_as_parts_are() -> None:
+    assert [case_label(i) for i in (0, 1, 3, 9)] == ["i", "ii", "iv", "x"]
+    assert case_label(10) == "11"

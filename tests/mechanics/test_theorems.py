@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 import pytest
-from sympy import Expr, Function, Integer, Matrix, Symbol, cos, diff, eye, sin, sqrt, symbols
+from sympy import Expr, Integer, Matrix, S, Symbol, cos, diff, eye, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import Partial, explicit, scalar
+from derive.algebra.expressions import Partial, TimeRate, explicit, rate, scalar
 from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_to
 from derive.mechanics.theorems import THEOREMS, Theorem
 
@@ -56,21 +57,39 @@ def test_the_rate_in_space_is_that_in_turning_axes_and_what_turning_adds() -> No
     assert equal(in_space, diff(inside, t) + Matrix([0, 0, w]).cross(inside))
 
 
-def test_a_positive_multiplier_pushes_towards_a_larger_constraint() -> None:
-    """A bead held at the height q = 0 by f = q: L = m q'^2/2 - m g q, and the force that holds it is + m g."""
-    theorem, (m, g) = BY_NAME["multipliers"], symbols("m g", positive=True)
-    coordinate = Function("q")(t)
-    lagrangian = m * coordinate.diff(t) ** 2 / 2 - m * g * coordinate
-    left = diff(diff(lagrangian, coordinate.diff(t)), t) - diff(lagrangian, coordinate)
-    held = left.subs(coordinate.diff(t, 2), 0)
-    assert theorem.formula == scalar("lambda_k") * Partial(scalar("f_k"), scalar("q")), "with a plus sign"
-    assert held == m * g, "so that lambda df/dq = m g with df/dq = 1"
-    assert theorem.letters["multiplier"] == scalar("lambda_k")
+def in_coordinate(formula: Any, lagrangian: Expr, function: Expr = S.Zero) -> Expr:
+    """Left minus right of Lagrange's equation, with values for L and f_k."""
+    q = scalar("q")
+    put = {scalar("L"): lagrangian, scalar("f_k"): function}
+
+    def evaluated(node: Any) -> Any:
+        if isinstance(node, Partial):
+            return diff(put[node.args[0]], node.args[1])
+        if isinstance(node, TimeRate):
+            return explicit(TimeRate(evaluated(node.args[0]), q))
+        return node.func(*map(evaluated, node.args)) if node.args else node
+
+    return explicit(evaluated(formula.left)) - explicit(evaluated(formula.right))
+
+
+def test_lagranges_equation_of_a_falling_body_is_newtons() -> None:
+    (m, g), q = symbols("m g", positive=True), scalar("q")
+    found = in_coordinate(BY_NAME["lagrange"].formula, m * rate(q) ** 2 / 2 - m * g * q)
+    assert equal(found, m * rate(q, 2) + m * g)
+
+
+@pytest.mark.parametrize("name", ["multipliers", "multipliers_of_rates"])
+def test_a_positive_multiplier_pushes_towards_a_larger_constraint(name: str) -> None:
+    """A bead held at the height q = 0 by f = q, or by f = q': the force that holds it is + m g."""
+    (m, g), q = symbols("m g", positive=True), scalar("q")
+    function = q if name == "multipliers" else rate(q)
+    found = in_coordinate(BY_NAME[name].formula, m * rate(q) ** 2 / 2 - m * g * q, function)
+    assert equal(found.subs(rate(q, 2), 0), m * g - scalar("lambda_k"))
 
 
 @pytest.mark.parametrize("theorem", THEOREMS, ids=lambda theorem: theorem.name)
 def test_each_theorem_says_where_it_is_from_and_who_uses_it(theorem: Theorem) -> None:
     assert theorem.used_by and "section" in theorem.source
     rule, outcomes = next(iter(theorem.used_by.items()))
-    assert theorem.is_used_by(rule, next(iter(outcomes), "generic"))
+    assert theorem.is_used_by(rule, next(iter(outcomes), "generic"), next(iter(theorem.between), ""))
     assert not theorem.is_used_by("no.rule", "generic")

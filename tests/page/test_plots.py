@@ -78,7 +78,7 @@ def test_an_angle_is_told_in_degrees_if_its_ends_are() -> None:
 
 def test_panels_have_letters_where_there_are_several() -> None:
     assert panel_letters(curves(a * cos(theta), amounts={a: Integer(3)})) == [""]
-    assert panel_letters(curves(a * cos(theta), cases=[{a: 2}, {a: 3}])) == ["a", "b"]
+    assert panel_letters(curves(a * cos(theta), cases=[{a: 2}, {a: 3}])) == ["i", "ii"]
 
 
 def test_an_extremum_is_told_with_its_value_and_unit() -> None:

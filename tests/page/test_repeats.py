@@ -8,8 +8,9 @@ from typing import Any
 from sympy import Symbol, symbols
 
 from derive.page.chain_lines import ChainLine
-from derive.page.repeats import Stated, noted, results
-from derive.page.wording import Text
+from derive.page.repeats import Stated, noted, results, told_by_number
+from derive.page.wording import Chain, Ref, Text
+from derive.steps.step import Level
 
 T, U, a, b = (*symbols("T U"), *symbols("a b"))
 GENERAL = (ChainLine(T, "equals", a + b),)
@@ -60,3 +61,12 @@ def test_a_note_stands_where_there_is_no_reason() -> None:
     assert noted(GENERAL, note)[-1].reason == note
     given = (ChainLine(Symbol("x"), "equals", a, reason),)
     assert noted(given, note) == given and noted(GENERAL, ()) == GENERAL
+
+
+def test_what_is_found_again_is_told_by_its_number_but_on_a_full_page() -> None:
+    nodes = (Text("This gives "), Ref("motion"), Text(" again, "), Chain())
+    again: Any = SimpleNamespace(outcome="again")
+    assert told_by_number(again, nodes, Level.STANDARD) == (*nodes[:2], Text(" again."))
+    assert told_by_number(again, nodes, Level.FULL) == ()
+    other: Any = SimpleNamespace(outcome="results")
+    assert told_by_number(other, nodes, Level.STANDARD) == ()

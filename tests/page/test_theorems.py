@@ -6,18 +6,21 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from sympy import cos, sin, symbols
 
+from derive.mechanics import Particle, System, coordinate, equation_of_motion, lagrangian, point, weight
 from derive.mechanics.theorems import THEOREMS
 from derive.page.theorems import Theorems
 from derive.page.wording import Math, ToldIn, ToldOnce, phrases
-from derive.steps.step import Level
+from derive.steps.record import recorded
+from derive.steps.step import Level, Step
 from tests.courses import ROOT
 
 WORDS = phrases(ROOT / "templates")
 
 
-def a_step(rule: str, outcome: str = "generic") -> Any:
-    return SimpleNamespace(rule=rule, outcome=outcome)
+def a_step(rule: str, outcome: str = "generic", between: str = "coordinates") -> Any:
+    return SimpleNamespace(rule=rule, outcome=outcome, words=(("between", between),))
 
 
 @pytest.mark.parametrize("level", [Level.STANDARD, Level.FULL])
@@ -30,6 +33,32 @@ def test_a_theorem_is_told_once(level: Level) -> None:
     assert len(theorems.before(a_step("inertia.entry_moved", "moment"))) == 1
     assert theorems.before(a_step("forced.equation_of_motion", "applied")) == []
     assert len(theorems.before(a_step("forced.equation_of_motion", "both"))) == 1
+    assert theorems.before(a_step("forced.equation_of_motion", "both")) == [], "it has been told"
+    assert len(theorems.before(a_step("forced.equation_of_motion", "both", "rates"))) == 1, "the form for rates has not"
+
+
+def the_steps_of_a_pendulum() -> tuple[Step, Step]:
+    m, l, gravity = symbols("m l g", positive=True)
+    with recorded():
+        theta = coordinate("theta")
+        bob = Particle(m, point(l * sin(theta), -l * cos(theta)))
+        motion = equation_of_motion(lagrangian(System(bob, weight(gravity))), theta)
+    force = next(q for q in motion.parents if q.step.rule == "lagrangian.generalized_force")
+    return force.step, motion.step
+
+
+def test_lagranges_equation_is_told_before_its_derivatives_and_not_written_again() -> None:
+    force, motion = the_steps_of_a_pendulum()
+    theorems = Theorems(WORDS, Level.STANDARD, [force, motion])
+    assert theorems.without_law(motion) == motion, "nothing has been told yet"
+    assert len(theorems.before(force)) == 1
+    assert theorems.without_law(motion).chain == motion.chain[1:]
+
+
+def test_a_full_page_has_the_law_in_its_place_and_no_theorem_of_it() -> None:
+    force, motion = the_steps_of_a_pendulum()
+    theorems = Theorems(WORDS, Level.FULL, [force, motion])
+    assert theorems.before(force) == [] and theorems.without_law(motion) == motion
 
 
 def test_a_brief_page_has_only_their_names() -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp, prime, sqrt
 
 from derive.algebra.collect import spread, spread_or_by_terms
-from derive.algebra.expressions import Ratio, Relation, Root, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.length import length
 from derive.algebra.ranges import rational_in_range, settled, strict_sign_within
 from derive.algebra.tidy import tidied
@@ -20,7 +20,7 @@ from derive.mechanics.equations.zeros import positive, sign_where
 from derive.mechanics.systems.coordinates import OfCoordinate, T
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Fact, Form, Quantity
+from derive.steps.step import Fact, Form, Level, Quantity
 
 __all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
 
@@ -79,7 +79,10 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         kind="squared angular speed",
         parents=[linear],
         telling=Telling(
-            formulas={} if mass == 1 else {"inertia": (mass, mass)},
+            formulas={
+                **({} if mass == 1 else {"inertia": (mass, mass)}),
+                "oscillator": (Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),) * 2,
+            },
             points_to={"linear": linear},
             judged_by={"exists": exists} if exists is not None else {},
         ),
@@ -210,7 +213,11 @@ def _rate(
         lambda square: Root(-square if grows else square),
         {"squared": squared},
         lines=Lines(
-            put_in=None, after=[Form(shown, "result")], result=False, arranged=lambda value: settled(explicit(value))
+            law=Level.FULL if grows else Level.BRIEF,
+            put_in=None,
+            after=[Form(shown, "result")],
+            result=False,
+            arranged=lambda value: settled(explicit(value)),
         ),
         routes={"motion": satisfies, "positive": positive_root},
         outcome=outcome,

@@ -280,7 +280,21 @@ def _rates_of_its_equations(facts: Judged, outcome: str) -> bool:
     return all(rate(w) in _letters_of(equation) for w, equation in zip(letters, named, strict=True))
 
 
+def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
+    """What each multiplier has as a factor in the equation is the derivative of a function that is told, by its
+    coordinate or by its rate."""
+    q = facts.inputs["coordinate"]
+    by = rate(q) if facts.words.get("between") == "rates" else q
+    told = [explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")]
+    residual = explicit(facts.result).residual
+    if facts.words.get("between") == "both":
+        return bool(told)
+    along = [diff(function, by) for function in told]
+    return all(any(is_zero(diff(residual, letter) + f) for f in along) for letter in facts.inputs["letters"])
+
+
 _TABLE: dict[str, Told] = {
+    "forced.equation_of_motion": _functions_of_its_constraints,
     "roots.roots": _as_asked,
     "roots.roots_absent": _as_asked_for,
     "gyroscopic.characteristic": _an_oscillation,

@@ -213,7 +213,11 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         lines=Lines(put_in=None, arranged=lambda found: _sides(found, moving, constraints)),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
-        telling=Telling(judged_by={"coordinate": q.symbol, "letters": tuple(c.force for c in constraints)}),
+        telling=Telling(
+            words={"between": _between(constraints)},
+            formulas={"coordinate": (q.symbol, q.symbol), **_functions_told(kept.constraints if kept else ())},
+            judged_by={"letters": tuple(c.force for c in constraints)},
+        ),
         key=key,
         parents=[*derivatives, *([applied] if applied is not None else [])],
         facts=[
@@ -223,6 +227,24 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         ],
         scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in constraints}),
     )
+
+
+def _between(constraints: Sequence[Constraint]) -> str:
+    """Whether it is coordinates or rates that the constraints are between."""
+    in_rates = {c.in_rates for c in constraints}
+    return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
+
+
+def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
+    """The functions that vanish, f_x = x - R sin(theta), called after multipliers lambda_x where so called."""
+    found = {}
+    for i, each in enumerate(constraints, 1):
+        _, _, index = each.force.name.partition("lambda_")
+        called = f"f_{index}" if index else f"f_{i}" if len(constraints) > 1 else "f"
+        terms = [each.left, *(-term for term in Add.make_args(each.right) if term != 0)]
+        told = Relation(scalar(called), "=", Terms(*terms) if len(terms) > 1 else each.left)
+        found[f"function_{i}"] = (told, Relation(scalar(called), "=", each.residual))
+    return found
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
