@@ -84,7 +84,7 @@ def test_a_tensor_and_a_scalar_of_one_letter_are_told_apart() -> None:
 
 
 def test_a_line_whose_letters_are_printed_alike_is_a_misprint() -> None:
-    line = ex.Terms(ex.scalar("r_C_x"), ex.scalar("r_Cx"))
+    line = ex.Terms(ex.scalar("v_C_x"), ex.scalar("v_Cx"))
     with pytest.raises(Misprint, match="stands for"):
         printed_apart(names_in(line, NOTATION), plain)
 
