@@ -76,10 +76,14 @@ class ChainWriter:
             forms = [step.chain[-1]]
         if names_results(step.symbol) and isinstance(step.result, MatrixBase):
             return listed(step.symbol, step.result)
+        result = len(forms) - 1
         forms += self._decimals(step)
         before = [None, *(form.because for form in forms)]
         forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
+        last = lines[result]
+        if isinstance(last.right, MatrixBase) and (last.left is None or last.right.shape[1] > 1):
+            lines[result] = replace(last, presented=True)  # a vector that is only written down stays as it is
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
@@ -102,7 +106,7 @@ class ChainWriter:
             relation=sign_before(form),
             right=form.expr,
             reason=reason,
-            presented=form.because == "result" or form is step.chain[-1] and isinstance(form.expr, MatrixBase),
+            presented=form.because == "result",
             numeric=numeric,
         )
 

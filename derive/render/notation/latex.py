@@ -93,6 +93,8 @@ def _with_strokes(layout: Layout) -> Layout:
     items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
     around = (None, *items, None)
     alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
+    if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
+        return row(*items)  # one that cannot have a stroke leaves the others as they are
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 
