@@ -27,6 +27,7 @@ from derive.course.arithmetic import Declared
 from derive.course.latex import read_latex
 from derive.course.yaml_tree import Scalar, Source
 from derive.render.notation.latex import latex
+from derive.render.notation.layout import layout_of_name
 from derive.render.notation.notation import Notation
 from tests.course.latex.formula import KINDS, LETTERS
 from tests.mechanics.block import known_block
@@ -82,6 +83,12 @@ def plain(value: Any) -> bool:
     return not (is_matrix(value) or value.has(MatrixSymbol, MatrixExpr, Amount, MatrixAmount, Relation))
 
 
+def as_printed(letter: Any) -> str:
+    """The component `r_C_z` of a position is z_C on a page."""
+    name = layout_of_name(str(letter))
+    return f"{name.base}_{name.subscript}" if name.subscript and not name.dots else str(letter)
+
+
 LINES = [
     pytest.param(form.expr, id=f"{key}-{n}")
     for key, quantity in known_block().items()
@@ -94,11 +101,9 @@ LINES = [
 def test_a_line_of_the_worked_block_reads_back_as_itself(line: Any) -> None:
     """Integrals, brackets between limits, products as written, tensors: all as the page has them."""
     bound = {str(x) for integral in line.atoms(Bracket) for x in [integral.args[1]]} | {"x", "y", "z"}
-    names = {str(s) for s in line.free_symbols} | bound | set(KINDS)
-    declared = {
-        name: Declared(name, next((s for s in line.free_symbols if str(s) == name), Symbol(name, real=True)), "number")
-        for name in names
-    }
+    letters = {name: Symbol(name, real=True) for name in bound | set(KINDS)}
+    letters |= {as_printed(letter): letter for letter in line.free_symbols}
+    declared = {name: Declared(name, letter, "number") for name, letter in letters.items()}
     found = read_back(latex(NOTATION.result(line)), declared)
     wanted = list(explicit(line)) if isinstance(line, MatrixBase) else [explicit(line)]
     for mine, theirs in zip(found if isinstance(found, list) else [found], wanted, strict=True):
