@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,6 +14,8 @@ from derive.page.signs import sign_before
 from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, names_asked
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, Form, Step
+
+EQUATION_OF = "equation_of_"  # a role, in a reason that names the equations of some of them
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,7 @@ class ChainWriter:
         numbers: Mapping[str, int],
     ):
         self.values, self.words, self.names, self.numbers = values, words, names, numbers
+        self.steps = {step.key: step for step in derivation.steps}
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self._short = shortened(derivation.steps)
 
@@ -115,8 +118,13 @@ class ChainWriter:
             return ()
         direct = [None, *(symbol for _, symbol in step.roles)]
         near = [key for key in step.inputs if self.symbols.get(key) in direct]
-        keys = sorted(self.numbers.keys() & set(near), key=self.numbers.__getitem__)
+        keys = self._numbered({each for key in near for each in self._having(key, step)})
         found = {"refs": keys, "equations": [key for key in keys if self.symbols[key] is None]}
+        called = {f"{EQUATION_OF}{role}": symbol for role, symbol in step.roles}
+        found |= {
+            name: self._numbered({key for key in near if self.symbols[key] == called[name]})
+            for name in names_asked(template) & called.keys()
+        }
         if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
@@ -128,6 +136,18 @@ class ChainWriter:
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
         }
         return filled(template, {**self.names, **own, **references})
+
+    def _numbered(self, keys: Collection[str]) -> list[str]:
+        """Those that have a number, in the order of these."""
+        return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
+
+    def _having(self, key: str, of: Step) -> list[str]:
+        """The step itself, or, where a vector or a tensor is not shown, those of its entries whose letters are used."""
+        step = self.steps.get(key)
+        if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
+            return [key]
+        letters = {letter for form in of.chain for letter in getattr(form.expr, "free_symbols", ())}
+        return [each for each in step.inputs if self.symbols.get(each) in letters]
 
 
 def _is_bare_number(value: Any) -> bool:

@@ -71,12 +71,13 @@ def _result(step: Step) -> Nodes:
     last = step.chain[-1]
     if step.symbol is None or step.rule == PUT_IN:
         return (Math(last.expr),)
+    what = dict(step.roles).get("bound", step.symbol)  # the least value of a letter is that bound, which the page has
     match sign_before(last):
         case "tends":
-            return (Math(Approach(step.symbol, last.expr)),)
+            return (Math(Approach(what, last.expr)),)
         case "approx":
-            return Math(step.symbol), Text(" ≈ "), Math(last.expr)
-    return (Math(Relation(step.symbol, "=", last.expr)),)
+            return Math(what), Text(" ≈ "), Math(last.expr)
+    return (Math(Relation(what, "=", last.expr)),)
 
 
 def _with_commas(parts: Sequence[Nodes]) -> Nodes:

@@ -45,6 +45,7 @@ from derive.page.wording import (
     around_chain,
     conversions,
     filled,
+    in_turn,
     joined,
     names_of_step,
     stated_once,
@@ -199,7 +200,7 @@ class _Writer:
         self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.every_amount})
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
-        self.following: Step | None = None  # the next one, if one sentence may tell both
+        self.rest: list[Step] = []  # those of the part that are shown after this one
         self.told_before = ""  # the key of the step that was told along with the one before it
         self.unplaced: set[str] = set()  # steps that are not told yet
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -289,12 +290,12 @@ class _Writer:
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
-            self.following = self._following(key, self.derivation.parts[index])
+            self.rest = self.selection.standing_after(key, self.derivation.parts[index])
             self._append(blocks, self.selection.step(self.derivation.step(key)), framed=key in framed)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
             ends |= dict.fromkeys(self._completed(key), len(blocks))
         blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
-        steps, self.following = len(blocks), None
+        steps, self.rest = len(blocks), []
         values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
         for i, value in enumerate(v for v in values if v.outcome != "exact"):
             self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
@@ -339,8 +340,7 @@ class _Writer:
                 self.clauses.point_out(step, said)
             return
         nodes = (Chain(),) if goes_on or mode == "hidden" or step.key == self.told_before else self._phrase(step)
-        for theorem in self.theorems.before(step):
-            blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *theorem)))
+        nodes = (*self.theorems.before(step), *nodes)
         self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
@@ -377,11 +377,11 @@ class _Writer:
             return False
         return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
 
-    def _following(self, key: str, keys: Sequence[str]) -> Step | None:
+    def _following(self, key: str) -> Step | None:
         """The step that is shown next in the part, if one sentence may tell both."""
-        shown = [self.derivation.step(each) for each in keys[keys.index(key) + 1 :] if self.selection.stands(each)]
-        one_sentence = self.level is not Level.FULL and shown and not {key, shown[0].key} & set(self.problem.wording)
-        return shown[0] if one_sentence and needs_no_words(shown[0]) else None
+        if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
+            return None
+        return self.rest[0] if needs_no_words(self.rest[0]) else None
 
     def _completed(self, key: str) -> set[str]:
         """The steps whose words and lines are all there now that this one is: those without lines wait for it."""
@@ -395,13 +395,13 @@ class _Writer:
     def _phrase(self, step: Step) -> tuple[Inline, ...]:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
-        own["amounts"] = self._amounts(step)
+        own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
             nodes = self._told(prose.pieces, own)
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
-        both = self.words.of_both(step, self.following) if self.following else ""
-        self.told_before = self.following.key if self.following and both else ""
+        both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
+        self.told_before = following.key if following and both else ""
         return filled(both or self.words.phrase(step, self.before), own)  # no other step may slip in by its key
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:

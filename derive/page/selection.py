@@ -11,7 +11,7 @@ that is shown needs the letter or the number (`Needed`), so that a page never us
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
@@ -61,8 +61,9 @@ MANNERS: Mapping[str, tuple[Manner, Manner]] = {
     "inertia.moment_of_inertia": (TOLD, OWN),
     "assembly.own_moment:flat": (TOLD, OWN),
     "assembly.own_moment:none": (TOLD, TOLD),
-    # What is under the integrals of the entries; what the sentence of a sum says that it multiplies.
-    "inertia.definition": (LEFT_OUT, OWN),
+    # What is under the integrals of the entries; told in words there; what the sentence of a sum says that it
+    # multiplies.
+    "inertia.definition": (LEFT_OUT, LEFT_OUT),
     "conservation.product": (LEFT_OUT, LEFT_OUT),
     # What stands under the root of both roots.
     "roots.discriminant": (LEFT_OUT, LEFT_OUT),
@@ -162,6 +163,10 @@ class Selection:
     def step(self, step: Step) -> Step:
         """The step with the lines that are shown."""
         return self._steps.get(step.key, step)
+
+    def standing_after(self, key: str, keys: Sequence[str]) -> list[Step]:
+        """The steps of a part that are shown behind this one."""
+        return [self._steps[each] for each in keys[keys.index(key) + 1 :] if self.stands(each)]
 
     def stands(self, key: str) -> bool:
         return self.manner(key) is OWN and self.shown.get(key) != "hidden"

@@ -25,19 +25,19 @@ class Theorems:
         self._left = [] if level is Level.BRIEF else [t for t in THEOREMS if self._drops_laws or not t.prepared_by]
         self._told: list[Theorem] = []
 
-    def before(self, step: Step) -> list[tuple[Inline, ...]]:
-        """What is told before that step."""
+    def before(self, step: Step) -> tuple[Inline, ...]:
+        """What is told before that step: it stands at the head of its sentence."""
         used = [theorem for theorem in self._left if self._is_told_at(theorem, step)]
         self._left = [theorem for theorem in self._left if theorem not in used]
         self._told += used
-        told: list[tuple[Inline, ...]] = []
+        told: list[Inline] = []
         for theorem in used:
             letters = {name: Math(letter) for name, letter in theorem.letters.items()}
             nodes = filled(self._words.theorems[theorem.name], {"formula": Math(theorem.formula), **letters})
             first = ToldIn(self._words.labels["problem"])
             again = filled(self._words.theorems_again[theorem.name], {"problem": first})
-            told.append((ToldOnce(theorem.name, nodes, again),))
-        return told
+            told.append(ToldOnce(theorem.name, nodes, again))
+        return tuple(told)
 
     def without_law(self, step: Step) -> Step:
         """The step without the line that says what a theorem has said already."""

@@ -83,6 +83,7 @@ class Chain:
 AND = " and "  # between the outcome that a phrase is for and the rule of the step that it tells as well
 AFTER = " after "  # between what a phrase is for and what must stand just before it
 
+JOINED = "<<chain>>"  # a phrase of a step that only goes on with the lines of the one before
 VALUE = "value_"  # what roles that tell the values of letters begin with
 # words by which a phrase chooses
 ASKED = {"point", "axis_letter", "strictly", "comparison", "asked", "seen", "case", "between"}
@@ -316,6 +317,17 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
         joined_at[at] = Relation(Relation(joined_at[at].left, "=", each.left), "=", at) if at in joined_at else each
     others = [(role, told) for role, told in roles if not (role.startswith(VALUE) and isinstance(told, Relation))]
     return [*others, *((f"{VALUE}{i}", told) for i, told in enumerate(joined_at.values(), 1))]
+
+
+def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
+    """The coordinates of a step and of those that follow it without words of their own: `theta, x and y`."""
+    steps = [step]
+    for each in following:
+        if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:
+            break
+        steps.append(each)
+    told = [Math(q) for each in steps if (q := dict(each.roles).get("coordinate")) is not None]
+    return {"together": joined(told, words.labels["and"])} if 1 < len(told) == len(steps) else {}
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:

@@ -76,6 +76,7 @@ def value_of(
     more      other units in which it is given too, each with its factor
     case      the name of the case of which these are the numbers, if there are several
     Check: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
+    Of a condition on a letter that has a number too it is told whether that fulfils it.
     Outcomes: measured (numbers were put in), exact; minimum or maximum, of a function's value where it is level.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
@@ -103,7 +104,9 @@ def value_of(
                 return Integer(1), Integer(0)
         return _by_floats(value, letters, amounts, _valued(explicit(result))[0])
 
-    shown = [_with_unit(exact, *each, figures) for each in ((unit, factor), *more)]
+    units = ((unit, factor), *more)
+    shown = [_with_unit(exact, *each, figures) for each in units]
+    given = _given_beside(answer, amounts, units[-1], figures)
     return establish(
         "numbers.value",
         answer.symbol,
@@ -111,7 +114,11 @@ def value_of(
         {},
         routes={"floats": floats},
         outcome=_outcome(_bent(answer, amounts).get("curvature"), bool(letters)),
-        telling=Telling(words={"case": case} if case else {}, judged_by={"letters": letters, **_bent(answer, amounts)}),
+        telling=Telling(
+            words={**({"case": case} if case else {}), **given.words},
+            formulas=given.formulas,
+            judged_by={"letters": letters, **_bent(answer, amounts), **given.judged_by},
+        ),
         scope=Scope(about=answer.subject, case_of=answer),
         key=key or f"{answer.key}_value",
         kind=answer.step.kind,
@@ -124,6 +131,29 @@ def value_of(
             means={letter: explicit(amount) for letter, amount in numbers.items()},
         ),
         parents=[answer],
+    )
+
+
+def _given_beside(
+    condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
+) -> Telling:
+    """The number that the letter of a condition has, and whether that fulfils it: S > 23.55 rad/s, and S = 900 rpm."""
+    relation = condition.value
+    if not isinstance(relation, Relation) or relation.mark not in {*FULFILLED} - {"="} or relation.left not in amounts:
+        return Telling()
+    at = {letter: explicit(amount) for letter, amount in amounts.items()}
+    difference = explicit(relation.residual).subs(at)
+    mark = "=" if vanishes(difference) else ">" if difference.is_positive else "<"
+    name, factor = unit
+    number = explicit(at[relation.left] / factor)
+    written = (
+        Amount(number, name, factor) if number.is_Integer and name else _with_unit(at[relation.left], *unit, figures)
+    )
+    told = Relation(relation.left, "=", written)
+    return Telling(
+        words={"seen": "fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled"},
+        formulas={"given": (told, told)},
+        judged_by={"condition": Relation(at[relation.left], relation.mark, explicit(relation.right).subs(at))},
     )
 
 

@@ -34,6 +34,7 @@ def solve(
     U = potential_energy_of(system)
     level = extreme_value(U, theta)
     curvature = stability(U, {theta: 0}, letter=radius, key="curvature")
+    minimum = where(curvature, ">", 0, radius, key="minimum_condition")
 
     # Once more, with x, y and theta free and the contact force in their equations.
     kept = [constraint(q, place.value, force=f"lambda_{place.key}") for q, place in zip((x, y), centre)]
@@ -52,4 +53,4 @@ def solve(
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
     pushes = [arrow(out, radius * across, 2 / S(5), label=name) for out, name in ((across, N), (along, F))]
     sketch("forces", system, O, C, pushes, weights=True)
-    return L, motion, swings, grows, stable, level, curvature, again, N, F
+    return L, motion, swings, grows, stable, level, minimum, again, N, F

@@ -100,6 +100,6 @@ def test_the_facts_are_those_of_the_text(block: Block) -> None:
         "torque",
         "d",
         "proved",
-        ["spin", "angular_momentum", *(f"inertia_tensor_{axis * 2}" for axis in "xyz")],
+        ["spin", "angular_momentum", *(f"inertia_tensor_{axis * 2}" for axis in "xyz"), "inertia_tensor"],
     )
     assert facts["wording_at"].startswith("problems/hw9/block.yaml:")

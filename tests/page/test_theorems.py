@@ -26,14 +26,14 @@ def a_step(rule: str, outcome: str = "generic", between: str = "coordinates") ->
 @pytest.mark.parametrize("level", [Level.STANDARD, Level.FULL])
 def test_a_theorem_is_told_once(level: Level) -> None:
     theorems = Theorems(WORDS, level)
-    ((told,),) = theorems.before(a_step("rotation.torque"))
+    (told,) = theorems.before(a_step("rotation.torque"))
     assert isinstance(told, ToldOnce) and any(isinstance(node, Math) for node in told.nodes)
     assert any(isinstance(node, ToldIn) for node in told.again)
-    assert theorems.before(a_step("free_rotation.rate_in_space")) == [], "it has been told"
+    assert theorems.before(a_step("free_rotation.rate_in_space")) == (), "it has been told"
     assert len(theorems.before(a_step("inertia.entry_moved", "moment"))) == 1
-    assert theorems.before(a_step("forced.equation_of_motion", "applied")) == []
+    assert theorems.before(a_step("forced.equation_of_motion", "applied")) == ()
     assert len(theorems.before(a_step("forced.equation_of_motion", "both"))) == 1
-    assert theorems.before(a_step("forced.equation_of_motion", "both")) == [], "it has been told"
+    assert theorems.before(a_step("forced.equation_of_motion", "both")) == (), "it has been told"
     assert len(theorems.before(a_step("forced.equation_of_motion", "both", "rates"))) == 1, "the form for rates has not"
 
 
@@ -58,11 +58,11 @@ def test_lagranges_equation_is_told_before_its_derivatives_and_not_written_again
 def test_a_full_page_has_the_law_in_its_place_and_no_theorem_of_it() -> None:
     force, motion = the_steps_of_a_pendulum()
     theorems = Theorems(WORDS, Level.FULL, [force, motion])
-    assert theorems.before(force) == [] and theorems.without_law(motion) == motion
+    assert theorems.before(force) == () and theorems.without_law(motion) == motion
 
 
 def test_a_brief_page_has_only_their_names() -> None:
-    assert Theorems(WORDS, Level.BRIEF).before(a_step("rotation.torque")) == []
+    assert Theorems(WORDS, Level.BRIEF).before(a_step("rotation.torque")) == ()
 
 
 def test_each_theorem_has_its_sentence_and_each_sentence_its_theorem() -> None:

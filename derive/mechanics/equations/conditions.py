@@ -45,7 +45,7 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = ("roots.discriminant", ">=")  # of which rule a quantity has to fulfil this for roots to be real
+REAL = {("roots.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
 POINTS = 40
 ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
 
@@ -112,7 +112,7 @@ def where(
         },
         outcome="squared" if alone != unknown else "solved",
         telling=Telling(
-            words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) == REAL else "quantity"},
+            words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) in REAL else "quantity"},
             formulas=_told(excluded=excluded, existing=existing),
             judged_by={"unknown": unknown, "mark": Str(mark)},
         ),

@@ -80,7 +80,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         parents=[linear],
         telling=Telling(
             formulas={
-                **({} if mass == 1 else {"inertia": (mass, mass)}),
+                **({} if mass == 1 else {"inertia": (mass, mass), "acceleration": (rate(q, 2), rate(q, 2))}),
                 "oscillator": (Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),) * 2,
             },
             points_to={"linear": linear},

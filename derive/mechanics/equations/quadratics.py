@@ -331,17 +331,18 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     )
 
 
-def real_where(roots: Quantity, letter: Any, key: str = "real_where") -> Quantity:
+def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: bool = False) -> Quantity:
     """Condition under which the roots of a quadratic equation are real, b^2 - 4 a c >= 0, solved for a letter.
 
     roots    one of them, as `roots` yields them with `together`
     letter   what stands alone in the end
+    distinct whether they are to be two, b^2 - 4 a c > 0
     The discriminant is a step of its own; of a linear equation it is b^2, which does not vanish. Where values were put
     into the equation, the condition is told in letters first.
     Check: as `where`.
     Outcomes: those of `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
-    of, of_both = roots.needed(Roots), discriminant(roots)
-    criterion = solved_in_letters(of_both, of.general.discriminant, ">=", letter) if of.values else None
-    return where(of_both, ">=", 0, letter, key, through=(criterion, of.values) if criterion is not None else None)
+    of, of_both, mark = roots.needed(Roots), discriminant(roots), ">" if distinct else ">="
+    criterion = solved_in_letters(of_both, of.general.discriminant, mark, letter) if of.values else None
+    return where(of_both, mark, 0, letter, key, through=(criterion, of.values) if criterion is not None else None)

@@ -261,6 +261,18 @@ def _goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
     return aim == to if aim in (oo, -oo) else is_zero(aim * facts.inputs["x"] / goes - to)
 
 
+def _given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
+    """The number that is told is that of the letter, and fulfils the condition as it is said to: both in decimals."""
+    condition = facts.inputs.get("condition")
+    if condition is None:
+        return "seen" not in facts.words
+    told = facts.inputs["given"]
+    apart = float(explicit(condition.left) - explicit(facts.result.right))
+    is_so = {">": apart > 0, ">=": apart >= 0, "<": apart < 0, "<=": apart <= 0}[condition.mark]
+    near = abs(float(explicit(told.right)) / float(explicit(condition.left)) - 1) < 0.05
+    return near and told.left == facts.result.left and is_so == (facts.words["seen"] == "fulfilled")
+
+
 def _lag_as_written(facts: Judged, outcome: str) -> bool:
     """With a loss its tangent is told, without one the angle itself."""
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
@@ -301,6 +313,7 @@ _TABLE: dict[str, Told] = {
     "extrema.place": _there_where_told,
     "solving.solved_for": _says_what_it_divides_by,
     "limits.limiting_case": _goes_where_it_is_said,
+    "numbers.value": _given_as_the_condition_has_it,
     "minima.stability_of_several": _about_an_energy,
     "minima.stability": _steady_as_its_potential,
     "equilibria.condition": _steady_as_its_potential,

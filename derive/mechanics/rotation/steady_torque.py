@@ -69,9 +69,10 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
         outcome=whether_zero,
         key=key,
         kind="torque",
-        parents=_moments(inertia),
+        parents=[*_moments(inertia), inertia],
         telling=Telling(
             words={"about": about, "point": about, **({"euler": about} if by_euler else {})},
+            points_to={"tensor": inertia},
             judged_by={"inertia": inertia.value},
         ),
     )

@@ -127,7 +127,7 @@ class _Page:
             case ProblemRef(of, text):
                 return rf"\problemlink{{{dotted(of)}}}{{{escaped(text)}}}"
             case ToldOnce(name, nodes, again):
-                return rf"\theorem{{{name}}}{{{self.inline(nodes)}}}{{{self.inline(again)}}}"
+                return rf"\theorem{{{name}}}{{{self.inline(nodes)}\par}}{{{self.inline(again)}\ }}"
             case ToldIn(problem):
                 return rf"\toldproblem{{{escaped(problem)}}}"
         return ""

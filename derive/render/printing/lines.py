@@ -16,6 +16,7 @@ LINE_WIDTH, TEXT_WIDTH = 74.0, 60.0  # of a line on paper, and of one on a scree
 LINE_INDENT = 4.0  # of a line that goes on
 GAP = 5.0  # between two equations on one row
 MOST_SIDES = 4  # of one line
+INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
     packed = _with_bare_number_framed(packed, begun) if equations.frames_bare_number else packed
+    packed = _with_condition_framed(packed) if equations.framed else packed
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
 
@@ -83,6 +85,13 @@ def _with_bare_number_framed(packed: list[Printed], begun: Layout | None) -> lis
     *others, last = packed
     chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
+
+
+def _with_condition_framed(packed: list[Printed]) -> list[Printed]:
+    """Of an inequality the frame holds all of its row: the number alone is no answer."""
+    *others, last = packed
+    is_condition = last.left is not None and last.sides[0][0] in INEQUALITIES
+    return [*others, replace(last, framed=len(last.sides))] if is_condition else packed
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:

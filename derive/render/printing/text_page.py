@@ -48,6 +48,15 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, int]) -> str:
     return ""
 
 
+def _with_theorems_apart(nodes: Sequence[Inline]) -> list[tuple[Inline, ...]]:
+    """A theorem ends its paragraph: the sentence that it was told for begins another."""
+    paragraphs: list[tuple[Inline, ...]] = [()]
+    for node in nodes:
+        paragraphs[-1] = (*paragraphs[-1], node)
+        paragraphs += [()] if isinstance(node, ToldOnce) else []
+    return [each for each in paragraphs if each]
+
+
 def second_ways(display: Display, words: Phrases) -> list[str]:
     """What the margin may say beside the grade: the second routes, and then the checks."""
     routes, check = words.labels["second_route"], words.labels["check"]
@@ -85,7 +94,7 @@ class _Page:
         for block in part.blocks:
             match block:
                 case Paragraph(nodes):
-                    blocks += ["", self._wrapped(nodes)]
+                    blocks += [line for each in _with_theorems_apart(nodes) for line in ("", self._wrapped(each))]
                 case Display():
                     blocks += ["", self._display(block)]
                 case Illustration():
