@@ -11,12 +11,28 @@ from sympy import MatrixBase
 from derive.algebra.expressions import Dot, Norm, explicit
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.figures.marks import InWords, Mark, Position
-from derive.figures.pieces import Bullet, Paper, Piece, Stroke, Tag
-from derive.figures.space import NOUGHT, Spot, Vector, across, angle_of, direction, dot, midway, plus, size_of, unit
+from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
+from derive.figures.space import (
+    NOUGHT,
+    Spot,
+    Vector,
+    across,
+    angle_of,
+    direction,
+    dot,
+    hull,
+    is_within,
+    midway,
+    plus,
+    rim,
+    size_of,
+    unit,
+)
 
 PAST = 0.3  # how far axes go past a body, in terms of its size
 ASIDE = 12.0  # points between a body and its dimension line
 SHORT = 3  # operations in the words for a place
+RING = 0.16  # the radius of an arrow round an axis, in terms of the size of the body
 ROUND = 10.0  # points: the least radius of an arrow round a direction
 STAND, CLEARANCE = 16.0, 8.0  # points: how high a stand is at least, and between a body and the ground under it
 
@@ -90,14 +106,27 @@ class AxisOfRotation(Mark):
         if not size_of(along):
             return []
         places = [dot(plus(place, through, -1.0), along) for place in (*paper.fixed, through)]
+        start = plus(through, along, min(places) - PAST * paper.reach)
         far = max(places) + (PAST if self.rate is None else 1.9 * PAST) * paper.reach
-        spots = paper.spots(plus(through, along, min(places) - PAST * paper.reach), plus(through, along, far))
-        line = Stroke(spots, "construction")
         if self.rate is None:
-            return [line, Tag(self.label, spots[1], direction(*spots))]
+            spots = paper.spots(start, plus(through, along, far))
+            return [Stroke(spots, "construction"), Tag(self.label, spots[1], direction(*spots))]
         sense = 1.0 if paper.numbers.of(self.rate) > 0 else -1.0
         round_end = plus(through, along, far - 0.6 * PAST * paper.reach)
-        return [line, *_circling(round_end, plus(NOUGHT, along, sense), 0.16 * paper.reach, self.label, paper)]
+        off = self._to_clear(paper, round_end, along, RING * paper.reach)
+        line = Stroke(paper.spots(start, plus(through, along, far + off)), "construction")
+        ring = plus(round_end, along, off)
+        return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
+
+    def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
+        """By how much more the arrow round the axis must go out so that it is seen beside all surfaces."""
+        outline = hull(paper.spots(*paper.fixed))
+        tried = [PAST * paper.reach * step / 4 for step in range(9)]
+        for off in tried:
+            spots = paper.spots(*rim(plus(ring, along, off), 1.3 * radius, along))
+            if not any(is_within(spot, outline) for spot in spots):
+                return off
+        return 0.0
 
     def in_words(self) -> InWords:
         names = {"label": self.label, "direction": _components(self.along)}
@@ -162,6 +191,10 @@ class Arrow(Mark):
     @property
     def directions(self) -> tuple[Position, ...]:
         return (self.value,)
+
+    def tip(self, numbers: InNumbers, reach: float) -> Vector:
+        along = unit(numbers.vector(self.value))
+        return plus(numbers.vector(self.start), along, 0.0 if self.pushes else numbers.of(self.size) * reach)
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))

@@ -193,7 +193,7 @@ def _with_slice(marks: Sequence[Mark], body: RoundBody, point: Point) -> list[Ma
     radius = max((radius for _, radius in _profile(body)), key=in_units)
     rings = tuple((_height(point, own), body.radius_at(at)) for own in (near, far))
     label = tidied(body.radius_at(point.along_body(z)))
-    slice_of_it = SliceMark(rings, ORIGIN, Z, label=label, height=z, thickness=("d", z))
+    slice_of_it = SliceMark(rings, ORIGIN, Z, label=label, height=z, thickness=(scalar("d"), z))
     moved = [replace(mark, beyond=BESIDE_IT) if isinstance(mark, LengthMark) else mark for mark in marks]
     return [*moved, slice_of_it, LengthMark(ORIGIN, _height(point, near) * Z, None, radius, label=z)]
 

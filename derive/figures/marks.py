@@ -61,6 +61,10 @@ class Mark:
         """One that must not point at the eye, or two between which an angle must be seen."""
         return ()
 
+    def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
+        """Where its head is in space, which must not seem to be a corner of a body of such a size."""
+        return None
+
     def in_words(self) -> InWords | None:
         """How it is told to those who do not see it; nothing for a line that only helps the eye."""
         return None
@@ -80,6 +84,10 @@ class Surface(Mark):
     name: str = ""
     measures: tuple[tuple[str, Any], ...] = field(default=(), metadata=BESIDE)
     layer: ClassVar[int] = 0
+
+    def vertices(self, numbers: InNumbers) -> list[Vector]:
+        """The places at which edges meet."""
+        return []
 
     def places(self, numbers: InNumbers) -> list[Vector]:
         """The outermost places that it reaches."""

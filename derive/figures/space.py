@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import acos, atan2, cos, hypot, pi, sin, sqrt
 from typing import TypeAlias
 
@@ -85,6 +86,18 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
             outline.pop()
         outline.append(spot)
     return tuple(outline)
+
+
+def is_within(spot: Spot, corners: Sequence[Spot]) -> bool:
+    """Whether a spot lies in an outline: a line from it to the right meets that an odd number of times."""
+    x, y = spot
+    if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
+        return False
+    met = 0
+    for (a, b), (c, d) in pairwise([*corners, corners[0]]):
+        if (b > y) != (d > y) and x < a + (y - b) / (d - b) * (c - a):
+            met += 1
+    return met % 2 == 1
 
 
 def _turns_right(a: Spot, b: Spot, c: Spot) -> bool:

@@ -180,6 +180,9 @@ class Polyhedron(Surface):
     def places(self, numbers: InNumbers) -> list[Vector]:
         return [numbers.vector(corner) for corner in self.corners]
 
+    def vertices(self, numbers: InNumbers) -> list[Vector]:
+        return self.places(numbers) if self.faces else []
+
     def pieces(self, paper: Paper) -> list[Piece]:
         places = self.places(paper.numbers)
         if self.faces:

@@ -62,7 +62,12 @@ class Checks:
     @property
     def compared(self) -> int:
         """How many statements of the source document were compared."""
-        return self.agree + self.agree_to_figures + len(self.errata)
+        return self.agree + self.agree_to_figures + self.refuted
+
+    @property
+    def refuted(self) -> int:
+        """How many of them are wrong; an erratum that is only quoted is no value of a step."""
+        return sum(bool(erratum.answer) for erratum in self.errata)
 
     def counts(self) -> dict[str, int]:
         """The numbers of the last page's table, by the names of its columns."""
@@ -92,7 +97,7 @@ class Checks:
             "steps_by_grade": _by_grade(self.steps, _columns_of_steps(words)),
             "compared": self.compared,
             "agree": self.agree + self.agree_to_figures,
-            "errata": len(self.errata),
+            "errata": self.refuted,
         }
         return filled(words.labels["closing"], names)
 

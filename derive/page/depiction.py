@@ -14,6 +14,7 @@ from typing import Any
 from sympy import Symbol
 
 from derive.algebra.expressions import Amount
+from derive.course.given import Measured
 from derive.course.placement import HIDDEN, STATEMENT, Placement
 from derive.course.problem import Problem
 from derive.errors import Complaint, Rejected, did_you_mean
@@ -231,13 +232,27 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     }
     told = [filled(words.drawings["plot"], names)]
     for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
-        numbers = [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in curve.numbers]
         last = words.labels["and"]
+        numbers = _put_in(curve.numbers)
         turns = joined(_turns(plot, curves, curve, words), last)
         told.append(
             filled(words.drawings["curve"], {"letter": letter, "numbers": joined(numbers, last), "turns": turns})
         )
+    told += _shared(curves, words)
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
+
+
+def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
+    """Each letter with its number."""
+    return [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in numbers]
+
+
+def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
+    """The numbers that all curves share, which stand over none of them."""
+    if not curves.shared:
+        return []
+    numbers = joined(_put_in(curves.shared), words.labels["and"])
+    return [filled(words.drawings["shared"], {"numbers": numbers, "count": len(curves.curves)})]
 
 
 def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
@@ -265,7 +280,8 @@ def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words
         for letter, curve in zip(panel_letters(curves), curves.curves, strict=True)
         if (turns := _turns(plot, curves, curve, words))
     ]
-    return (Text(" "), *filled(words.drawings["extrema"], {"told": joined(told, last)})) if told else ()
+    read = [filled(words.drawings["extrema"], {"told": joined(told, last)})] if told else []
+    return tuple(node for nodes in (*_shared(curves, words), *read) for node in (Text(" "), *nodes))
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:

@@ -35,11 +35,13 @@ class Curve:
 
 @dataclass(frozen=True)
 class Curves:
-    """The curves of a plot, and the unit of its horizontal axis: its name, and how many there are in one SI unit."""
+    """The curves of a plot, the numbers that several of them share, and the unit of the horizontal axis: its name, and
+    how many there are in one SI unit."""
 
     curves: tuple[Curve, ...]
     unit: str
     per_unit: float
+    shared: tuple[Measured, ...] = ()
 
 
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
@@ -48,9 +50,16 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     given = placement.cases if placement and placement.cases else ((),)
     # A number for a letter that the curve does not have would be told of it, but not be true of it.
     cases = [tuple(number for number in case if number.symbol in plot.expr.free_symbols) for case in given]
-    found = tuple(_curve(problem, plot, placement, (*cases[0], *case), case, lower, upper) for case in cases)
+    changed = {number.symbol for case in cases[1:] for number in case}
+    shared = tuple(number for number in cases[0] if number.symbol not in changed) if len(cases) > 1 else ()
+    own = [tuple(number for number in case if number not in shared) for case in cases]
+    found = tuple(
+        _curve(problem, plot, placement, (*cases[0], *case), told, lower, upper)
+        for case, told in zip(cases, own, strict=True)
+    )
     in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for end in (lower, upper))
-    return Curves(found, DEGREES if in_degrees else _unit(plot.of), float(1 / DEGREE) if in_degrees else 1.0)
+    unit = (DEGREES, float(1 / DEGREE)) if in_degrees else (_unit(plot.of), 1.0)
+    return Curves(found, *unit, shared)
 
 
 def _unit(kind: str) -> str:
@@ -103,11 +112,16 @@ def panel_letters(curves: Curves) -> list[str]:
 
 
 def told_value(plot: Plot, extremum: Extremum) -> str:
-    """The value at an extremum with its unit, as it stands in the plot, in its words and in its caption."""
-    return with_unit(extremum.value, _unit(plot.kind))
+    """The value at an extremum with its unit, to the figures of the text, in the plot, its words and its caption."""
+    shown = f"{extremum.value:#.4g}".rstrip(".") if extremum.value else "0"
+    return _signed(f"{shown} {_unit(plot.kind)}")
 
 
 def with_unit(value: float, unit: str) -> str:
     """A number to four figures with its unit; a degree sign stands close."""
     gap = "" if unit == "\u00b0" else " "
-    return f"{value:.4g}{gap}{unit}".replace("-", "\u2212").strip()
+    return _signed(f"{value:.4g}{gap}{unit}")
+
+
+def _signed(told: str) -> str:
+    return told.replace("-", "\u2212").strip()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, isclose, pi
+from math import atan2, degrees, dist, hypot, isclose, pi
+from typing import Any
 
 import pytest
 from sympy import Rational, Symbol
@@ -10,8 +11,9 @@ from sympy import Rational, Symbol
 from derive.algebra.expressions import column
 from derive.figures import arc, arrow, axis_of_rotation, drawing, length_mark, outline, point_mark
 from derive.figures.annotations import AngleMark, Turn
-from derive.figures.marks import Drawing
+from derive.figures.marks import Drawing, Surface
 from derive.figures.pieces import Bullet, Tag
+from derive.figures.space import hull, is_within
 from derive.figures.surfaces import Polyhedron
 from derive.mechanics import Cuboid
 from derive.render.drawing.camera import Numbers, best_stance
@@ -23,7 +25,10 @@ UP, RIGHT = column(0, 1, 0), column(1, 0, 0)
 
 def seen(found: Drawing, *direction: float) -> float:
     """The heading on paper of a direction in space, worked out apart from the strokes."""
-    stance = best_stance(found, Numbers({}))
+    numbers = Numbers(NUMBERS)
+    places = [place for mark in found.marks if isinstance(mark, Surface) for place in mark.places(numbers)]
+    middle = tuple((min(p[k] for p in places) + max(p[k] for p in places)) / 2 for k in range(3))
+    stance = best_stance(found, numbers, max(dist(place, middle) for place in places))
     x, y = (sum(p * q for p, q in zip(direction, way, strict=True)) for way in (stance.right, stance.up))
     return degrees(atan2(y, x))
 
@@ -94,3 +99,22 @@ def test_an_angle_needs_two_directions() -> None:
     assert isinstance(flat, AngleMark)
     assert strokes(pieces_of(plane(point_mark(RIGHT), point_mark(UP), flat)), "angle") == []
     assert NUMBERS[a] == 1
+
+
+def test_no_head_of_an_arrow_seems_to_be_at_a_corner() -> None:
+    """The angular velocity of the block ends beyond one corner, and on paper far from all others."""
+    found = vectors_of_block()
+    pieces = pieces_of(found)
+    tip = strokes(pieces, "asked")[0].spots[-1]
+    corners = [spot for stroke in strokes(pieces, "edge") for spot in stroke.spots]
+    size = max(hypot(x - u, y - v) for x, y in corners for u, v in corners)
+    assert min(hypot(tip[0] - x, tip[1] - y) for x, y in corners) > 0.05 * size
+
+
+@pytest.mark.parametrize("axis", [(a, 2 * a, 3 * a), (0, 1, 0), (0, 0, 1), (0, 1, 1)])
+def test_the_arrow_round_an_axis_is_seen_beside_the_body(axis: Any) -> None:
+    block = Cuboid((a, 2 * a, 3 * a), M)
+    pieces = pieces_of(drawing("axes", outline(block), axis_of_rotation(column(*axis), block.middle, rate=omega)))
+    ((ring,), edges) = strokes(pieces, "turn"), strokes(pieces, "edge")
+    outer = hull([spot for stroke in edges for spot in stroke.spots])
+    assert not any(is_within(spot, outer) for spot in ring.spots)

@@ -6,11 +6,12 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import symbols
+from sympy import Integer, symbols
 
 from derive.algebra.equality import LEAST_SURE_FIRST
 from derive.algebra.expressions import scalar
 from derive.course.names import EvidenceShown
+from derive.course.reference.errata import Erratum
 from derive.page.checks import Checks, checks_of
 from derive.page.wording import Phrases, Text, phrases
 from derive.steps.establish import establish
@@ -67,10 +68,16 @@ def test_neighbours_of_one_rule_that_were_checked_alike_are_one_row() -> None:
 
 
 def test_statements_are_counted_by_how_they_compare() -> None:
-    erratum = object()
+    erratum = Erratum("energy", None, "a slip", Integer(1), Integer(2))
     checks = counted(compared=[told("agrees"), told("agrees to 4 figures"), told("agrees"), told("erratum", erratum)])
     assert (checks.agree, checks.agree_to_figures, checks.errata) == (2, 1, (erratum,))
     assert checks.compared == 4
+
+
+def test_an_erratum_that_is_only_quoted_is_one_but_was_not_compared() -> None:
+    slip = Erratum("", None, "garbled", None, None, 7, "$x$", "$y$")
+    checks = counted(compared=[told("agrees"), told("erratum", slip)])
+    assert (checks.compared, checks.refuted, checks.counts()["errata"]) == (1, 0, 1)
 
 
 def test_remarks_are_counted_apart_from_what_was_compared() -> None:

@@ -10,7 +10,7 @@ from sympy import Expr, Integer, cos, pi, symbols
 
 from derive.course.placement import Placement
 from derive.errors import Place, Rejected
-from derive.figures.extrema import MAXIMUM
+from derive.figures.extrema import MAXIMUM, Extremum
 from derive.figures.marks import Plot
 from derive.page.plots import Curves, curves_of, panel_letters, told_value, with_unit
 
@@ -45,6 +45,13 @@ def test_a_case_says_only_what_differs_from_the_first() -> None:
     first, second = curves(a * cos(k * theta), cases=[{a: 2, k: 1}, {k: 3}]).curves
     assert (first.expr, second.expr) == (2 * cos(theta), 2 * cos(3 * theta))
     assert [number.symbol for number in second.numbers] == [k], "what is told of a curve"
+
+
+def test_a_number_that_all_cases_share_is_told_of_all_and_of_none() -> None:
+    found = curves(a * cos(k * theta), cases=[{a: 2, k: 1}, {k: 3}])
+    assert [number.symbol for number in found.shared] == [a]
+    assert [[number.symbol for number in curve.numbers] for curve in found.curves] == [[k], [k]]
+    assert curves(a * cos(k * theta), cases=[{a: 2, k: 1}]).shared == ()
 
 
 def test_a_number_of_a_case_goes_before_the_problems_own_and_one_of_no_letter_here_is_left_out() -> None:
@@ -84,9 +91,15 @@ def test_panels_have_letters_where_there_are_several() -> None:
 def test_an_extremum_is_told_with_its_value_and_unit() -> None:
     (curve,) = curves(a * cos(theta), amounts={a: Integer(3)}).curves
     plot = Plot("potential", theta, a * cos(theta), theta, -pi / 2, pi / 2, "energy", "angle")
-    assert [told_value(plot, each) for each in curve.extrema] == ["3 J"]
+    assert [told_value(plot, each) for each in curve.extrema] == ["3.000 J"]
     assert (with_unit(-2.20549, "J"), with_unit(30.0, "\u00b0"), with_unit(0.5, "")) == (
         "\u22122.205 J",
         "30\u00b0",
         "0.5",
     )
+
+
+def test_a_value_has_as_many_figures_in_a_plot_as_in_the_text() -> None:
+    plot = Plot("potential", theta, a * cos(theta), theta, -pi / 2, pi / 2, "energy", "angle")
+    told = [told_value(plot, Extremum(0.0, value, "maximum")) for value in (2.45, 2.20549, -0.5, 0.0, 2450.0)]
+    assert told == ["2.450 J", "2.205 J", "\u22120.5000 J", "0 J", "2450 J"]

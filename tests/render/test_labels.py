@@ -135,3 +135,18 @@ def test_labels_with_few_places_choose_first_where_otherwise_something_would_be_
     one, other = found["p"].extent, found["q"].extent
     assert one[1] >= other[3] or other[1] >= one[3] or one[0] >= other[2] or other[0] >= one[2]
     assert not any(covers(found["q"], x, -6.0) for x in range(-17, 18))
+
+
+def test_the_label_of_a_line_stands_nearer_to_it_than_to_another() -> None:
+    """It would stand above its line, where another runs."""
+    own, other = Stroke(((-50.0, 0.0), (50.0, 0.0)), "edge"), Stroke(((-50.0, 13.0), (50.0, 13.0)), "edge")
+    tag = Tag("a", (0.0, 0.0), (0.0, 1.0), way=(40.0, 0.0))
+    (alone,) = labels(own, tag)
+    (beside,) = labels(own, other, tag)
+    assert middle(alone)[1] > 0 > middle(beside)[1]
+
+
+def test_a_label_does_not_touch_the_edge_of_a_wide_line() -> None:
+    rod, tag = Stroke(((-100.0, 0.0), (100.0, 0.0)), "rod"), Tag("a", (0.0, 10.0), (0.0, -1.0), 0.0)
+    (label,) = placed((rod, tag), lambda _: (WIDTH, 6.0), lambda _: 8.0)
+    assert label.extent[1] > 4.0 or label.extent[3] < -4.0

@@ -144,7 +144,7 @@ def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -
         for letter, curve in zip("ab", found.curves, strict=True)
     )
     assert [name for panel in (one, two) for _, _, name in panel.turns] == [
-        r"$\mathrm{maximum}\;\;1\,\mathrm{J}$",
-        r"$\mathrm{maximum}\;\;2\,\mathrm{J}$",
+        r"$\mathrm{maximum}\;\;1.000\,\mathrm{J}$",
+        r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$",
     ]
     assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")

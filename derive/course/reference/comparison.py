@@ -6,7 +6,7 @@ value of one step:
 
     agrees               equal, with the grade of the evidence
     agrees to n figures  decimals, `to` so many of them
-    erratum              the document is wrong: `states` is refuted and `right` agrees
+    erratum              the document is wrong: `states` is refuted and `right` agrees; or it is quoted
     differs              refuted, at a point; or an erratum that is none
     unknown step         no step has that key
     remark               nothing is compared: what the document claims is quoted, with what there is to say of it
@@ -25,7 +25,7 @@ from derive.algebra.expressions import Relation
 from derive.algebra.ranges import within
 from derive.course.problem import Problem, run_solve
 from derive.course.reference.agreement import given_values, verdict_on
-from derive.course.reference.errata import Erratum, erratum_of
+from derive.course.reference.errata import Erratum, erratum_of, quoted_erratum
 from derive.course.reference.quotes import Remark
 from derive.course.reference.statements import Entry, Statement, stated_groups
 from derive.errors import Complaint, DeriveError, Place, did_you_mean
@@ -134,6 +134,8 @@ def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
 
 
 def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
+    if entry.states is None and entry.instead:
+        return Comparison(pinned.id, entry, "erratum", None, f"{entry.why}: quoted", erratum=quoted_erratum(entry))
     if entry.states is None:
         return Comparison(pinned.id, entry, "remark", None, "nothing to compare")
     step = steps.get(entry.answer)

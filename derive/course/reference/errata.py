@@ -19,7 +19,8 @@ class Erratum:
     """`printed` and `right` are two values of the step `answer`; decimals keep the figures they are printed with.
 
     `quote` and `instead` are the same in the document's own letters, prose with formulas between dollar signs; they are
-    empty where it was not transcribed as it stands. `line` is where it stands.
+    empty where it was not transcribed as it stands. `line` is where it stands. A formula that is garbled as printed is
+    no value of a step: of it there are only these.
     """
 
     answer: str
@@ -49,6 +50,11 @@ def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
+
+
+def quoted_erratum(entry: Entry) -> Erratum:
+    """One that is quoted and put right, and was not compared."""
+    return Erratum("", entry.part, entry.why, None, None, entry.line, entry.quote, entry.instead)
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:

@@ -202,6 +202,12 @@ def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared],
     return found
 
 
+def is_quoted_only(written: EntryKeys) -> bool:
+    """Whether it quotes a slip without stating a value, so that there is nothing to compare."""
+    states = (written.answer, written.latex, written.states, written.remark)
+    return written.erratum is not None and written.quote is not None and all(each is None for each in states)
+
+
 class _EntryReader:
     """Reads the entries of one group: `letters` are ours, `printed` those that the document's formulas may use."""
 
@@ -212,6 +218,8 @@ class _EntryReader:
         self.faults = faults
 
     def entry(self, written: EntryKeys) -> Entry | None:
+        if is_quoted_only(written):
+            return self.slip(written)
         put_in = self.put_in(written.put_in)
         states = self.statement(written, put_in)
         why, right = self.erratum(written, put_in)
@@ -236,6 +244,19 @@ class _EntryReader:
             written.answer, written.part, states, right, why, figures, unit, written.answer.place, put_in, factor
         )
         return replace(entry, line=written.line, quote=quote, instead=instead, remark=remark)
+
+    def slip(self, written: EntryKeys) -> Entry | None:
+        """An erratum that is quoted and put right, but is no value of a step: a formula that is garbled as printed."""
+        assert written.erratum is not None
+        right, place = written.erratum.right, written.places["quote"]
+        instead = right.text if isinstance(right, Scalar) else ""
+        if right is not None and (why := unquotable(instead) if instead else "it is no text") is not None:
+            self.faults.error("quotation", f"`right`: {why}", right.place)
+            return None
+        quote, told = str(written.quote), written.erratum.why or ""
+        return Entry(
+            "", written.part, None, None, told, (), None, place, line=written.line, quote=quote, instead=instead
+        )
 
     def quotes(self, entry: EntryKeys) -> tuple[str, str]:
         """What the document prints and what it should, in its own letters, where it was transcribed as it stands."""

@@ -17,10 +17,11 @@ from sympy.core.function import AppliedUndef
 from derive.algebra.expressions import TIME, explicit
 from derive.errors import Complaint, Rejected
 from derive.figures.extrema import values_along
-from derive.figures.marks import PLANE, Drawing
+from derive.figures.marks import PLANE, Drawing, Surface
 from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
+APART = 0.25  # of the size of the body: how far the head of an arrow looks from a corner
 SHARES = (0.8, 0.6, 1.0, 0.7)  # what lengths are drawn with that are coordinates, in terms of those that are given
 
 
@@ -125,8 +126,9 @@ FLAT = Stance((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 USUAL = stance_from(25, 18)
 
 
-def best_stance(drawing: Drawing, numbers: Numbers) -> Stance:
-    """The usual stance, turned where vectors would point at the eye or fall on one another."""
+def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
+    """The usual stance, turned where vectors would point at the eye or fall on one another, or seem to end at a corner
+    of the body, whose size is given, that they do not reach."""
     if drawing.view == PLANE:
         return FLAT
     if TIME in dict(drawing.values):  # a plane that is carried round has been turned to be seen from its front
@@ -140,7 +142,18 @@ def best_stance(drawing: Drawing, numbers: Numbers) -> Stance:
     if not vectors and not pairs:
         return USUAL
     tried = [stance_from(azimuth, elevation) for elevation in (18, 24, 30, 38) for azimuth in range(15, 76, 6)]
-    return max(tried, key=lambda stance: _clearness(stance, vectors, pairs))
+    ends = [tip for mark in drawing.marks if (tip := mark.tip(numbers, reach)) is not None]
+    corners = [at for mark in drawing.marks if isinstance(mark, Surface) for at in mark.vertices(numbers)]
+    return max(
+        tried, key=lambda stance: _clearness(stance, vectors, pairs) * _apartness(stance, ends, corners, APART * reach)
+    )
+
+
+def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector], enough: float) -> float:
+    """How far the tips look from the corners, up to what is enough; 1 if all do."""
+    spots = [stance.spot(corner) for corner in corners]
+    nearest = (hypot(x - u, y - v) for x, y in map(stance.spot, ends) for u, v in spots)
+    return min(1.0, min(nearest, default=enough) / enough)
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:

@@ -69,7 +69,7 @@ FILLS = {"blank": BLANK, "body": "#DFE5EC", "solid": "#EFF2F6", "line": LINE, "i
 def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Letters = letters_of) -> Sheet:
     """The pieces with their labels on a sheet of their size."""
     labels = _labels(pieces, notation, letters)
-    stand = placed(pieces, lambda label: labels[label].size)
+    stand = placed(pieces, lambda label: labels[label].size, _width)
     shapes = shapes_of(pieces) + [shape for each in stand for shape in labels[each.label].shapes_at(each.corner)]
     spots = [spot for piece in pieces if not isinstance(piece, Tag) for spot in _reached(piece)]
     spots += [spot for each in stand for spot in (each.extent[:2], each.extent[2:])]
@@ -79,7 +79,11 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Let
 def labels_of(pieces: Sequence[Piece], notation: Notation, letters: Letters = letters_of) -> list[Placed]:
     """Where the labels of a drawing stand on its sheet."""
     labels = _labels(pieces, notation, letters)
-    return placed(pieces, lambda label: labels[label].size)
+    return placed(pieces, lambda label: labels[label].size, _width)
+
+
+def _width(stroke: Stroke) -> float:
+    return PENS[stroke.pen].width
 
 
 def _labels(pieces: Sequence[Piece], notation: Notation, letters: Letters) -> dict[Any, _Label]:

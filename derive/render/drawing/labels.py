@@ -14,13 +14,16 @@ from math import cos, hypot, inf, pi, sin
 from typing import Any, TypeAlias
 
 from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
-from derive.figures.space import Spot
+from derive.figures.space import Spot, direction, is_within
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
 CLEAR = 1.5  # points between a label and a line
 LINE, HEAVY = 3.0, 60.0  # what covering a point of a line costs, and another label
 HEAVY_ENOUGH = 20.0
+NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # points from another line than its own, what one of them costs, all at most
+WIDE = 1.0  # points: what is wider is seen by its edges
+OWN = 1.5  # points: what is that close to a label's own line is that line
 ROUNDS = 3
 
 
@@ -33,11 +36,16 @@ class Placed:
     extent: Extent
 
 
-def placed(pieces: Sequence[Piece], measured: Callable[[Any], tuple[float, float]]) -> list[Placed]:
-    """Every label of the pieces with its place; `measured` gives a label's width and height in points."""
-    drawn = _seen(pieces)
+def placed(
+    pieces: Sequence[Piece],
+    measured: Callable[[Any], tuple[float, float]],
+    width: Callable[[Stroke], float] = lambda stroke: 0.0,
+) -> list[Placed]:
+    """Every label of the pieces with its place; `measured` gives a label's width and height in points, `width` how wide
+    a line is."""
+    drawn = _seen(pieces, width)
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
-    tried = [sorted(enumerate(_tried(tag, *measured(tag.label))), key=lambda each: each[1][0]) for tag in tags]
+    tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
     cost, found = _one_by_one(order, tried, drawn)
     if cost >= HEAVY_ENOUGH:  # something is covered: let those choose first that have the fewest places
@@ -72,6 +80,27 @@ def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tupl
         if (whole, place) < (least, best[0]):
             least, best = whole, (place, box)
     return least, best[1]
+
+
+def _weighed(
+    tag: Tag, measured: Callable[[Any], tuple[float, float]], drawn: Sequence[Spot]
+) -> Iterable[tuple[float, Extent]]:
+    """The places of a label; that of a line is dearer beside another line, of which it would seem to be the name."""
+    tried = _tried(tag, *measured(tag.label))
+    if tag.way is None:
+        yield from tried
+        return
+    start, end = _moved(tag.spot, tag.way, -1.0), _moved(tag.spot, tag.way, 1.0)
+    others = [spot for spot in drawn if _distance(spot, start, end) > OWN]
+    for cost, (left, below, right, above) in tried:
+        near = sum(left - NEAR < x < right + NEAR and below - NEAR < y < above + NEAR for x, y in others)
+        yield cost + min(DOUBT * near, MOST_DOUBT), (left, below, right, above)
+
+
+def _distance(spot: Spot, start: Spot, end: Spot) -> float:
+    """How far a spot is from the line through two others."""
+    x, y = end[0] - start[0], end[1] - start[1]
+    return abs((spot[0] - start[0]) * y - (spot[1] - start[1]) * x) / (hypot(x, y) or 1.0)
 
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
@@ -127,30 +156,18 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
     return lines * LINE + labels * HEAVY
 
 
-def _seen(pieces: Sequence[Piece]) -> list[Spot]:
+def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
     """The spots of all lines and points that no later surface hides."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):
-            found = [spot for spot in found if not _within(spot, piece.spots)]
-        found += _dots(piece)
+            found = [spot for spot in found if not is_within(spot, piece.spots)]
+        found += _dots(piece, width(piece) if isinstance(piece, Stroke) else 0.0)
     return found
 
 
-def _within(spot: Spot, corners: Sequence[Spot]) -> bool:
-    """Whether a line from the spot to the right meets the outline an odd number of times."""
-    x, y = spot
-    if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
-        return False
-    met = 0
-    for (a, b), (c, d) in pairwise([*corners, corners[0]]):
-        if (b > y) != (d > y) and x < a + (y - b) / (d - b) * (c - a):
-            met += 1
-    return met % 2 == 1
-
-
-def _dots(piece: Piece) -> list[Spot]:
-    """A stroke as spots a point apart; a head or a bullet as a small cluster."""
+def _dots(piece: Piece, width: float) -> list[Spot]:
+    """A stroke as spots a point apart, a wide one by both its edges; a head or a bullet as a small cluster."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
         reach = max(1, round(piece.size - 0.6))
@@ -160,6 +177,9 @@ def _dots(piece: Piece) -> list[Spot]:
         return []
     found = []
     for (x, y), (u, v) in pairwise(piece.spots):
-        steps = max(1, round(hypot(u - x, v - y)))
-        found += [(x + (u - x) * i / steps, y + (v - y) * i / steps) for i in range(steps + 1)]
+        steps, (along, up) = max(1, round(hypot(u - x, v - y))), direction((x, y), (u, v))
+        for off in (-width / 2, width / 2) if width > WIDE else (0.0,):
+            found += [
+                (x + (u - x) * i / steps - off * up, y + (v - y) * i / steps + off * along) for i in range(steps + 1)
+            ]
     return found

@@ -37,7 +37,7 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
     low, high = ([choice(place[k] for place in fixed) for k in range(3)] for choice in (min, max))
     middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
     reach = max(size_of(plus(place, middle, -1.0)) for place in fixed) or 1.0
-    return OnPaper(numbers, best_stance(drawing, numbers), 60 / reach, reach, middle, tuple(fixed))
+    return OnPaper(numbers, best_stance(drawing, numbers, reach), 60 / reach, reach, middle, tuple(fixed))
 
 
 def _labels_at_the_top(pieces: list[Piece], top: float) -> list[Spot]:

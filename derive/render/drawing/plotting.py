@@ -122,10 +122,12 @@ def plot_sheet(
     ]
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
     room = _room(panels, writing)
+    widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
+    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # one size for the numbers over all panels
     shapes: list[Shape] = []
     for i, panel in enumerate(panels):
         paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], tall - room[3]
-        shapes += _drawn(panel, Frame(paper, panel.values), writing, (i * wide, (i + 1) * wide))
+        shapes += _drawn(panel, Frame(paper, panel.values), writing, (i * wide, (i + 1) * wide), size)
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tall), alt)
 
 
@@ -142,7 +144,7 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
         points=tuple((x * curves.per_unit, y) for x, y in points),
         values=(start, low - room, end, high + room),
         across=_ticks(start, end, curves.unit == DEGREES),
-        up=_ticks(low, high, False),
+        up=_ticks(low, high, False, room),
         names=(
             _axis_name(plot.variable, curves.unit, notation),
             _axis_name(plot.label, unit_of_kind(plot.kind), notation),
@@ -166,8 +168,11 @@ def _title(letter: str, numbers: str) -> str:
     return f"$({{\\mathrm{{{letter}}}}})\\;\\;{numbers.strip('$')}$"
 
 
-def _ticks(low: float, high: float, in_degrees: bool) -> Ticks:
-    """A few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90."""
+def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Ticks:
+    """A few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
+
+    They go on past both ends, so that these lie between two of them, where there is as much room for that.
+    """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
     steps = (
@@ -176,7 +181,8 @@ def _ticks(low: float, high: float, in_degrees: bool) -> Ticks:
         else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
     )
     step = next((step for step in steps if span / step <= MOST), steps[-1])
-    first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    first = max(floor(low / step + 1e-9), ceil((low - room) / step - 1e-9))
+    last = min(ceil(high / step - 1e-9), floor((high + room) / step + 1e-9))
     decimals = max(0, -floor(log10(step) + 1e-9))
     return tuple((step * k, f"${step * k:.{decimals}f}$") for k in range(first, last + 1))
 
@@ -228,8 +234,8 @@ def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
     )
 
 
-def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot) -> Iterator[Shape]:
-    """All of a panel; `ends` are those of its whole width."""
+def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float) -> Iterator[Shape]:
+    """All of a panel; `ends` are those of its whole width, and `size` is that of the numbers over it."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame)))
     for x, text in panel.across:
@@ -245,7 +251,6 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot) -> Iterator
         x, y = frame.spot(place)
         yield writing.at((x, y - PAD - DOT if is_lowest else y + PAD + DOT), name, SMALLEST, (0.5, float(is_lowest)))
     if panel.numbers:
-        size = min(SMALLER, (ends[1] - ends[0] - 2 * EDGE) / writing.size(panel.numbers, 1.0)[0])
         half = EDGE + writing.size(panel.numbers, size)[0] / 2
         middle = max(ends[0] + half, min((left + right) / 2, ends[1] - half))
         yield writing.at((middle, above + PAD), panel.numbers, size, (0.5, 0.0), QUIET)

@@ -49,7 +49,7 @@ class ReportPage:
         named = [name for key in row.steps if (name := self._step(key))]
         if len(named) < len(row.steps):
             named += self._made_from(row)
-        return Tex(", ".join(named))
+        return Tex(", ".join(dict.fromkeys(named)))
 
     def _made_from(self, row: Row) -> list[str]:
         numbers = sorted(self.document.numbers[key] for key in row.made_from if key in self.document.numbers)

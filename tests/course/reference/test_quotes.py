@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from derive.course.reference.errata import Erratum
 from derive.course.reference.quotes import Remark, unquotable
 from derive.errors import Rejected
 from tests.course.reference.stated import HEAD, Compared, one
@@ -35,6 +36,16 @@ def test_an_erratum_is_quoted_as_printed_with_its_line(compared: Compared) -> No
     assert found.erratum.instead == r"$\frac{5}{12} M a^{2}$"
 
 
+def test_a_garbled_formula_is_an_erratum_that_is_only_quoted(compared: Compared) -> None:
+    slip = r"line: 7, part: 2, quote: '$\int x x$', erratum: {why: no differential, right: '$\int x d x$'}"
+    found = one(compared(slip))
+    assert (found.outcome, found.grade, found.complaint) == ("erratum", None, None)
+    erratum = found.told().erratum
+    assert erratum is not None and found.told().remark is None
+    assert (erratum.line, erratum.quote, erratum.instead) == (7, r"$\int x x$", r"$\int x d x$")
+    assert Erratum.decoded(erratum.encoded()) == erratum
+
+
 def test_where_the_document_is_named_errata_and_remarks_have_their_lines(compared: Compared) -> None:
     entry = "    - {remark: odd, quote: 'cube'}\n"
     with pytest.raises(Rejected) as refused:
@@ -50,6 +61,8 @@ def test_where_the_document_is_named_errata_and_remarks_have_their_lines(compare
         ("remark: odd", "a remark needs `quote`: what the document prints"),
         ("line: x, remark: odd, quote: cube", "`line` must be the number of a line, from 1 to 99999, but it is `x`"),
         (r"remark: odd, quote: '$\input{x}$'", r"`quote`: `\input` cannot be quoted"),
+        (r"quote: x, erratum: {why: bad, right: '$\input{x}$'}", r"`right`: `\input` cannot be quoted"),
+        ("quote: x, erratum: {why: bad, right: [1, 2, 3]}", "`right`: it is no text"),
         ("states: M*a**2", "an entry needs `answer`: the key of the step that has this value"),
         ("answer: kinetic_energy", "an entry needs `states` or `latex`: the value"),
     ],
