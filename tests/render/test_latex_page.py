@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from sympy import symbols
+from sympy import Integer, symbols
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import column
@@ -100,9 +100,19 @@ def test_a_theorem_says_which_it_is_and_what_stands_for_it_later_in_the_document
 def test_a_page_may_end_in_the_middle_of_a_long_step() -> None:
     lines = tuple(ChainLine(T if i == 0 else None, "equals", a**i, (Text("why"),)) for i in range(8))
     rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", lines, 1),)))))
-    assert [row for row in rows if "row" not in row] == [
-        *[r"\samestep"] * 2, *[r"\inlongstep"] * 3, *[r"\samestep"] * 2
-    ]  # fmt: skip
+    assert [row for row in rows if "row" not in row] == [r"\samestep", *[r"\inlongstep"] * 6]
+
+
+def test_a_left_side_that_takes_two_rows_is_not_aligned_at_a_relation() -> None:
+    """The law above it then begins where the long sum does; an equation of one row is aligned as ever."""
+    long = sum((a**i * T for i in range(1, 40)), T)
+    line = ChainLine(long, "equals", Integer(0))
+    rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", (line,), 1),)))))
+    assert rows[0].startswith(r"\brokenrow")
+    assert [row for row in rows if row.startswith(r"\brokenrow")] == rows[:1]
+    short = ChainLine(T, "equals", Integer(0))
+    rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", (short,), 1),)))))
+    assert rows[0].startswith(r"\row")
 
 
 def test_the_margin_names_a_route_only_if_there_is_room_for_it() -> None:

@@ -147,7 +147,7 @@ class _Page:
         return passages_of(part.blocks)
 
     def display(self, display: Display) -> Tex:
-        """The rows of a chain; a page ends between steps, or far from both ends of a long one.
+        """The rows of a chain; a page ends between steps, or within one that has more than two rows.
 
         It does not end within a few equations of one row each: Euler's equations stand together.
         """
@@ -167,14 +167,16 @@ class _Page:
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = _rows(printed)
         set_rows = [self._row(lines, stop if lines is rows[-1] else "") for lines in rows]
-        breaks = [r"\inlongstep" if 2 < i < len(rows) - 2 else r"\samestep" for i in range(1, len(rows))]
+        breaks = [r"\inlongstep" if i > 1 else r"\samestep" for i in range(1, len(rows))]
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
         """Left side, right sides, punctuation, reason and number; a framed row has its left side within the frame."""
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
-        if first.frames_all:
+        if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
+            command, left, body = "brokenrow", _sides(first), ""
+        elif first.frames_all:
             command, body = "framedrow", f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines)
         elif len(lines) > 1:
             ((relation, begun),) = first.sides
