@@ -105,10 +105,14 @@ def test_the_contents_give_the_pages_on_which_the_problems_begin(solutions: PdfR
     assert "E Noether" in cover
 
 
-def test_a_problem_follows_the_one_before_on_its_page(solutions: PdfReader) -> None:
+def test_a_problem_follows_the_one_before_on_its_page(course: Path, solutions: PdfReader) -> None:
     assert page_of(solutions, "hw9.cube") == page_of(solutions, "hw9.cube.a") == 1
-    block = page_of(solutions, "hw9.block")
-    assert "Checked" in solutions.pages[block - 1].extract_text().partition("A uniform block")[0]
+    brief = [rendered_once(course, problem_id, "brief") for problem_id in problem_set(course, "hw9").problems]
+    target = course / "brief.pdf"
+    typeset(set_document(course, problem_set(course, "hw9"), brief), target, chosen_engine(None))
+    reader = PdfReader(target)
+    above = reader.pages[page_of(reader, "hw9.block") - 1].extract_text().partition("A uniform block")[0]
+    assert len(above.split()) > 40, "the end of the problem before it"
 
 
 def test_the_head_of_a_page_names_its_problem(solutions: PdfReader) -> None:
@@ -255,9 +259,9 @@ def test_the_sheet_has_the_questions_and_nothing_that_is_derived(course: Path, s
 def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path: Path) -> None:
     root = course_in(tmp_path, {"What torque must": "With <<spin>> from <<eq spin>>, what torque must"})
     solution = rendered_once(root, "hw9/block")
-    assert r"from \hyperlink{hw9.block.18}{(18)}, what torque" in solution.latex
+    assert r"from \hyperlink{hw9.block.17}{(17)}, what torque" in solution.latex
     assert r"from part (b), what torque" in solution.sheet
-    assert "With ω⃗ from (18), what torque" in solution.texts["text"]
+    assert "With ω⃗ from (17), what torque" in solution.texts["text"]
 
 
 def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:
@@ -276,7 +280,7 @@ def test_another_problem_is_referred_to_by_its_number_in_the_set(course: Path, s
 
 
 def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]) -> None:
-    assert "Part (c) has already given θ, equation (22)." in solved[1].texts["text"]
+    assert "Part (c) has already given θ, equation (21)." in solved[1].texts["text"]
 
 
 @pytest.mark.parametrize(
@@ -352,3 +356,9 @@ def test_an_empty_set_is_told_to_be_empty(tmp_path: Path) -> None:
     (root / "problems" / "hw9" / "set.yaml").write_text(f"{HEADING}problems: []\n", encoding="utf-8")
     with pytest.raises(Rejected, match="`problems` must be a list of names, but it is empty"):
         problem_set(root, "hw9")
+
+
+def test_the_closing_note_stands_once_in_a_set(solutions: PdfReader) -> None:
+    """At its end: each problem would say the same."""
+    pages = [page.extract_text() for page in solutions.pages]
+    assert [page.count("Checked.") for page in pages] == [0] * (len(pages) - 1) + [1]

@@ -184,3 +184,15 @@ def test_a_comparison_has_the_word_of_its_mark() -> None:
 def test_the_tangent_of_a_lag_is_told_as_such() -> None:
     assert told_rightly("linear_motion.lag", "damped", Judged(R, symbol=tan(theta)))
     assert not told_rightly("linear_motion.lag", "damped", Judged(R, symbol=theta))
+
+
+def test_the_given_number_fulfils_a_condition_just_where_it_is_said_to() -> None:
+    for given, word, right in ((3, "fulfilled", True), (1, "fulfilled", False), (1, "not_fulfilled", True)):
+        inputs = {"given": Relation(x, "=", Integer(given)), "condition": Relation(Integer(given), ">", Integer(2))}
+        facts = Judged(Relation(x, ">", Integer(2)), inputs, words={"seen": word})
+        assert told_rightly("numbers.value", "measured", facts) == right
+    other = {"given": Relation(x, "=", Integer(5)), "condition": Relation(Integer(3), ">", Integer(2))}
+    assert not told_rightly(
+        "numbers.value", "measured", Judged(Relation(x, ">", Integer(2)), other, words={"seen": "fulfilled"})
+    )
+    assert told_rightly("numbers.value", "measured", Judged(x, {}))

@@ -20,6 +20,7 @@ from derive.mechanics import (
     let,
     moment_of_inertia,
     put_in,
+    real_where,
     roots,
     stability,
     stable_where,
@@ -307,3 +308,12 @@ def test_at_the_border_the_upright_top_withstands_every_small_push(change: float
 
 def test_below_the_border_the_smallest_push_topples_it() -> None:
     assert greatest_tilt(1.8, (1e-3, 0)) > 0.5
+
+
+def test_two_rates_that_differ_need_more_than_that_they_are_real(top: SimpleNamespace) -> None:
+    slow = at(top, pi / 4).slow
+    with recorded(Run()):
+        real, different = (real_where(slow, S, f"condition_{apart}", distinct=apart) for apart in (False, True))
+    assert (real.value.mark, different.value.mark) == (">=", ">")
+    assert real.value.sides == different.value.sides
+    assert dict(different.step.words)["seen"] == "radicand"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from sympy import Symbol
@@ -9,6 +10,7 @@ from sympy import Symbol
 from derive.page.chain_lines import ChainLine, ChainWriter, Equations
 from derive.page.repeats import results
 from derive.page.wording import Ref, phrases
+from derive.steps.step import Level, Step
 from tests.courses import ROOT, course_in, solved_once
 
 WORDS = phrases(ROOT / "templates")
@@ -51,3 +53,29 @@ def test_decimals_are_the_result_with_what_they_are_of(tmp_path: Path) -> None:
     exact, numeric = ChainLine(None, "equals", x), ChainLine(None, "approx", y, numeric=True)
     assert results(step, (exact,)) == 1
     assert results(step, (exact, exact, numeric)) == 2
+
+
+def test_a_reason_names_the_entries_of_a_vector_that_is_not_shown_but_only_those_it_uses(tmp_path: Path) -> None:
+    _, solved = solved_once(course_in(tmp_path, problem="cone"), "hw9/cone")
+    keys = {step.symbol: step.key for step in solved.derivation.steps if step.rule == "bodies.centre_component"}
+    (component, *_) = keys.values()
+    across, along = (solved.derivation.step(f"inertia_tensor_{axis}") for axis in ("xx", "zz"))
+    numbers = {"apex_tensor_xx": 1, "apex_tensor_zz": 2, component: 3}
+    writer = ChainWriter(solved.derivation, solved.values, WORDS, {}, numbers)
+
+    def named(step: Step) -> set[str]:
+        return {node.key for line in writer.of(step) for node in line.reason if isinstance(node, Ref)}
+
+    assert named(across) == {"apex_tensor_xx", component}
+    assert component not in named(along), "the axis is the same: no distance occurs"
+
+
+def test_a_reason_may_name_the_equation_of_a_role(tmp_path: Path) -> None:
+    """What is put into (I_zz - I_yy) omega_y omega_z are the tensor and the angular velocity, not L."""
+    _, solved = solved_once(course_in(tmp_path, problem="centred"), "hw9/centred")
+    numbers = {"inertia_tensor": 1, "spin": 2, "angular_momentum": 3}
+    writer = ChainWriter(solved.derivation, solved.values, WORDS, {}, numbers)
+    torque = solved.derivation.step("torque")
+    standard = replace(torque, chain=tuple(form for form in torque.chain if Level.STANDARD.shows(form.level)))
+    last = [line.reason for line in writer.of(standard) if line.reason][-1]
+    assert [node.key for node in last if isinstance(node, Ref)] == ["inertia_tensor", "spin"]

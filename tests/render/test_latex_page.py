@@ -68,7 +68,7 @@ def test_the_strategy_stands_between_the_statement_and_the_first_part() -> None:
 def test_limiting_cases_stand_behind_the_parts_without_a_letter_of_their_own() -> None:
     tex = solution(WHOLE)
     heading = tex.index(r"\closinghead{Limiting cases}")
-    assert tex.index(r"\ask{a}") < heading < tex.index("A light one flies.") < tex.index(r"\closing{")
+    assert tex.index(r"\ask{a}") < heading < tex.index("A light one flies.") < tex.index(r"\closingof{")
     assert r"\closinghead" not in solution(page()) and "flies" not in str(fragments(WHOLE).sheet)
 
 
@@ -94,7 +94,7 @@ def test_a_page_does_not_part_a_few_equations_of_one_row_each() -> None:
 
 def test_a_theorem_says_which_it_is_and_what_stands_for_it_later_in_the_document() -> None:
     told = ToldOnce("inertia", (Text("Bodies persist."),), (Text("See "), ToldIn("Problem")))
-    assert r"\theorem{inertia}{Bodies persist.}{See \toldproblem{Problem}}" in solution(page(Paragraph((told,))))
+    assert r"\theorem{inertia}{Bodies persist.\par}{See \toldproblem{Problem}\ }" in solution(page(Paragraph((told,))))
 
 
 def test_a_page_may_end_in_the_middle_of_a_long_step() -> None:
@@ -193,3 +193,9 @@ def test_a_whole_document_has_the_facts_that_its_template_asks_for(tmp_path: Pat
             return "50%"
 
     assert whole_latex(tmp_path, "own.tex.j2", {"name": "A_B", "page": Titled()}) == r"A{\_}B of 50{\%}"
+
+
+def test_a_theorem_ends_its_paragraph_where_it_is_told_and_begins_one_where_it_is_told_again() -> None:
+    told = ToldOnce("levers", (Text("Levers balance."),), (Text("For levers see above."),))
+    tex = solution(page(Paragraph((told, Text("So this one does.")))))
+    assert r"\theorem{levers}{Levers balance.\par}{For levers see above.\ }So this one does." in tex

@@ -110,3 +110,14 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
     assert only.left == Notation().layout(x) and len(only.sides) == 2
     others = (ChainLine(x, "equals", y), ChainLine(z, "equals", y))
     assert len(printed_lines(Equations("key", others, 1), Notation())) == 2
+
+
+def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
+    """The number alone is no answer to what a letter must exceed."""
+    S, (a, b, c) = Symbol("S"), LETTERS[:3]
+    for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
+        chain = (ChainLine(S, relation, a * b), ChainLine(None, "approx", c, numeric=True))
+        (line,) = printed_lines(Equations("S", chain, 7, 1), NOTATION)
+        assert line.frames_all == whole
+        (plain,) = printed_lines(Equations("S", chain, 7), NOTATION)
+        assert plain.framed == 0

@@ -9,7 +9,7 @@ import pytest
 
 from derive.course.names import EvidenceShown
 from derive.page.document import Document, Paragraph
-from derive.page.wording import Math, Ref, Text
+from derive.page.wording import Math, Ref, Text, ToldOnce
 from derive.render.notation.text import columns
 from derive.render.printing.text_page import PAGE_COLUMNS, inline_text, page_text
 from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, a, display, page
@@ -96,3 +96,11 @@ def test_the_margin_of_a_typeset_page_stands_below_a_display_of_text() -> None:
     pages = {each: "\n".join(shown(replace(WHOLE, evidence=each))) for each in EvidenceShown}
     assert "[proved; second route: by halves]" in pages[EvidenceShown.MARGIN]
     assert all("by halves" not in pages[evidence] for evidence in (EvidenceShown.NONE, EvidenceShown.END))
+
+
+def test_a_theorem_has_a_paragraph_of_its_own() -> None:
+    told = ToldOnce("levers", (Text("Levers balance."),), (Text("For levers see above."),))
+    lines = shown(page(Paragraph((told, Text("So this one does.")))))
+    at = lines.index("Levers balance.")
+    assert lines[at + 1 : at + 3] == ["", "So this one does."]
+    assert not any("see above" in line for line in lines), "a page of text is a document of one problem"

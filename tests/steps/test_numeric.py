@@ -170,3 +170,22 @@ def test_any_number_put_in_agrees_with_plain_arithmetic(number: int, power: int,
     found = valued("energy_about_axis", "J", figures=figures, amounts={**AMOUNTS, a: Amount(side, "m", ONE)})
     plain = 7 / 24 * 3 * float(side) ** 2 * (30 * 3.141592653589793) ** 2
     assert abs(float(printed(found).split()[0]) / plain - 1) < 0.51 * 10.0 ** (1 - figures) + 1e-12
+
+
+@pytest.mark.parametrize(("width", "word"), [(41, "fulfilled"), (40, "not_fulfilled"), (39, "not_fulfilled")])
+def test_of_a_condition_it_is_told_whether_the_given_number_fulfils_it(width: int, word: str) -> None:
+    condition = establish(
+        "test.condition", None, lambda: Relation(c, ">", 2 * a), {}, definition=True, lines=Lines(arranged=lambda r: r)
+    )
+    amounts = {a: Amount(Integer(20), "cm", CENTI), c: Amount(Integer(width), "cm", CENTI)}
+    found = value_of(condition, amounts, "m", ONE, 4, more=[("cm", CENTI)])
+    assert found is not None
+    told = dict(found.step.roles)["given"]
+    assert (told.left, printed_amount(told.right)) == (c, f"{width} cm")
+    assert dict(found.step.words)["seen"] == word
+    alone = value_of(condition, {a: amounts[a]}, "m", ONE, 4)
+    assert alone is not None and "given" not in dict(alone.step.roles), "the letter has no number"
+
+
+def printed_amount(amount: Amount) -> str:
+    return f"{amount.args[0]} {amount.args[1].name}"
