@@ -10,7 +10,7 @@ from sympy import Expr, Integer, Rational, pi, sin, sqrt, symbols
 from derive.algebra.equality import Compared, Grade
 from derive.algebra.expressions import Amount, Relation
 from derive.errors import Rejected
-from derive.mechanics import let, where
+from derive.mechanics import let, limiting_case, where
 from derive.steps.numeric import comparison_of
 from derive.steps.step import Quantity
 
@@ -149,3 +149,10 @@ def test_a_condition_with_letters_left_or_without_any_is_not_compared() -> None:
     assert comparison_of(where(quantity(Rational(1, 2)), ">", 0, R), amounts) is None
     assert comparison_of(where(quantity(R - R), ">", 0, R), amounts) is None
     assert comparison_of(quantity(R), amounts) is None
+
+
+def test_the_limit_of_a_bound_tells_the_bound_and_that_of_an_equation_none() -> None:
+    bounded = limiting_case(where(quantity(R - a * b), ">", 0, R, key="wide"), a)
+    assert dict(bounded.step.roles)["bound"] == a * b
+    equation = limiting_case(where(quantity(R - a * b), "=", 0, R, key="exact"), a)
+    assert "bound" not in dict(equation.step.roles)
