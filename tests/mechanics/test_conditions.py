@@ -152,7 +152,7 @@ def test_a_condition_with_letters_left_or_without_any_is_not_compared() -> None:
 
 
 def test_the_limit_of_a_bound_tells_the_bound_and_that_of_an_equation_none() -> None:
-    bounded = limiting_case(where(quantity(R - a * b), ">", 0, R, key="wide"), a)
+    bounded = limiting_case(where(quantity(R - a * b), ">=", 0, R, key="wide"), a)
     assert dict(bounded.step.roles)["bound"] == a * b
     equation = limiting_case(where(quantity(R - a * b), "=", 0, R, key="exact"), a)
     assert "bound" not in dict(equation.step.roles)
