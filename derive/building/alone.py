@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from derive.building.sets import set_folder
+from derive.building.named import set_folder
 from derive.building.tex import chosen_engine, typeset
 from derive.building.workers import Job, done
 from derive.course.names import REPORT

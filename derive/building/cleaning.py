@@ -8,7 +8,8 @@ from functools import partial
 from pathlib import Path
 
 from derive.building.files import writing
-from derive.building.sets import CACHE, alone, set_names
+from derive.building.named import set_names
+from derive.building.sets import CACHE, alone
 from derive.errors import Complaint, Misused, did_you_mean
 
 

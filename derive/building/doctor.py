@@ -10,7 +10,7 @@ from pathlib import Path
 
 from derive.building.cache import PACKAGES, package_version
 from derive.building.files import shown_path
-from derive.building.sets import set_names
+from derive.building.named import set_names
 from derive.building.tex import chosen_engine, engines, typeset
 from derive.errors import DeriveError
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from derive.building import sealed
 from derive.building.cache import digest, file_digest
-from derive.course.names import DOCUMENTS
+from derive.course.names import DOCUMENTS, INDEX
 from derive.render.formats import formats
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
@@ -72,7 +72,7 @@ class Manifest:
             self.complete
             and all(read(path) == content for path, content in self.set_inputs.items())
             and all(self.pages.get(name) == self.page_key(name, recipe, read) for name in self.problems)
-            and all(self.holds(name) for part in [*self.problems, *DOCUMENTS] for name in self.outputs_of(part))
+            and all(self.holds(name) for part in [*self.problems, *DOCUMENTS, INDEX] for name in self.outputs_of(part))
         )
 
     def outputs_of(self, problem: str) -> list[str]:
@@ -109,10 +109,18 @@ def _is_record(recorded: Any) -> bool:
 def _is_plain(output: str) -> bool:
     """Whether it is the name of a file that a build may have written."""
     parts = _PLAIN_NAME.fullmatch(output)
-    return parts is not None and parts[1] in {"pdf", "svg", "tex", *(form.suffix for form in formats().values())}
+    return parts is not None and parts[1] in {
+        "html",
+        "pdf",
+        "svg",
+        "tex",
+        *(form.suffix for form in formats().values()),
+    }
 
 
 def outputs_of(name: str) -> list[str]:
     """The outputs of a problem, or of a document of the whole set."""
-    own = [] if name in DOCUMENTS else [form.suffix for form in formats().values()]
+    if name == INDEX:
+        return [f"{name}.html"]
+    own = [] if name in DOCUMENTS else ["html", *(form.suffix for form in formats().values())]
     return [f"{name}.{suffix}" for suffix in ("pdf", "tex", *own)]

@@ -1,21 +1,26 @@
-"""Whole documents from solved problems: one solution, the solutions of a set, its sheet for students, its report."""
+"""Whole documents from solved problems: one solution, the solutions of a set, its sheet for students, its report, and
+the pages of a set for a browser."""
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from derive.course.names import DOCUMENTS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
 from derive.render.printing.latex_page import dotted, whole_latex
+from derive.render.printing.templates import HTML, filled_html
 from derive.render.rendered import Rendered, Tex
 from derive.steps.level import Level
 
+FONT = "math.woff2"  # of formulas, see tools/webfont.py
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "checks", "agree", "agree_to_figures", "errata", "remarks",
@@ -34,6 +39,10 @@ class Listed:
         return Tex(self.problem.id)
 
     @property
+    def name(self) -> str:
+        return self.problem.id.rpartition("/")[2]
+
+    @property
     def anchor(self) -> Tex:
         return Tex(dotted(self.problem.id))
 
@@ -44,8 +53,7 @@ class Listed:
 
 def problem_document(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     """A complete .tex of one problem, numbered as in its set."""
-    number = heading.numbers.get(problem.id.rpartition("/")[2], "")
-    return _document(root, "document.tex.j2", heading, [Listed(str(number), problem)])
+    return _document(root, "document.tex.j2", heading, [_alone(problem, heading)])
 
 
 def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
@@ -65,13 +73,40 @@ def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered
     return _document(root, "report.tex.j2", heading, listed)
 
 
+def problem_page(root: Path, problem: Rendered, heading: ProblemSet) -> str:
+    """The page of one problem for a browser: one file, with all that it shows."""
+    return _page(root, "solution.html.j2", heading, [_alone(problem, heading)])
+
+
+def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
+    """The page of a set: its problems, and its documents to print."""
+    return _page(root, "index.html.j2", heading, _listed(problems))
+
+
+def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
+    folder = template_folder(root)
+    font = b64encode((folder / HTML / FONT).read_bytes()).decode()
+    return filled_html(folder, template, {**_facts(root, heading, problems), "font": font, "documents": DOCUMENTS})
+
+
+def _alone(problem: Rendered, heading: ProblemSet) -> Listed:
+    """A problem with its number in the set, if that lists it."""
+    return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
+
+
 def _listed(problems: Sequence[Rendered]) -> list[Listed]:
     return [Listed(str(number), problem) for number, problem in enumerate(problems, 1)]
 
 
 def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
+    facts = _facts(root, heading, problems)
+    return whole_latex(template_folder(root), template, facts)
+
+
+def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
+    """What a template of a whole document may ask for."""
     words: Phrases = phrases(template_folder(root))
-    facts: dict[str, Any] = {
+    return {
         "set_id": Tex(heading.id),
         "heading": heading,
         "problems": problems,
@@ -83,7 +118,6 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
         "labels": words.labels,
         "grades": words.grades,
     }
-    return whole_latex(template_folder(root), template, facts)
 
 
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:

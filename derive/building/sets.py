@@ -22,11 +22,12 @@ from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, 
 from derive.building.files import folder, shown_path, write, writing
 from derive.building.loaded import load
 from derive.building.manifest import Manifest, outputs_of
+from derive.building.named import check_asked, set_folder
 from derive.building.preamble import at_hand, beginning
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
-from derive.course.names import DOCUMENTS, NAME, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import DOCUMENTS, INDEX, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.render.formats import formats
 from derive.render.rendered import Files, Rendered
@@ -35,27 +36,6 @@ if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
 CACHE = ".derived"  # where a set keeps what its builds did
-# What the Makefile has other rules for, as targets or as folders.
-TARGETS = frozenset(
-    [
-        "all",
-        "always",
-        "bench",
-        "build",
-        "check",
-        "clean",
-        "derive",
-        "help",
-        "mutants",
-        "problems",
-        "schemas",
-        "templates",
-        "test",
-        "tests",
-        "tools",
-    ]
-)
-
 FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs, before and behind the derivations
 
 
@@ -102,54 +82,12 @@ class Report:
         return bool(self.complaints or self.bugs)
 
 
-def set_folder(root: Path, set_id: str) -> Path:
-    return root / "build" / set_id
-
-
-def set_names(root: Path) -> list[str]:
-    """The sets below the root, without reading them; not those whose folders have a name that no set can have."""
-    folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
-    return [name for name in folders if not wrong_set_name(name)]
-
-
-def wrong_set_name(name: str) -> str:
-    """Why a set cannot be called so; empty if it can."""
-    if not NAME.fullmatch(name):
-        return "the name of a set has letters, digits, `-` and `_` only"
-    return "`make` has a target of that name" if name in TARGETS else ""
-
-
-def misnamed_sets(root: Path) -> list[Complaint]:
-    """A warning about each folder that has a set.yaml, but a name that no set can have."""
-    folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
-    return [
-        Complaint("set-name", f"the set {name!r} is left out: {why}", help="rename its folder", severity="warning")
-        for name in folders
-        if (why := wrong_set_name(name))
-    ]
-
-
-def check_asked(root: Path, set_id: str, options: Options) -> Engine:
-    """The engine of a build that can be asked for: of a set, and of problems, that there are."""
-    engine = chosen_engine(options.engine)
-    if set_id not in set_names(root):
-        from derive.course.problem_set import problem_set
-
-        if (root / "problems" / set_id / "set.yaml").is_file() and (why := wrong_set_name(set_id)):
-            raise Misused(Complaint("set-name", f"a set cannot be called {set_id!r}: {why}", help="rename its folder"))
-        problem_set(root, set_id)  # which says so, with the nearest name
-    for name in options.only:
-        from derive.course.problem_set import path_of
-
-        path_of(root, f"{set_id}/{name}")
-    return engine
-
-
 def built_set(
     root: Path, set_id: str, options: Options, tell: Callable[[str], None], edits: Edits | None = None
 ) -> Report:
     """Build one set. `tell` shows what is under way to someone who waits; with `edits` it may raise `Superseded`."""
-    engine = check_asked(root, set_id, options)
+    engine = chosen_engine(options.engine)
+    check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
     with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
         return _Build(root, set_id, options, engine, outputs, tell, edits).report()
@@ -357,10 +295,11 @@ class _Build:
         return "edited during the build" if edited else self._digest(path)
 
     def _document(self, name: str) -> None:
-        from derive.building.set_document import problem_document
+        from derive.building.set_document import problem_document, problem_page
 
         derived = self.derived[name]
         texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in formats().values()}
+        self._page(name, lambda: problem_page(self.root, derived, self.heading))
         if self._record(dict(derived.files)):
             rank = FIRST if self.edits else LAST
             self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, rank)
@@ -369,14 +308,22 @@ class _Build:
         """The documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.set_document import report_document, set_document, sheet_document
+        from derive.building.set_document import index_page, report_document, set_document, sheet_document
 
         parts = [self.derived[name] for name in self.names]
+        self._page(INDEX, lambda: index_page(self.root, self.heading, parts))
         files = tuple(file for part in parts for file in part.files)
         numbers = Kept(self.cache, digest("numbers", SOLUTIONS, self.engine.identity))  # one run is enough next time
         self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, FIRST, numbers)
         self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files, LAST)
         self._typeset(REPORT, lambda: report_document(self.root, self.heading, parts), {}, (), LAST)
+
+    def _page(self, name: str, page: Callable[[], str]) -> None:
+        """A page for a browser, which waits for no TeX."""
+        try:
+            self._record({f"{name}.html": page()})
+        except DeriveError as error:
+            self.result.complaints += error.complaints
 
     def _typeset(
         self,
@@ -441,7 +388,7 @@ class _Build:
 
     def _stamp(self) -> None:
         """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
-        names = [output for name in [*self.names, *DOCUMENTS] for output in self.manifest.outputs_of(name)]
+        names = [output for name in [*self.names, *DOCUMENTS, INDEX] for output in self.manifest.outputs_of(name)]
         outputs = [f"build/{self.set_id}/{name}" for name in names]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         write(self.outputs / ".outputs", "\n".join([options, *outputs, ""]))

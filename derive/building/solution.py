@@ -32,11 +32,12 @@ from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
 from derive.page.template import template_folder
 from derive.page.wording import phrases
-from derive.render.formats import TYPESET, Solution, formats
+from derive.render.formats import HTML, TYPESET, Solution, formats
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import in_one_line
+from derive.render.printing.html_page import NO_HTML, problem_html
 from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered, SourceFault
@@ -86,8 +87,10 @@ def rendered(
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = Notation(document.dimensions, flat=level is Level.BRIEF)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
-    wanted = {*formats(), *TYPESET} if only is None else {*only}
+    wanted = {*formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
+    files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()
+    page = problem_html(document, words, notation, template_folder(root), files) if HTML in wanted else NO_HTML
     fragments = problem_latex(document, words, notation, template_folder(root)) if typeset else NOT_TYPESET
     return Rendered(
         id=problem_id,
@@ -98,6 +101,8 @@ def rendered(
         title_latex=fragments.title,
         sheet=fragments.sheet,
         report=fragments.report,
+        html=page.solution,
+        title_html=page.title,
         texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
         warnings=(*(w for w in document.warnings if w not in of_nobody), *failures),
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
@@ -107,7 +112,7 @@ def rendered(
         compared=len(solved.compared),
         agreed=not failures,
         source_faults=_source_faults(solved.compared, notation),
-        files=drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else (),
+        files=files,
     )
 
 

@@ -16,7 +16,9 @@ from pathlib import Path
 from derive import FOLDER
 from derive.building.cache import folder_digest
 from derive.building.loaded import load
-from derive.building.sets import Edits, Options, Report, Superseded, built_set, check_asked
+from derive.building.named import check_asked
+from derive.building.sets import Edits, Options, Report, Superseded, built_set
+from derive.building.tex import chosen_engine
 from derive.errors import BuildFailed, Complaint, DeriveError
 
 __all__ = ["Shown", "watch"]
@@ -45,8 +47,9 @@ class Shown:
 
 def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown) -> None:
     """Build these problems of these sets, all of a set where none is named, and again at each edit; it has no end."""
+    chosen_engine(options.engine)  # or what is wrong with it, before anything is built
     for set_id, names in asked.items():
-        check_asked(root, set_id, replace(options, only=names))
+        check_asked(root, set_id, names)
     watching = _Watch(root, asked, options, shown)
     while True:
         watching.build()

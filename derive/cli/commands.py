@@ -177,7 +177,7 @@ def _does_not_read(error: DeriveError) -> tuple[str, str]:
 
 
 def _warn_of_names(root: Path) -> None:
-    from derive.building.sets import misnamed_sets
+    from derive.building.named import misnamed_sets
 
     complain(misnamed_sets(root))
 
@@ -225,7 +225,7 @@ def _explain(arguments: argparse.Namespace) -> int:
 
 def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
     from derive.building.alone import typeset_alone
-    from derive.building.sets import set_folder
+    from derive.building.named import set_folder
 
     set_id, _, name = problem_id.partition("/")
     suffix = f"-{arguments.detail}" if arguments.detail else ""
@@ -256,7 +256,7 @@ def _waiting(text: str) -> Iterator[None]:
 def _check(arguments: argparse.Namespace) -> int:
     from derive.building.alone import reports
     from derive.building.loaded import load
-    from derive.building.sets import set_names
+    from derive.building.named import set_names
     from derive.building.solution import rendered
     from derive.building.workers import Crew, job_of
     from derive.course.problem_set import ids_in_order
@@ -312,7 +312,8 @@ def _verdict_code(outcome: Outcome) -> int:
 
 
 def _build(arguments: argparse.Namespace) -> int:
-    from derive.building.sets import Options, built_set, set_names
+    from derive.building.named import set_names
+    from derive.building.sets import Options, built_set
 
     root = _root(arguments)
     if not arguments.sets:

@@ -10,6 +10,7 @@ from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 SOLUTIONS, SHEET, REPORT = DOCUMENTS = ("solutions", "problems", "report")
+INDEX = "index"  # the page of a set for a browser
 
 
 class EvidenceShown(StrEnum):

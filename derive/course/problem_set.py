@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, NAME, EvidenceShown
+from derive.course.names import DOCUMENTS, INDEX, NAME, EvidenceShown
 from derive.course.schema import TEXT, Record, as_written, key, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
@@ -142,7 +142,7 @@ def _listed(node: Tree | None, set_id: str, known: List[str], faults: Faults) ->
     for item in node.items:
         if not isinstance(item, Scalar) or item.empty:
             wrong_type(faults, "a problem of the set", "a name", item)
-        elif item.text in DOCUMENTS:
+        elif item.text in (*DOCUMENTS, INDEX):
             message = f"a problem cannot be called `{item.text}`, for a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item.text not in names:

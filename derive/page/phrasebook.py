@@ -32,6 +32,8 @@ _SHAPE: dict[str, Any] = {
         "points": [_TEXT],
         "rules": _TABLE,
         "explain": _TABLE,
+        "documents": _TABLE,
+        "web": _TABLE,
         "explain_headings": [_TEXT],
         "explain_columns": [_TEXT],
         "report_page": {_ANY: _TEXT, "intro": [_TEXT], "columns": {_ANY: [_TEXT]}, "row": [_TEXT]},

@@ -16,6 +16,10 @@ Files = tuple[tuple[str, bytes], ...]
 SourceFault = tuple[str, str, str, str, str]
 
 
+class Html(str):
+    """HTML that may stand on a page as it is. Whatever else a template prints is text, and is escaped."""
+
+
 class Tex(str):
     """TeX that may stand on a page as it is. Whatever else a template prints is text, and is escaped."""
 
@@ -26,6 +30,7 @@ class Rendered:
 
     texts                   its page by the name of each format
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
+    html, title_html        the solution and its title, for a page in a browser
     counts                  the numbers of how it was checked, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
     source_faults           errata of the source and remarks on it: which of them, line, what is printed,
@@ -41,6 +46,8 @@ class Rendered:
     title_latex: Tex
     sheet: Tex
     report: Tex
+    html: Html
+    title_html: Html
     warnings: tuple[Complaint, ...]
     inputs: tuple[str, ...]
     grades: dict[str, int]
@@ -69,6 +76,8 @@ class Rendered:
                 title_latex=Tex(_text(data["title_latex"])),
                 sheet=Tex(_text(data["sheet"])),
                 report=Tex(_text(data["report"])),
+                html=Html(_text(data["html"])),
+                title_html=Html(_text(data["title_html"])),
                 warnings=tuple(_complaint(warning) for warning in data["warnings"]),
                 inputs=tuple(_text(path) for path in data["inputs"]),
                 grades=_counts(data["grades"]),

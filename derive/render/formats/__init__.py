@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from derive.steps.derivation import Derivation
     from derive.steps.step import Step
 
-TYPESET = ("latex", "pdf")  # a document, made of a page and of what its set says; a format is made of a page alone
+# Documents, made of a page and of what its set says; a format is made of a page alone.
+TYPESET, HTML = ("latex", "pdf"), "html"
 
 
 @dataclass(frozen=True)

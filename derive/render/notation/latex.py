@@ -7,6 +7,7 @@ from functools import cache
 
 from pylatexenc.latexencode import UnicodeToLatexEncoder
 
+from derive.algebra.dimensions import Dimension
 from derive.errors import Complaint, Rejected
 from derive.render.notation.layout import (
     DEGREE_SIGN,
@@ -289,6 +290,12 @@ def _subscript(name: Name) -> str:
 def unit_latex(text: str) -> str:
     """A unit in mathematics, upright: kg m^2/s."""
     return rf"\mathrm{{{_unit(text)}}}"
+
+
+def dimension_latex(dimension: Dimension) -> str:
+    """A dimension, upright: M L^2."""
+    parts = [letter if n == 1 else f"{letter}^{{{n}}}" for letter, n in dimension.powers.items() if n]
+    return rf"\mathsf{{{chr(32).join(parts)}}}" if parts else "1"
 
 
 def _unit(text: str) -> str:

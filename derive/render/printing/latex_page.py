@@ -9,12 +9,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from derive.algebra.dimensions import Dimension
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.document import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
-from derive.render.notation.latex import TEX_OPERATORS, escaped, latex, unit_latex
+from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.lines import Printed, printed_lines
@@ -119,7 +118,7 @@ class _Page:
                 inner = latex(self.notation.result(expr), inline=True)
                 return f"${inner}$"
             case DimensionMark(dimension):
-                return f"${_dimension(dimension)}$"
+                return f"${dimension_latex(dimension)}$"
             case UnitMark(text):
                 return f"${unit_latex(text)}$"
             case Ref(key):
@@ -317,8 +316,3 @@ def _note_height(route: str) -> float:
 
 def _anchor(problem_id: str, number: int) -> str:
     return f"{dotted(problem_id)}.{number}"
-
-
-def _dimension(dimension: Dimension) -> str:
-    parts = [letter if n == 1 else f"{letter}^{{{n}}}" for letter, n in dimension.powers.items() if n]
-    return rf"\mathsf{{{chr(32).join(parts)}}}" if parts else "1"

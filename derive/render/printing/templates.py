@@ -1,11 +1,12 @@
-"""The templates of `templates/latex` filled: what is not TeX of ours is escaped, and a fault is told at its line."""
+"""The templates of TeX and of HTML filled: what is not ours is escaped, and a fault is told at its line."""
 
 from __future__ import annotations
 
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import cache
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -15,18 +16,30 @@ from derive import FOLDER
 from derive.errors import Complaint, DeriveError, Place, Rejected
 from derive.page.template import environment
 from derive.render.notation.latex import escaped
-from derive.render.rendered import Tex
+from derive.render.rendered import Html, Tex
+
+LATEX, HTML = "latex", "html"  # folders of templates; what is printed in one is of its own kind, or is escaped for it
+ESCAPED: Mapping[str, tuple[type[str], Callable[[str], str]]] = {LATEX: (Tex, escaped), HTML: (Html, escape)}
 
 
 def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
     """A template of the folder `latex`; what is wrong with it is told at its own line."""
+    return Tex(_filled(folder, LATEX, template, facts))
+
+
+def filled_html(folder: Path, template: str, facts: Mapping[str, Any]) -> Html:
+    """A template of the folder `html`."""
+    return Html(_filled(folder, HTML, template, facts))
+
+
+def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) -> str:
     try:
-        return Tex(_environment(folder).get_template(template).render(facts))
+        return _environment(folder, kind).get_template(template).render(facts)
     except TemplateNotFound as error:
         message = f"there is no template `{error.name}`"
-        raise Rejected(Complaint("template", message, help=f"it belongs in `{_shown(folder / 'latex')}`")) from error
+        raise Rejected(Complaint("template", message, help=f"it belongs in `{_shown(folder / kind)}`")) from error
     except TemplateSyntaxError as error:
-        file = folder / "latex" / (error.name or template)
+        file = folder / kind / (error.name or template)
         complaint = Complaint("template", f"the template cannot be read: {_said(error)}", _line(file, error.lineno))
         raise Rejected(complaint) from error
     except (OSError, UnicodeError) as error:
@@ -34,7 +47,7 @@ def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Te
     except DeriveError:
         raise
     except Exception as error:
-        place = _failing_line(error, folder)
+        place = _failing_line(error, folder / kind)
         if place is None:
             raise
         raise Rejected(Complaint("template", f"the template fails: {_said(error)}", place)) from error
@@ -45,21 +58,21 @@ def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
         if found:
-            return Tex(_environment(folder).from_string(above).render(facts))
+            return Tex(_environment(folder, LATEX).from_string(above).render(facts))
     return Tex("")
 
 
 def compile_templates(folder: Path) -> None:
     """Have them compiled, for the processes that fill them; what is wrong with one is told where it is filled."""
-    loaded = _environment(folder)
-    for name in loaded.list_templates(["j2"]):
-        with suppress(TemplateError, OSError, UnicodeError):
-            loaded.get_template(name)
+    for loaded in (_environment(folder, kind) for kind in ESCAPED):
+        for name in loaded.list_templates(["j2"]):
+            with suppress(TemplateError, OSError, UnicodeError):
+                loaded.get_template(name)
 
 
 def _failing_line(error: Exception, folder: Path) -> Place | None:
     """The line of a template that failed; nothing if the fault is in what it asked for, which is ours."""
-    files = {str(file): file for file in (folder / "latex").glob("*.j2")}
+    files = {str(file): file for file in folder.glob("*.j2")}
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
     below = frames[theirs[-1] + 1 :] if theirs else []
@@ -87,21 +100,23 @@ def _shown(file: Path) -> str:
 
 
 @cache
-def _environment(folder: Path) -> Environment:
-    of_tex = environment(
-        loader=FileSystemLoader(folder / "latex"),
+def _environment(folder: Path, kind: str) -> Environment:
+    ours, safe = ESCAPED[kind]
+
+    def printed(value: Any) -> Any:
+        """What a template prints, escaped unless it is of ours; what is not defined is left to complain."""
+        return value if isinstance(value, ours | Undefined) else ours(safe(str(value)))
+
+    made = environment(
+        loader=FileSystemLoader(folder / kind),
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=_as_tex,  # so that no template can forget it
+        finalize=printed,  # so that no template can forget it
     )
-    of_tex.filters["bookmark"] = bookmark_text
-    return of_tex
-
-
-def _as_tex(printed: Any) -> Any:
-    """What a template prints, escaped unless it is TeX of ours; what is not defined is left to complain."""
-    return printed if isinstance(printed, Tex | Undefined) else Tex(escaped(str(printed)))
+    if kind == LATEX:
+        made.filters["bookmark"] = bookmark_text
+    return made
 
 
 def bookmark_text(text: str) -> Tex:

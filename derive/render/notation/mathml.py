@@ -1,0 +1,37 @@
+"""Layout to MathML: what `latex` writes, as `math-core` reads it; browsers show it without a script.
+
+Decision 0024 compares the converters. What is not MathML Core, such as a frame, is left to the page's own style.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from html import unescape
+
+from math_core import LatexToMathML
+
+from derive.render.notation.latex import latex
+from derive.render.notation.layout import Layout
+from derive.render.rendered import Html
+
+
+def mathml(layout: Layout, *, inline: bool = False) -> Html:
+    """A formula of its own; inline, its fractions are small or have a stroke."""
+    return of_latex(latex(layout, inline=inline), inline=inline)
+
+
+@cache
+def of_latex(formula: str, inline: bool = False) -> Html:
+    """A formula that is LaTeX of ours; one that `latex` writes can always be read."""
+    converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
+    # A block is what its row is; a formula by itself stands within one.
+    converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
+    return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML has no name for that character
+
+
+APPLIED = "&ApplyFunction;"
+
+
+@cache
+def _converter() -> LatexToMathML:
+    return LatexToMathML(fancy_error=False)

@@ -1,0 +1,41 @@
+"""A display as LaTeX that every reader of mathematics knows: amsmath in one piece, without commands of our own."""
+
+from __future__ import annotations
+
+from derive.page.document import Display
+from derive.render.notation.latex import TEX_OPERATORS, latex
+from derive.render.notation.notation import Notation
+from derive.render.printing.lines import Printed, printed_lines
+
+
+def display_latex(display: Display, notation: Notation, numbered: bool = False) -> str:
+    """The rows below each other, their relations aligned; what answers a question is boxed."""
+    rows = [
+        _row(line, stop if line is printed[-1] else "", numbered)
+        for group, stop in zip(display.groups, display.stops, strict=True)
+        for printed in [printed_lines(group, notation)]
+        for line in printed
+    ]
+    return rows[0].replace("&", "", 1) if len(rows) == 1 else _aligned(rows)
+
+
+def _aligned(rows: list[str]) -> str:
+    return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+
+
+def _row(line: Printed, stop: str, numbered: bool) -> str:
+    left = latex(line.left) if line.left else ""
+    sides = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
+    end = stop + (rf"\qquad({line.number})" if numbered and line.number is not None else "")
+    if line.frames_all:
+        return rf"&\boxed{{{_spaced(left, *(part for side in sides for part in side))}}}{end}"
+    at = len(sides) - line.framed
+    plain = [part for side in sides[:at] for part in side]
+    if line.framed:
+        (sign, first), *others = sides[at:]
+        plain += [sign, rf"\boxed{{{_spaced(first, *(part for side in others for part in side))}}}"]
+    return f"{left} &{_spaced(*plain)}{end}".lstrip()
+
+
+def _spaced(*parts: str) -> str:
+    return " ".join(part for part in parts if part)

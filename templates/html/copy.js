@@ -1,0 +1,13 @@
+// Only a convenience: each display gets a button that copies it as LaTeX.
+for (const display of document.querySelectorAll(".display[data-tex]")) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.className = "copy";
+  button.textContent = "Copy LaTeX";
+  button.addEventListener("click", async () => {
+    await navigator.clipboard.writeText(display.dataset.tex);
+    button.textContent = "Copied";
+    setTimeout(() => { button.textContent = "Copy LaTeX"; }, 1500);
+  });
+  display.append(button);
+}
