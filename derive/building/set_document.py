@@ -17,7 +17,7 @@ from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.printing.templates import HTML, filled_html
-from derive.render.rendered import Rendered, Tex
+from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
 FONT = "math.woff2"  # of formulas, see tools/webfont.py
@@ -78,15 +78,26 @@ def problem_page(root: Path, problem: Rendered, heading: ProblemSet) -> str:
     return _page(root, "solution.html.j2", heading, [_alone(problem, heading)])
 
 
+def problem_main(root: Path, problem: Rendered, heading: ProblemSet) -> str:
+    """What the page of a problem has in its main part."""
+    return _page(root, "main.html.j2", heading, [_alone(problem, heading)])
+
+
+def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
+    """The page of a problem that is being written, around a main part as `problem_main` gives it."""
+    return _page(root, "live.html.j2", heading, [], name=name, main=Html(main))
+
+
 def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
     """The page of a set: its problems, and its documents to print."""
     return _page(root, "index.html.j2", heading, _listed(problems))
 
 
-def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
+def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:
     folder = template_folder(root)
     font = b64encode((folder / HTML / FONT).read_bytes()).decode()
-    return filled_html(folder, template, {**_facts(root, heading, problems), "font": font, "documents": DOCUMENTS})
+    facts = {**_facts(root, heading, problems), "font": font, "documents": DOCUMENTS, **more}
+    return filled_html(folder, template, facts)
 
 
 def _alone(problem: Rendered, heading: ProblemSet) -> Listed:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +86,7 @@ def rendered(
     )
     Faults(faults).stop()
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
-    notation = Notation(document.dimensions, flat=level is Level.BRIEF)
+    notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
     wanted = {*formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
@@ -119,9 +120,8 @@ def rendered(
 def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ...]]:
     """The steps, as they were kept or derived now, and what disagrees with the reference."""
     key = steps_key(problem)
-    kept = Solved.from_data(cache.recalled_data(key))
-    if kept is not None:
-        return kept, ()
+    with suppress(KeyError):
+        return _kept(cache, key), ()
     with calls_of(problem.id, cache) as memory:
         derivation, values, known, run = derived(problem, memory)
     compared = comparisons(problem, known)
@@ -131,6 +131,21 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
         with suppress(ValueError, RecursionError):  # what JSON cannot hold is derived again next time
             cache.keep_data(key, solved.to_data())
     return solved, failures
+
+
+@lru_cache(maxsize=4)  # for a process that is asked again
+def _kept(cache: Cache, key: str) -> Solved:
+    """What was kept under a key."""
+    kept = Solved.from_data(cache.recalled_data(key))
+    if kept is None:
+        raise KeyError(key)
+    return kept
+
+
+@lru_cache(maxsize=4)
+def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
+    """With all that it has laid out before."""
+    return Notation(dict(dimensions), flat=flat)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:

@@ -370,6 +370,31 @@ def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options)
     return 0
 
 
+def _preview(arguments: argparse.Namespace) -> int:
+    """A page served until somebody interrupts, which is its only end and no failure."""
+    from derive.preview.asking import Shown
+    from derive.preview.preview import preview
+
+    set_id, _, name = _problem_id(arguments.id).partition("/")
+
+    def ready(address: str) -> None:
+        print(f"{address} (Ctrl-C ends it)", flush=True)
+        if arguments.open:
+            import webbrowser
+
+            webbrowser.open(address)
+
+    def told(of: str, shown: Shown) -> None:
+        said = "shown" if shown.main else "not shown: "
+        print(
+            f"{set_id}/{of}: {said if shown.main else said + shown.complaints[0]} ({shown.seconds:.2f} s)", flush=True
+        )
+
+    with suppress(KeyboardInterrupt):
+        preview(_root(arguments), set_id, name, arguments.port, arguments.detail, arguments.time_limit, ready, told)
+    return 0
+
+
 def _reported(report: Report) -> int:
     from derive.building.files import shown_path
 
@@ -423,5 +448,6 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
     "build": _build,
     "clean": _clean,
+    "preview": _preview,
     "doctor": _doctor,
 }

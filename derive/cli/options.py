@@ -73,18 +73,24 @@ def _parser() -> argparse.ArgumentParser:
     how = build.add_mutually_exclusive_group()
     how.add_argument("--force", action="store_true", help="do everything again")
     how.add_argument("--watch", action="store_true", help="build again at each edit, until Ctrl-C")
+    preview = command("preview", "show a problem in the browser while you write it, until Ctrl-C")
+    preview.epilog = "example: derive preview hw9/block"
+    preview.add_argument("id", metavar="ID|SET", help="such as hw9/block")
+    preview.add_argument("--port", type=_port, default=8311, metavar="N", help="of this machine (default 8311; 0: any)")
+    preview.add_argument("--open", action="store_true", help="open the browser too")
     clean = command("clean", "remove what builds made; what you wrote stays")
     clean.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
     clean.add_argument("--cache", action="store_true", help="only what is kept for the next build; documents stay")
     doctor = command("doctor", "show what a build needs and what is missing")
-    for sub in (solve, build):
+    for sub in (solve, build, preview):
         sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
+    for sub in (solve, build):
         sub.add_argument(
             "--evidence", choices=EVIDENCE, help="how much to tell of the checks (default: as set.yaml says)"
         )
     for sub in (solve, check, build, doctor):
         sub.add_argument("--engine", metavar="NAME", help="tinytex (default), latexmk, pdflatex, lualatex or tectonic")
-    for sub in (solve, explain, check, build):
+    for sub in (solve, explain, check, build, preview):
         sub.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
     for sub in (check, build):
         sub.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
@@ -115,4 +121,14 @@ def _count(text: str) -> int:
     return int(text)
 
 
-_positive.__name__, _count.__name__ = "time limit", "count"  # argparse names the type in its message
+def _port(text: str) -> int:
+    if not 0 <= int(text) < 65536:
+        raise ValueError(text)
+    return int(text)
+
+
+_positive.__name__, _port.__name__, _count.__name__ = (
+    "time limit",
+    "port",
+    "count",
+)  # argparse names the type in its message

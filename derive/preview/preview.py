@@ -1,0 +1,72 @@
+"""A set served while it is edited: its files watched, its pages made anew, whoever looks at them told."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from derive.building.named import check_asked
+from derive.building.set_document import live_page
+from derive.course.problem_set import problem_set
+from derive.errors import DeriveError
+from derive.page.template import template_folder
+from derive.preview.asking import Shown, Warm
+from derive.preview.server import HOST, Pages, Server, server
+
+WRITTEN = (".yaml", ".py", ".j2", ".css", ".js")
+SETTLED = 20  # milliseconds without a further change after which an edit is taken to be whole
+
+
+def preview(
+    root: Path,
+    set_id: str,
+    name: str,
+    port: int,
+    detail: str | None,
+    limit: float,
+    ready: Callable[[str], None],
+    told: Callable[[str, Shown], None],
+) -> None:
+    """Serve the pages of a set until somebody interrupts; `ready` is told the address, `told` what was shown."""
+    check_asked(root, set_id, [name] if name else ())
+    heading = problem_set(root, set_id)
+    names = [each.rpartition("/")[2] for each in heading.problems]
+    first = name or names[0]
+    warm = Warm(root, limit)
+    pages = Pages(warm, set_id, {*names, first}, detail, told)
+
+    def whole(of: str, main: str) -> str:
+        nonlocal heading
+        with suppress(DeriveError):  # a heading with a fault stays as it was
+            heading = problem_set(root, set_id)
+        return live_page(root, heading, of, main)
+
+    with _serving(server(pages, whole, first, port)) as at:
+        try:
+            ready(f"http://{HOST}:{at}/{first}.html")
+            for _ in _edits(root, set_id):
+                pages.edited()
+        finally:
+            warm.end()
+
+
+@contextmanager
+def _serving(served: Server) -> Iterator[int]:
+    """In a thread, so that edits are noticed in this one; the port that it has."""
+    thread = threading.Thread(target=served.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
+    thread.start()
+    try:
+        yield served.server_address[1]
+    finally:
+        served.shutdown()
+        served.server_close()
+
+
+def _edits(root: Path, set_id: str) -> Iterator[object]:
+    """Each time that files of the set, its templates or its phrases were written."""
+    from watchfiles import watch
+
+    folders = [root / "problems" / set_id, template_folder(root)]
+    yield from watch(*folders, watch_filter=lambda _, path: path.endswith(WRITTEN), step=SETTLED, debounce=400)

@@ -1,0 +1,188 @@
+"""A server on this machine alone: the pages of one set, and what changes in them as it is edited.
+
+    /                 the page that was asked for first
+    /NAME.html        that of another problem of the set
+    /NAME/events      what its page is told: itself when it has changed, or what is wrong with it
+
+Nothing else is served, no file is read by its name, and only a browser of this machine that knows it by a local name is
+answered: so that no other page can have it read what is here.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import threading
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field
+from errno import EADDRINUSE
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+from derive.errors import BuildFailed, Complaint
+from derive.preview.asking import Shown, Warm
+
+HOST = "127.0.0.1"
+ALIVE = 15.0  # seconds after which a browser that was told nothing is told so, and one that has gone is noticed
+CACHED = "no-store"
+
+
+@dataclass
+class Pages:
+    """The pages of a set as they were last, and who waits for the next."""
+
+    warm: Warm
+    set_id: str
+    names: Collection[str]
+    detail: str | None = None
+    told: Callable[[str, Shown], None] = lambda name, shown: None
+    _last: dict[str, Shown] = field(default_factory=dict)
+    _good: dict[str, str] = field(default_factory=dict)  # the last main part of each that was without a fault
+    _edition: int = 0
+    _changed: threading.Condition = field(default_factory=threading.Condition)
+    _asking: threading.Lock = field(default_factory=threading.Lock)
+    _stale: set[str] = field(default_factory=set)
+
+    def now(self, name: str) -> Shown:
+        """A page as it is now, derived first if it was not yet asked for or a file has been edited."""
+        with self._asking:
+            if name not in self._last or name in self._stale:
+                self._renew(name)
+            return self._last[name]
+
+    def last_good(self, name: str) -> str:
+        return self._good.get(name, "")
+
+    def edited(self) -> None:
+        """Files have changed: what is looked at is made anew, what is not when it is looked at again."""
+        with self._changed:
+            self._edition += 1
+            self._stale = set(self._last)
+            self._changed.notify_all()
+
+    def next(self, name: str, seen: int, timeout: float) -> tuple[int, Shown | None]:
+        """What there is to show after the edition that was seen last; nothing if nothing changed in that time."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._edition > seen, timeout)
+            edition = self._edition
+        return (edition, self.now(name)) if edition > seen else (seen, None)
+
+    @property
+    def edition(self) -> int:
+        return self._edition
+
+    def _renew(self, name: str) -> None:
+        while True:
+            edition = self._edition
+            self._stale.discard(name)
+            shown = self.warm.page(f"{self.set_id}/{name}", self.detail, lambda at=edition: self._edition > at)
+            if shown is not None:
+                break
+        self._last[name] = shown
+        if shown.main:
+            self._good[name] = shown.main
+        self.told(name, shown)
+
+
+class Handler(BaseHTTPRequestHandler):
+    """Answers to one browser."""
+
+    pages: Pages
+    whole: Callable[[str, str], str]  # a page, by the name of its problem, around its main part
+    first: str
+    protocol_version = "HTTP/1.1"
+    server_version = "derive"
+
+    def do_GET(self) -> None:
+        if not self._is_local():
+            self._plain(HTTPStatus.FORBIDDEN, "only for this machine")
+            return
+        path = self.path.partition("?")[0]
+        page = re.fullmatch(r"/(?:([A-Za-z0-9][A-Za-z0-9_-]*)\.html)?", path)
+        events = re.fullmatch(r"/([A-Za-z0-9][A-Za-z0-9_-]*)/events", path)
+        name = (page and (page[1] or self.first)) or (events and events[1]) or ""
+        if page and page[1] == "index":
+            name = self.first
+        if name not in self.pages.names:
+            self._plain(HTTPStatus.NOT_FOUND, "no problem of this set is called so")
+        elif events:
+            self._events(name)
+        else:
+            self._page(name)
+
+    def _is_local(self) -> bool:
+        """A page of somewhere else that leads here by another name is not answered."""
+        host = (self.headers.get("Host") or "").rpartition(":")[0]
+        return host in (HOST, "localhost")
+
+    def _page(self, name: str) -> None:
+        main = self.pages.now(name).main or self.pages.last_good(name)
+        self._sent(HTTPStatus.OK, "text/html; charset=utf-8", type(self).whole(name, main).encode())
+
+    def _events(self, name: str) -> None:
+        """One message after another for as long as the browser listens."""
+        self.close_connection = True
+        self.send_response(HTTPStatus.OK)
+        for header, value in (
+            ("Content-Type", "text/event-stream"),
+            ("Cache-Control", CACHED),
+            ("Connection", "close"),
+        ):
+            self.send_header(header, value)
+        self.end_headers()
+        seen = self.pages.edition
+        try:
+            self._message(self.pages.now(name))
+            while True:
+                seen, shown = self.pages.next(name, seen, ALIVE)
+                if shown is not None:
+                    self._message(shown)
+                else:
+                    self._write(b": still here\n\n")
+        except (BrokenPipeError, ConnectionResetError):
+            return
+
+    def _message(self, shown: Shown) -> None:
+        said = {"main": shown.main, "complaints": shown.complaints, "seconds": round(shown.seconds, 2)}
+        self._write(f"data: {json.dumps(said)}\n\n".encode())
+
+    def _write(self, raw: bytes) -> None:
+        self.wfile.write(raw)
+        self.wfile.flush()
+
+    def _plain(self, status: HTTPStatus, text: str) -> None:
+        self._sent(status, "text/plain; charset=utf-8", f"{text}\n".encode())
+
+    def _sent(self, status: HTTPStatus, kind: str, content: bytes) -> None:
+        self.send_response(status)
+        for header, value in (
+            ("Content-Type", kind),
+            ("Content-Length", str(len(content))),
+            ("Cache-Control", CACHED),
+            ("X-Content-Type-Options", "nosniff"),
+        ):
+            self.send_header(header, value)
+        self.end_headers()
+        self.wfile.write(content)
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Nobody reads who asked for what."""
+
+
+class Server(ThreadingHTTPServer):
+    """Threads of browsers end with the program."""
+
+    daemon_threads = True
+    allow_reuse_address = True
+
+
+def server(pages: Pages, whole: Callable[[str, str], str], first: str, port: int) -> Server:
+    """Ready to serve; `port` 0 takes any that is free."""
+    handler = type("Handler", (Handler,), {"pages": pages, "whole": staticmethod(whole), "first": first})
+    try:
+        return Server((HOST, port), handler)
+    except OSError as error:
+        help_line = "name another with `--port`, or 0 for any that is free"
+        message = f"port {port} {'is taken' if error.errno == EADDRINUSE else 'may not be used'}"
+        raise BuildFailed(Complaint("port", message, help=help_line)) from None
