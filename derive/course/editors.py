@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
+from derive.course.problem_set import SetKeys
 from derive.course.reference.keys import DocumentKeys, GroupKeys, OwnKeys
 from derive.course.schema import object_schema, schema_for_editors
 from derive.course.stock import stock_names, stock_script
@@ -17,11 +19,28 @@ def problem_schema() -> str:
     return schema_for_editors("A problem", {**schema, "allOf": [_given_of(name) for name in stock_names()]})
 
 
+def set_schema() -> str:
+    """Of a set's own file."""
+    return schema_for_editors("A set of problems", object_schema(SetKeys))
+
+
 def reference_schema() -> str:
     """Of what a document states about the problems of a set."""
     items = {"anyOf": [object_schema(DocumentKeys), object_schema(GroupKeys)]}
     groups = {"type": "array", "items": items, "minItems": 1}
     return schema_for_editors("What a document states", groups)
+
+
+SCHEMAS = {
+    "problem.schema.json": problem_schema,
+    "set.schema.json": set_schema,
+    "reference.schema.json": reference_schema,
+}
+
+
+def schema_folder(root: Path) -> Path:
+    """Where the schemas of a course lie: with its templates if it has its own, else with its problems."""
+    return root / "templates" if (root / "templates").is_dir() else root / "problems" / "schemas"
 
 
 def _given_of(name: str) -> dict[str, Any]:

@@ -34,6 +34,9 @@ class ProblemSet:
         return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
 
 
+NAMES = {"type": "array", "items": {"type": "string"}, "minItems": 1}
+
+
 @dataclass(frozen=True)
 class SetKeys(Record):
     """The keys of a set's file."""
@@ -43,7 +46,7 @@ class SetKeys(Record):
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("who teaches the course", TEXT)
     evidence: str | None = key("how much the solutions tell of how they were checked", one_of(tuple(EvidenceShown)))
-    problems: Tree | None = key("names of the problems in order", as_written({}), required=True)
+    problems: Tree | None = key("names of the problems in order", as_written(NAMES), required=True)
 
 
 def problem_ids(root: Path) -> list[str]:

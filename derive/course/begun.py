@@ -1,0 +1,122 @@
+"""A first problem for an instructor: files that build at once, begun from a pattern or from a problem that there is.
+
+Nothing that somebody wrote is lost: a file that is there is never written over, and of a set's own file only the list of
+its problems grows by one line.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from os.path import relpath
+from pathlib import Path
+
+from derive.course.names import DOCUMENTS, INDEX, NAME
+from derive.course.problem_set import mapping_in, path_of, problem_set
+from derive.course.schema import wrong_type
+from derive.course.yaml_tree import Scalar, Sequence
+from derive.errors import Complaint, Faults, Misused, did_you_mean
+
+PATTERNS = ("system", "body", "rotation", "script")
+SCHEMA = "problem.schema.json"
+SOLVED_BY = re.compile(r"^solve:[ \t]*(\S+\.py)", re.MULTILINE)
+PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
+
+
+@dataclass(frozen=True)
+class Begun:
+    """The files of a new problem with their content, by path from the root, and those that an editor needs."""
+
+    files: dict[str, str]
+    listed_in: str
+
+
+def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> Begun:
+    """What would be written for a new problem; raises `Misused` with everything that stands against it.
+
+    templates   the folder of patterns
+    schemas     the folder of schemas for editors
+    like        a pattern by its name, or the id of a problem
+    """
+    set_id, _, name = problem_id.partition("/")
+    _check_names(root, set_id, name)
+    folder = f"problems/{set_id}"
+    yaml, script = _copied(root, like) if "/" in like else _pattern(templates, like)
+    written_for = f"{name}.py" if script else ""
+    if script:
+        yaml = SOLVED_BY.sub(lambda found: found[0].replace(found[1], written_for), yaml, count=1)
+    modeline = f"# yaml-language-server: $schema={relpath(schemas / SCHEMA, root / folder)}\n"
+    files = {f"{folder}/{name}.yaml": modeline + yaml}
+    if script:
+        files[f"{folder}/{written_for}"] = script
+    if taken := next((path for path in files if (root / path).exists()), None):
+        raise Misused(Complaint("exists", f"there is a file `{taken}` already", help="choose another name"))
+    list_of_set = f"{folder}/set.yaml"
+    files[list_of_set] = _with_problem(root, list_of_set, set_id, name)
+    return Begun(files, list_of_set)
+
+
+def _check_names(root: Path, set_id: str, name: str) -> None:
+    wrong = next((each for each in (set_id, name) if not NAME.fullmatch(each)), None)
+    if wrong is not None:
+        help_line = "such as `hw10/wheel`: letters, digits, `-` and `_`"
+        raise Misused(Complaint("new-name", f"`{wrong}` is no name of a set and a problem", help=help_line))
+    if name in (*DOCUMENTS, INDEX, "set", "reference"):
+        message = f"a problem cannot be called `{name}`, for another file of the set has that name"
+        raise Misused(Complaint("new-name", message, help="choose another name"))
+
+
+def _pattern(templates: Path, like: str) -> tuple[str, str]:
+    if like not in PATTERNS:
+        help_line = did_you_mean(like, PATTERNS) or f"like {', '.join(PATTERNS)}, or a problem such as `hw9/top`"
+        raise Misused(Complaint("new-like", f"there is no pattern `{like}`", help=help_line))
+    script = templates / "new" / f"{like}.py"
+    return _read(templates / "new" / f"{like}.yaml"), _read(script) if script.is_file() else ""
+
+
+def _copied(root: Path, like: str) -> tuple[str, str]:
+    """A problem and its script; what it says of other problems of its set is said in words."""
+    file = root / path_of(root, like)
+    text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
+    heading = problem_set(root, like.partition("/")[0])
+
+    def in_words(found: re.Match[str]) -> str:
+        return f"problem {heading.numbers.get(found[1], found[1])} of {heading.title}"
+
+    solved = SOLVED_BY.search(text)
+    script = file.parent / solved[1] if solved else None
+    return PROBLEM_NAMED.sub(in_words, text), _read(script) if script and script.is_file() else ""
+
+
+def _with_problem(root: Path, path: str, set_id: str, name: str) -> str:
+    """The file of a set with one problem more, or that of a new set."""
+    file = root / path
+    if not file.is_file():
+        return (
+            f"course: Mechanics\ntitle: {set_id}\n# date: Fall term\n# instructor: your name\n\nproblems:\n  - {name}\n"
+        )
+    text, faults = _read(file), Faults()
+    listed = mapping_in(root, path, "a set").get("problems")
+    if not isinstance(listed, Sequence) or not listed.items:
+        wrong_type(faults, "`problems`", "a list of names", listed or mapping_in(root, path, "a set"))
+        faults.stop()
+    assert isinstance(listed, Sequence)
+    last = listed.items[-1]
+    if any(isinstance(item, Scalar) and item.text == name for item in listed.items):
+        return text
+    lines = text.splitlines(keepends=True)
+    line = lines[last.place.line - 1]
+    before = line[: last.place.column - 1]
+    if re.fullmatch(r"\s*-\s+", before):
+        return "".join([*lines[: last.place.line], "" if line.endswith("\n") else "\n", f"{before}{name}\n",
+                        *lines[last.place.line :]])  # fmt: skip
+    end = last.place.column - 1 + last.place.width
+    lines[last.place.line - 1] = f"{line[:end]}, {name}{line[end:]}"
+    return "".join(lines)
+
+
+def _read(file: Path) -> str:
+    try:
+        return file.read_text(encoding="utf-8")
+    except (OSError, UnicodeError):
+        raise Misused(Complaint("new-like", f"`{file.name}` cannot be read")) from None
