@@ -1,7 +1,7 @@
 """A first problem for an instructor: files that build at once, begun from a pattern or from a problem that there is.
 
-Nothing that somebody wrote is lost: a file that is there is never written over, and of a set's own file only the list of
-its problems grows by one line.
+Nothing that somebody wrote is lost: a file that is there is never written over, and of a set's own file only the list
+of its problems grows by one line.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from derive.errors import Complaint, Faults, Misused, did_you_mean
 PATTERNS = ("system", "body", "rotation", "script")
 SCHEMA = "problem.schema.json"
 SOLVED_BY = re.compile(r"^solve:[ \t]*(\S+\.py)", re.MULTILINE)
+NEW_SET = "course: Mechanics\ntitle: {}\n# date: Fall term\n# instructor: your name\n\nproblems:\n"
 PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 
 
@@ -92,9 +93,7 @@ def _with_problem(root: Path, path: str, set_id: str, name: str) -> str:
     """The file of a set with one problem more, or that of a new set."""
     file = root / path
     if not file.is_file():
-        return (
-            f"course: Mechanics\ntitle: {set_id}\n# date: Fall term\n# instructor: your name\n\nproblems:\n  - {name}\n"
-        )
+        return f"{NEW_SET.format(set_id)}  - {name}\n"
     text, faults = _read(file), Faults()
     listed = mapping_in(root, path, "a set").get("problems")
     if not isinstance(listed, Sequence) or not listed.items:
