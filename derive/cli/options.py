@@ -29,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = _parser().parse_args(argv)
     gc.set_threshold(300_000)  # modules stay: to look for garbage among them took an eighth of their loading
     try:
-        from derive.cli.commands import exit_code
+        from derive.cli.running import exit_code
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
@@ -78,6 +78,17 @@ def _parser() -> argparse.ArgumentParser:
     preview.add_argument("id", metavar="ID|SET", help="such as hw9/block")
     preview.add_argument("--port", type=_port, default=8311, metavar="N", help="of this machine (default 8311; 0: any)")
     preview.add_argument("--open", action="store_true", help="open the browser too")
+    new = command("new", "begin a problem: files that build at once")
+    new.epilog = "example: derive new hw10/wheel --like body"
+    new.add_argument("id", metavar="SET/PROBLEM", help="what it shall be called; the set may be new too")
+    new.add_argument(
+        "--like",
+        default="system",
+        metavar="LIKE",
+        help="system (default), body, rotation, script, or a problem: hw9/top",
+    )
+    schema = command("schema", "write the JSON schemas by which editors complete and check what you write")
+    schema.add_argument("sort", nargs="?", choices=("problem", "set", "reference"), help="print this one only")
     clean = command("clean", "remove what builds made; what you wrote stays")
     clean.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
     clean.add_argument("--cache", action="store_true", help="only what is kept for the next build; documents stay")

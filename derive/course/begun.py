@@ -7,7 +7,6 @@ of its problems grows by one line.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from os.path import relpath
 from pathlib import Path
 
@@ -24,16 +23,8 @@ NEW_SET = "course: Mechanics\ntitle: {}\n# date: Fall term\n# instructor: your n
 PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 
 
-@dataclass(frozen=True)
-class Begun:
-    """The files of a new problem with their content, by path from the root, and those that an editor needs."""
-
-    files: dict[str, str]
-    listed_in: str
-
-
-def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> Begun:
-    """What would be written for a new problem; raises `Misused` with everything that stands against it.
+def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> dict[str, str]:
+    """What would be written for a new problem, by path from the root; raises `Misused` with what stands against it.
 
     templates   the folder of patterns
     schemas     the folder of schemas for editors
@@ -52,9 +43,8 @@ def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str
         files[f"{folder}/{written_for}"] = script
     if taken := next((path for path in files if (root / path).exists()), None):
         raise Misused(Complaint("exists", f"there is a file `{taken}` already", help="choose another name"))
-    list_of_set = f"{folder}/set.yaml"
-    files[list_of_set] = _with_problem(root, list_of_set, set_id, name)
-    return Begun(files, list_of_set)
+    files[f"{folder}/set.yaml"] = _with_problem(root, f"{folder}/set.yaml", set_id, name)
+    return files
 
 
 def _check_names(root: Path, set_id: str, name: str) -> None:

@@ -6,7 +6,7 @@ from argparse import Namespace
 
 import pytest
 
-from derive.cli import commands
+from derive.cli import running
 from derive.cli.options import main
 
 
@@ -19,7 +19,7 @@ def handed(monkeypatch: pytest.MonkeyPatch) -> list[Namespace]:
         found.append(arguments)
         return 7
 
-    monkeypatch.setattr(commands, "exit_code", take)
+    monkeypatch.setattr(running, "exit_code", take)
     return found
 
 

@@ -1,0 +1,53 @@
+"""What a command was asked about: the folder of the course, sets and problems by their names."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+from pathlib import Path
+
+from derive import FOLDER
+from derive.cli.terminal import complain
+from derive.errors import Complaint, Misused
+
+
+def found_root(named: str | None) -> Path | None:
+    """The folder that has `problems`: as named, or here or above, or where derive is developed."""
+    asked = named or os.environ.get("DERIVE_ROOT")
+    try:
+        here = Path.cwd()
+        candidates = [Path(asked)] if asked else [here, *here.parents, FOLDER.resolve().parent]
+        return next((folder.resolve() for folder in candidates if _has_problems(folder)), None)
+    except FileNotFoundError:
+        message = "the folder that you are in is no more"
+        raise Misused(Complaint("no-root", message, help="change to another folder")) from None
+
+
+def _has_problems(folder: Path) -> bool:
+    try:
+        return (folder / "problems").is_dir()
+    except (OSError, ValueError):  # a name that no folder can have
+        return False
+
+
+def root_of(arguments: argparse.Namespace) -> Path:
+    root = found_root(arguments.root)
+    if root is None:
+        where = f"in `{arguments.root}`" if arguments.root else "here or above"
+        raise Misused(
+            Complaint("no-root", f"there is no folder `problems` {where}", help="name its folder with `--root`")
+        )
+    return root
+
+
+def problem_id_of(text: str) -> str:
+    """The id, also where a path was completed by the shell: problems/hw9/block.yaml, with a topic or without."""
+    text = text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
+    return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", text)
+
+
+def warn_of_names(root: Path) -> None:
+    from derive.building.named import misnamed_sets
+
+    complain(misnamed_sets(root))

@@ -1,0 +1,1 @@
+"""What each command of `derive` does, one module for each group of them."""

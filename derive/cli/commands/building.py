@@ -1,0 +1,103 @@
+"""`derive build`: sets typeset, once or at each edit."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive.cli.asked import problem_id_of, root_of, warn_of_names
+from derive.cli.running import internal
+from derive.cli.terminal import complain, tell
+from derive.errors import Complaint, Misused
+
+if TYPE_CHECKING:
+    from derive.building.sets import Options, Report
+
+
+def build(arguments: argparse.Namespace) -> int:
+    from derive.building.named import set_names
+    from derive.building.sets import Options, built_set
+
+    root = root_of(arguments)
+    if not arguments.sets:
+        warn_of_names(root)
+    options = Options(
+        arguments.engine,
+        arguments.detail,
+        arguments.force,
+        arguments.jobs,
+        arguments.time_limit,
+        evidence=arguments.evidence,
+    )
+    asked = _sets_asked(arguments.sets or set_names(root))
+    if not asked:
+        raise Misused(
+            Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
+        )
+    if arguments.watch:
+        return _watched(root, asked, options)
+    return max(_reported(built_set(root, name, replace(options, only=only), tell)) for name, only in asked.items())
+
+
+def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """The sets by name, and those of their problems that are asked for; none if that is all of them."""
+    found: dict[str, dict[str, None]] = {}
+    for set_id, _, name in (problem_id_of(each).partition("/") for each in asked):
+        found.setdefault(set_id, {})[name] = None
+    return {set_id: () if "" in names else tuple(names) for set_id, names in found.items()}
+
+
+def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options) -> int:
+    """Builds at each edit until somebody interrupts, which is its only end and no failure."""
+    from derive.building.files import shown_path
+    from derive.building.watch import Shown, watch
+
+    failed: dict[str, bool] = {}  # if a set that failed is as it was before, that is news
+
+    def wrote(path: Path, seconds: float) -> None:
+        tell("")
+        print(f"wrote {shown_path(path)} ({seconds:.1f} s)", flush=True)
+
+    def built(report: Report) -> None:
+        if report.derived or report.changed or report.failed or failed.get(report.set_id, True):
+            _reported(report)
+        failed[report.set_id] = report.failed
+
+    def refused(complaints: Sequence[Complaint]) -> None:
+        tell("")
+        complain(complaints)
+
+    with suppress(KeyboardInterrupt):
+        watch(root, asked, options, Shown(tell, wrote, built, refused))
+    tell("")
+    return 0
+
+
+def _reported(report: Report) -> int:
+    from derive.building.files import shown_path
+
+    tell("")
+    complain([*report.warnings, *report.complaints])
+    for bug in report.bugs:
+        internal(str(bug), bug.trace)
+    pdfs = [shown_path(path) for path in report.changed if path.suffix == ".pdf"]
+    said = f"wrote {_listed(pdfs)}" if pdfs else "no page changed" if report.derived else "up to date"
+    if report.failed:
+        said = f"failed; {said if pdfs else 'earlier pages are as they were'}"
+    print(
+        f"{report.set_id}: derived {report.derived} of {report.problems} problems, {said} ({report.seconds:.1f} s)",
+        flush=True,
+    )
+    return 1 if report.failed else 0
+
+
+def _listed(paths: Sequence[str], most: int = 12) -> str:
+    """The last ones, which are those of the whole set, and how many others."""
+    if len(paths) <= most:
+        return ", ".join(paths)
+    last = paths[-3:]
+    return f"{', '.join(last)} and {len(paths) - len(last)} others beside {'them' if len(last) > 1 else 'it'}"

@@ -1,0 +1,76 @@
+"""`derive check`: problems derived, verified, compared with what a document states."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from functools import partial
+from typing import TYPE_CHECKING
+
+from derive.cli.asked import problem_id_of, root_of, warn_of_names
+from derive.cli.check_table import check_table
+from derive.cli.running import delivered, internal, waiting
+from derive.cli.terminal import complain, faults_of_source, tell
+from derive.errors import DeriveError
+from derive.render.formats import TYPESET
+
+if TYPE_CHECKING:
+    from derive.building.workers import Outcome
+
+
+def check(arguments: argparse.Namespace) -> int:
+    from derive.building.alone import reports
+    from derive.building.loaded import load
+    from derive.building.named import set_names
+    from derive.building.solution import rendered
+    from derive.building.workers import Crew, job_of
+    from derive.course.problem_set import ids_in_order
+
+    root = root_of(arguments)
+    warn_of_names(root)
+    ids = _selected([problem_id_of(name) for name in arguments.ids], ids_in_order(root), set_names(root))
+    if len(ids) > 1:
+        load(root, draws=False)
+    wanted = TYPESET if arguments.report else ()
+    jobs = {
+        job_of(root, problem, partial(rendered, root, problem, only=wanted), arguments.time_limit): problem
+        for problem in ids
+    }
+    outcomes: dict[str, Outcome] = {}
+    with Crew(arguments.jobs or os.cpu_count() or 1, lambda running: tell(f"checking {', '.join(running)}")) as crew:
+        for job in jobs:
+            crew.put(job)
+        for outcome in crew.outcomes():
+            outcomes[jobs[outcome.job]] = outcome
+    tell("")
+    ordered = [(problem, outcomes[problem]) for problem in ids]
+    print(check_table(ordered), flush=True)
+    solved = {problem: outcome.value for problem, outcome in ordered if not outcome.error}
+    for problem, page in solved.items():
+        if page.source_faults:
+            print(f"\n{faults_of_source(problem, page.source_faults)}", flush=True)
+    code = max([0, *(_verdict_code(outcome) for _, outcome in ordered)])
+    if arguments.report:
+        with waiting("typesetting the report"):
+            written = reports(root, solved, arguments.engine, arguments.time_limit)
+        for output, pdf in written.items():
+            delivered(pdf, output)
+    return code
+
+
+def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
+    """Every problem, or those named, where a set stands for its problems."""
+    named = {name: [name] for name in asked} | {name: [p for p in known if p.startswith(f"{name}/")] for name in sets}
+    return list(dict.fromkeys(problem for name in asked for problem in named[name])) if asked else known
+
+
+def _verdict_code(outcome: Outcome) -> int:
+    """The exit code that this problem asks for; says on standard error what was wrong."""
+    if isinstance(outcome.error, DeriveError):
+        complain(outcome.error.complaints)
+        return outcome.error.exit_code
+    if outcome.error:
+        internal(str(outcome.error), outcome.error.trace)
+        return 1
+    complain(outcome.value.warnings)
+    return 0 if outcome.value.agreed else 1

@@ -1,0 +1,33 @@
+"""`derive preview`: pages in the browser while they are written."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import suppress
+
+from derive.cli.asked import problem_id_of, root_of
+
+
+def preview_pages(arguments: argparse.Namespace) -> int:
+    """A page served until somebody interrupts, which is its only end and no failure."""
+    from derive.preview.asking import Shown
+    from derive.preview.preview import preview
+
+    set_id, _, name = problem_id_of(arguments.id).partition("/")
+
+    def ready(address: str) -> None:
+        print(f"{address} (Ctrl-C ends it)", flush=True)
+        if arguments.open:
+            import webbrowser
+
+            webbrowser.open(address)
+
+    def told(of: str, shown: Shown) -> None:
+        said = "shown" if shown.main else "not shown: "
+        print(
+            f"{set_id}/{of}: {said if shown.main else said + shown.complaints[0]} ({shown.seconds:.2f} s)", flush=True
+        )
+
+    with suppress(KeyboardInterrupt):
+        preview(root_of(arguments), set_id, name, arguments.port, arguments.detail, arguments.time_limit, ready, told)
+    return 0

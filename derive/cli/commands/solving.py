@@ -1,0 +1,73 @@
+"""`derive solve` and `derive explain`: one problem, and one step of it."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derive.cli.asked import problem_id_of, root_of
+from derive.cli.output import check_output, deliver
+from derive.cli.running import delivered, waiting
+from derive.cli.terminal import complain, table
+from derive.render.formats import TYPESET
+
+if TYPE_CHECKING:
+    from derive.course.problem_set import ProblemSet
+    from derive.render.rendered import Files, Rendered
+
+
+def solve(arguments: argparse.Namespace) -> int:
+    from derive.building.set_document import problem_document
+    from derive.building.solution import rendered
+    from derive.building.workers import done, job_of
+    from derive.course.names import EvidenceShown
+    from derive.course.problem_set import problem_set
+
+    root, problem_id, limit = root_of(arguments), problem_id_of(arguments.id), arguments.time_limit
+    check_output(arguments.output, root)
+    set_id, form = problem_id.partition("/")[0], arguments.format
+
+    def told() -> tuple[Rendered, ProblemSet]:
+        heading = problem_set(root, set_id)
+        heading = replace(heading, evidence=EvidenceShown(arguments.evidence or heading.evidence))
+        options = {"draws": form == "pdf", "only": (form,), "evidence": heading.evidence}
+        return rendered(root, problem_id, arguments.detail, **options), heading
+
+    with waiting(f"deriving {problem_id}"):
+        solved, heading = done(job_of(root, problem_id, told, limit))
+    complain(solved.warnings)
+    text = solved.texts.get(arguments.format, "")
+    if arguments.format in TYPESET:
+        text = problem_document(root, solved, heading)
+    if arguments.format == "pdf":
+        return _solve_pdf(arguments, root, problem_id, text, solved.files)
+    deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
+    return 0
+
+
+def explain(arguments: argparse.Namespace) -> int:
+    from derive.building.explained import explained
+    from derive.building.workers import done, job_of
+
+    root, problem_id = root_of(arguments), problem_id_of(arguments.id)
+    with waiting(f"deriving {problem_id}"):
+        work = partial(explained, root, problem_id, arguments.key, arguments.format == "json")
+        found = done(job_of(root, problem_id, work, arguments.time_limit))
+    print(found if isinstance(found, str) else table(found), flush=True)
+    return 0
+
+
+def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
+    from derive.building.alone import typeset_alone
+    from derive.building.named import set_folder
+
+    set_id, _, name = problem_id.partition("/")
+    suffix = f"-{arguments.detail}" if arguments.detail else ""
+    outputs = set_folder(root, set_id)
+    with waiting(f"typesetting {problem_id}"):
+        pdf = typeset_alone(outputs, name, tex, files, arguments.engine, arguments.time_limit)
+    delivered(pdf, arguments.output or str(outputs / f"{name}{suffix}.pdf"))
+    return 0

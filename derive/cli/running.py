@@ -1,0 +1,127 @@
+"""A command carried out; whatever stops it is told in a few lines, and is not a traceback."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import os
+import signal
+import sys
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from types import FrameType
+from typing import NoReturn
+
+from derive.building.files import cannot_write, of_system
+from derive.cli.output import deliver
+from derive.cli.terminal import complain, tell
+from derive.errors import BuildFailed, Complaint, DeriveError
+
+_REPORT = "   = help: this is a fault of derive: report it with the traceback and the files of the problem"
+_UNWRITTEN = {errno.EBADF, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
+
+# Where each command is carried out; of them only the one that is asked for is loaded.
+COMMANDS = {
+    "list": "listing.list_problems",
+    "solve": "solving.solve",
+    "explain": "solving.explain",
+    "check": "checking.check",
+    "build": "building.build",
+    "preview": "previewing.preview_pages",
+    "new": "beginning.new",
+    "schema": "beginning.schema",
+    "clean": "keeping.clean",
+    "doctor": "keeping.doctor",
+}
+
+
+def exit_code(arguments: argparse.Namespace) -> int:
+    """Carry out a command; whatever stops it is told in a few lines, and is not a traceback."""
+    try:
+        _open_streams()
+        signal.signal(signal.SIGTERM, _terminated)
+        code = _command(arguments.command)(arguments)
+        sys.stdout.flush()
+        return code
+    except DeriveError as error:
+        return _told(error)
+    except KeyboardInterrupt:
+        tell("")
+        print("interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        # Whoever read our output has had enough; the interpreter must not complain about it once more.
+        _silence(1)
+        return 141
+    except MemoryError:
+        return _told(BuildFailed(Complaint("system", "the system refuses: memory is short")))
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is None and error.errno in _UNWRITTEN:
+            _silence(1)
+            return _told(cannot_write(Path("standard output"), error))
+        known = of_system(error) if isinstance(error, OSError) else None
+        if known:
+            return _told(known)
+        tell("")
+        trace = getattr(error, "trace", None)  # a worker's own
+        internal(str(error) if trace else f"{type(error).__name__}: {error}", trace or traceback.format_exc())
+        return 1
+
+
+def _command(name: str) -> Callable[[argparse.Namespace], int]:
+    module, _, function = COMMANDS[name].partition(".")
+    found: Callable[[argparse.Namespace], int] = getattr(import_module(f"derive.cli.commands.{module}"), function)
+    return found
+
+
+def _told(error: DeriveError) -> int:
+    tell("")
+    complain(error.complaints)
+    return error.exit_code
+
+
+def _silence(descriptor: int) -> None:
+    """What is still to be written there goes nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
+
+
+def _open_streams() -> None:
+    """A standard stream that is closed stays so, but no other file may take its place and be written to."""
+    for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, mode)  # to write to the second fails, as it should
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+
+
+def _terminated(number: int, _: FrameType | None) -> NoReturn:
+    raise SystemExit(128 + number)  # unwinds, so that no worker is left behind
+
+
+def internal(summary: str, trace: str) -> None:
+    if os.environ.get("DERIVE_DEBUG"):
+        print(trace, file=sys.stderr)
+    first = (summary.splitlines() or [""])[0]
+    print(f"internal error: {first} (DERIVE_DEBUG=1 shows the traceback)\n{_REPORT}", file=sys.stderr)
+
+
+@contextmanager
+def waiting(text: str) -> Iterator[None]:
+    tell(text)
+    try:
+        yield
+    finally:
+        tell("")
+
+
+def delivered(pdf: bytes, output: str) -> None:
+    from derive.building.files import shown_path
+
+    deliver(pdf, output)
+    if output != "-":
+        print(f"wrote {shown_path(Path(output))}", file=sys.stderr)
