@@ -10,6 +10,7 @@ import pytest
 from hypothesis import settings
 
 import derive  # noqa: F401  before SymPy is imported, whose cache it sets
+from tests.browser import chromium
 
 settings.register_profile("any machine", deadline=None)  # how long one example takes goes by what else runs
 settings.load_profile("any machine")
@@ -23,6 +24,21 @@ def pytest_collection() -> Generator[None, object, object]:
     gc.freeze()
     gc.enable()
     return found
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Tests of pages in a browser are left out where there is none."""
+    if chromium() is None:
+        left_out = [item for item in items if item.get_closest_marker("browser")]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if not item.get_closest_marker("browser")]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    if chromium() is None:
+        terminalreporter.write_line(
+            "left out: what a real browser shows, since there is none (Debian's package `chromium`)", yellow=True
+        )
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -110,7 +110,7 @@ class HtmlPage:
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str) -> str:
-        left = "" if line.left is None else mathml(line.left)
+        left = "" if line.left is None else _scrolling_if_wide(line.left, mathml(line.left))
         cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
         if line.frames_all:
             cells = ['<span class="answer">', *cells, "</span>"]

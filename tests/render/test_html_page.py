@@ -1,0 +1,104 @@
+"""Pages for a browser: what they have, what they leave out, and that every formula of a page is on them."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from derive.building.set_document import index_page, problem_page
+from derive.course.problem_set import problem_set
+from derive.render.rendered import Rendered
+from tests.courses import course_in, rendered_once
+
+VOID = {"meta", "br", "hr", "img", "link", "mspace", "path", "input"}
+
+
+class Tags(HTMLParser):
+    """The tags of a page that are open, and what it has of each."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.faults: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.headings: list[int] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        own = dict(attrs)
+        self.ids += [own["id"]] if own.get("id") else []
+        self.links += [own["href"]] if own.get("href") else []
+        self.headings += [int(tag[1])] if re.fullmatch("h[1-6]", tag) else []
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag in VOID:
+            return
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"</{tag}>")
+
+
+def page_of(tmp_path: Path, problem: str = "block", edits: dict[str, str] | None = None) -> tuple[str, Rendered]:
+    root = course_in(tmp_path, edits, problem=problem)
+    solved = rendered_once(root, f"hw9/{problem}", draws=True, only=("html",))
+    return problem_page(root, solved, problem_set(root, "hw9")), solved
+
+
+def read(page: str) -> Tags:
+    tags = Tags()
+    tags.feed(page)
+    return tags
+
+
+@pytest.mark.parametrize("problem", ["euler", "block", "top", "cone", "slab"])
+def test_a_page_is_well_formed_and_each_of_its_links_leads_somewhere(tmp_path: Path, problem: str) -> None:
+    page, _ = page_of(tmp_path, problem)
+    tags = read(page)
+    assert (tags.open, tags.faults) == ([], [])
+    assert len(tags.ids) == len(set(tags.ids))
+    inside = [link.removeprefix("#") for link in tags.links if link.startswith("#")]
+    assert inside and set(inside) <= set(tags.ids)
+    assert tags.headings[0] == 1 and all(b <= a + 1 for a, b in zip(tags.headings, tags.headings[1:], strict=False))
+
+
+def test_a_page_is_one_file_that_asks_for_nothing_else(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path)
+    assert not re.search(r'(?:src|href)="(?:https?:|//)|@import|url\((?!"data:)', page)
+    assert "<svg" in page and "<title>A drawing in space" in page
+
+
+def test_text_of_an_instructor_is_text_and_no_html(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path, edits={"A uniform block of": "A <b onclick='x()'>uniform</b> &amp; block of"})
+    assert "&lt;b onclick=&#x27;x()&#x27;&gt;uniform&lt;/b&gt; &amp;amp; block" in page
+    assert "<b onclick" not in page
+
+
+def test_an_answer_stands_in_a_frame_and_the_others_do_not(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path)
+    rows = re.findall(r'<div class="row".*?</div>', page)
+    framed = [row for row in rows if 'class="answer"' in row]
+    assert framed and len(framed) < len(rows)
+
+
+def test_each_display_says_what_it_is_in_latex(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path)
+    said = re.findall(r'data-tex="(.*?)"', page, re.DOTALL)
+    assert len(said) == page.count('class="display"')
+    assert any(r"\boxed{" in each for each in said)
+
+
+def test_the_page_of_a_set_leads_to_its_problems_and_to_what_can_be_printed(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    solved = rendered_once(root, "hw9/block", draws=True, only=("html",))
+    tags = read(index_page(root, problem_set(root, "hw9"), [solved]))
+    assert (tags.open, tags.faults) == ([], [])
+    assert {"block.html", "solutions.pdf", "problems.pdf", "report.pdf"} <= set(tags.links)

@@ -1,0 +1,105 @@
+"""Pages of solutions in a real Chromium: nothing stands in the way of a reader, whatever they read with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+
+from derive.building.set_document import index_page, problem_page
+from derive.course.problem_set import problem_set
+from tests.browser import barriers, browser_page, overflow
+from tests.courses import course_in, rendered_once
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.browser
+
+PROBLEMS = ("euler", "block", "top", "cone", "slab")
+PHONE = 360
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """The pages of the pinned problems and of their set, as addresses of files."""
+    folder = tmp_path_factory.mktemp("pages")
+    solved = []
+    for name in PROBLEMS:
+        root = course_in(folder / name, problem=name)
+        solved.append(rendered_once(root, f"hw9/{name}", draws=True, only=("html",)))
+        (folder / f"{name}.html").write_text(problem_page(root, solved[-1], problem_set(root, "hw9")))
+    (folder / "index.html").write_text(index_page(root, problem_set(root, "hw9"), solved))
+    return {name: (folder / f"{name}.html").as_uri() for name in (*PROBLEMS, "index")}
+
+
+@pytest.fixture(scope="module")
+def desk() -> Iterator[Page]:
+    with browser_page() as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def phone() -> Iterator[Page]:
+    with browser_page(PHONE, color_scheme="dark") as page:
+        yield page
+
+
+@pytest.mark.parametrize("name", [*PROBLEMS, "index"])
+def test_axe_finds_no_barrier_at_a_desk(pages: dict[str, str], desk: Page, name: str) -> None:
+    desk.goto(pages[name])
+    assert barriers(desk) == []
+
+
+@pytest.mark.parametrize("name", [*PROBLEMS, "index"])
+def test_nothing_is_wider_than_a_phone(pages: dict[str, str], phone: Page, name: str) -> None:
+    phone.goto(pages[name])
+    phone.evaluate("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
+    assert overflow(phone) == 0
+
+
+def test_axe_finds_no_barrier_on_a_phone_in_the_dark(pages: dict[str, str], phone: Page) -> None:
+    phone.goto(pages["top"])
+    phone.evaluate("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
+    assert barriers(phone) == []
+
+
+def test_the_letters_of_formulas_come_with_the_page_and_brackets_grow(pages: dict[str, str], desk: Page) -> None:
+    desk.goto(pages["block"])
+    desk.evaluate("document.fonts.ready")
+    assert desk.evaluate("document.fonts.check('16px \"derive math\"')")
+    tall = desk.evaluate(
+        "Math.max(...[...document.querySelectorAll('mo')].filter((each) => each.textContent === '(')"
+        ".map((each) => each.getBoundingClientRect().height))"
+    )
+    assert tall > 60
+
+
+def test_a_page_is_whole_without_a_script(pages: dict[str, str]) -> None:
+    with browser_page(java_script_enabled=False) as page:
+        page.goto(pages["cone"])
+        assert "principal moments" in page.inner_text("main") and page.locator("math").count() > 50
+        assert page.locator("button").count() == 0
+
+
+def test_the_keyboard_reaches_the_main_part_first_and_then_what_scrolls(pages: dict[str, str], desk: Page) -> None:
+    desk.goto(pages["slab"])
+    desk.keyboard.press("Tab")
+    assert desk.evaluate("document.activeElement.className") == "skip"
+    desk.keyboard.press("Enter")
+    assert desk.url.endswith("#main")
+
+
+def test_a_display_can_be_copied_as_latex(pages: dict[str, str]) -> None:
+    with browser_page(permissions=["clipboard-read", "clipboard-write"]) as page:
+        page.goto(pages["block"])
+        page.locator(".copy").first.click()
+        copied = page.evaluate("navigator.clipboard.readText()")
+        assert copied == page.locator(".display").first.get_attribute("data-tex")
+
+
+def test_each_drawing_says_what_it_shows(pages: dict[str, str], desk: Page) -> None:
+    desk.goto(pages["block"])
+    titles = desk.locator("figure svg title").all_text_contents()
+    assert titles and len(titles) == desk.locator("figure svg").count() and min(map(len, titles)) > 20
