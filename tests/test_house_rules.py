@@ -44,6 +44,7 @@ FLOORS = (
     ("page",),
     ("render",),
     ("building",),
+    ("preview",),
     ("cli",),
 )
 DOORS = {"given": "course", "__main__": "cli"}

@@ -7,6 +7,7 @@ import select
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -78,5 +79,6 @@ class Warm:
     def end(self) -> None:
         if self._process is not None:
             self._process.kill()
-            self._process.wait()
+            with suppress(BrokenPipeError), self._process:  # its pipes are closed, and it is waited for
+                pass
             self._process = None

@@ -1,0 +1,36 @@
+"""The process that derives pages for a preview: an answer for each question, whatever a problem is like."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from derive.preview.worker import answer
+from tests.courses import course_in
+
+ASKED = {"problem": "hw9/block", "detail": None}
+
+
+def test_the_answer_is_the_main_part_of_the_page(tmp_path: Path) -> None:
+    main = answer(course_in(tmp_path), ASKED)["main"]
+    assert '<h1 id="title">' in main and '<section id="part-a">' in main and "<html" not in main
+
+
+def test_an_edit_of_words_is_in_the_next_answer(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    answer(root, ASKED)
+    file = root / "problems" / "hw9" / "block.yaml"
+    file.write_text(file.read_text().replace("A uniform block", "A homogeneous brick"))
+    assert "A homogeneous brick" in answer(root, ASKED)["main"]
+
+
+def test_a_fault_is_told_with_its_place_and_not_raised(tmp_path: Path) -> None:
+    said = answer(course_in(tmp_path, {"mass: M\n": "mass: a\n"}), ASKED)
+    assert "main" not in said
+    (complaint,) = said["complaints"]
+    assert complaint["code"] == "wrong-kind" and complaint["shown"].startswith("problems/hw9/block.yaml:")
+
+
+def test_a_script_that_ends_its_program_does_not_end_the_worker(tmp_path: Path) -> None:
+    root = course_in(tmp_path, script={"def solve(": "raise SystemExit(3)\n\n\ndef solve("})
+    (complaint,) = answer(root, ASKED)["complaints"]
+    assert complaint["shown"]
