@@ -17,7 +17,7 @@ import derive.building
 from derive.course.problem_set import path_of
 from derive.errors import Complaint, Place, Rejected
 from derive.render.formats import formats
-from derive.render.rendered import Rendered, Tex
+from derive.render.rendered import Html, Rendered, Tex
 
 TEX = """#!/bin/sh
 case "$*" in *-ini*) exit 1 ;; esac  # it makes no formats
@@ -73,6 +73,8 @@ def rendered(
         title_latex=Tex(said),
         sheet=Tex(said),
         report=Tex(said),
+        html=Html(said),
+        title_html=Html(said),
         warnings=warnings,
         inputs=(path,),
         grades={"proved": 2, "definition": 1},

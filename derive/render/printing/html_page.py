@@ -14,7 +14,7 @@ from typing import Any
 
 from derive.course.placement import STATEMENT
 from derive.page.document import Block, Display, Document, Illustration, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import mathml, of_latex
@@ -93,6 +93,8 @@ class HtmlPage:
                 return f'<a href="#{_anchor(number)}">({number})</a>'
             case ProblemRef(of, text):
                 return f'<a href="{escape(of.rpartition("/")[2])}.html">{escape(text)}</a>'
+            case ToldOnce(nodes=told):  # a page of its own
+                return self.inline(told)
         return ""
 
     # --- equations ---------------------------------------------------------------------------------------------------
