@@ -22,8 +22,8 @@ from derive.errors import Rejected
 from derive.figures.encoding import drawings_to_data
 from derive.figures.marks import Drawing, Plot, Recorded
 from derive.page.depiction import placement_of
-from derive.page.document import Document, Illustration
 from derive.page.plots import Curves, curves_of
+from derive.page.tree import Document, Illustration
 from derive.page.wording import Phrases
 from derive.render.drawing.camera import Numbers, stand_ins, with_coordinates
 from derive.render.notation.notation import Notation

@@ -31,7 +31,10 @@ from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
+from derive.page.folding import with_details
+from derive.page.numbering import Number
 from derive.page.template import template_folder
+from derive.page.tree import Document
 from derive.page.wording import phrases
 from derive.render.formats import HTML, TYPESET, Solution, formats
 from derive.render.notation.latex import unprintable
@@ -81,17 +84,23 @@ def rendered(
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
     level = Level(detail or "standard")
-    document, faults = document_of(
-        problem, derivation, values, words, level, solved.compared, others, solved.drawings, evidence
-    )
-    Faults(faults).stop()
+    known = problem, derivation, values, words
+
+    def page_at(level: Level, like: Mapping[str, Number] | None = None) -> Document:
+        document, faults = document_of(*known, level, solved.compared, others, solved.drawings, evidence, like)
+        Faults(faults).stop()
+        return document
+
+    document = page_at(level, page_at(Level.STANDARD).numbers if level is Level.FULL else None)
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
     wanted = {*formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
     files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()
-    page = problem_html(document, words, notation, template_folder(root), files) if HTML in wanted else NO_HTML
+    folded = HTML in wanted and level is not Level.FULL
+    whole = with_details(document, page_at(Level.FULL, document.numbers)) if folded else document
+    page = problem_html(whole, words, notation, template_folder(root), files) if HTML in wanted else NO_HTML
     fragments = problem_latex(document, words, notation, template_folder(root)) if typeset else NOT_TYPESET
     return Rendered(
         id=problem_id,

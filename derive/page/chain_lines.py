@@ -10,6 +10,7 @@ from sympy import Integral, MatrixBase, Rational, Symbol
 
 from derive.algebra.expressions import Relation
 from derive.page.abbreviations import shortened
+from derive.page.numbering import Number
 from derive.page.signs import sign_before
 from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, names_asked
 from derive.steps.derivation import Derivation
@@ -37,7 +38,7 @@ class Equations:
 
     key: str
     lines: tuple[ChainLine, ...]
-    number: int
+    number: Number
     framed: int = 0
 
     @property
@@ -65,7 +66,7 @@ class ChainWriter:
         values: Mapping[str, Step],
         words: Phrases,
         names: Mapping[str, Any],
-        numbers: Mapping[str, int],
+        numbers: Mapping[str, Number],
     ):
         self.values, self.words, self.names, self.numbers = values, words, names, numbers
         self.steps = {step.key: step for step in derivation.steps}

@@ -10,6 +10,7 @@ from sympy import MatrixBase
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import Relation
 from derive.course.problem import Problem
+from derive.page.numbering import Number
 from derive.page.signs import sign_before
 from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, around_chain, filled
 from derive.steps.derivation import Derivation
@@ -26,7 +27,7 @@ def limiting_cases(
     words: Phrases,
     phrase: Callable[[Step], Nodes],
     told: Callable[[Any], Nodes],
-    numbers: Mapping[str, int],
+    numbers: Mapping[str, Number],
 ) -> Iterator[Step | Nodes]:
     """Steps, which are to be shown as any other, and sentences.
 
@@ -49,7 +50,7 @@ def limiting_cases(
             yield _with_commas([*([said] if said else []), *behind])
 
 
-def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, int]) -> Nodes:
+def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, Number]) -> Nodes:
     """With what a limit agrees, by the number of its equation or by its letter; or its formula."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 
 from derive.course.prose import FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, did_you_mean
+from derive.page.numbering import Number
 from derive.page.wording import Inline, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
 from derive.steps.step import Step
 
@@ -72,7 +73,7 @@ class References:
         self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))
         return None
 
-    def check(self, numbers: Mapping[str, int], known: Collection[str]) -> None:
+    def check(self, numbers: Mapping[str, Number], known: Collection[str]) -> None:
         """Whether every equation has a number; `known` are the steps of the page, shown or hidden."""
         for mention in self.equations:
             if mention.name in numbers:

@@ -6,14 +6,12 @@ Equations are numbered here, so that every format and every reference has the sa
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from fractions import Fraction
+from dataclasses import replace
 from typing import Any
 
 from sympy import preorder_traversal
 
-from derive.algebra.dimensions import Dimension
-from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Grade
+from derive.algebra.equality import Compared
 from derive.algebra.expressions import Amount, rate
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
@@ -25,17 +23,19 @@ from derive.figures.marks import Recorded
 from derive.page.abbreviations import says_again
 from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations
-from derive.page.checks import Checks, checks_of, second_ways_of
+from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
+from derive.page.numbering import Number, Numbering
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection, needs_no_words
 from derive.page.theorems import Theorems
+from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import (
     Chain,
     Inline,
@@ -59,93 +59,6 @@ from derive.steps.step import NUMBERS, Level, Step
 HOMOGENEITY = "look in the script for one quantity given in another's place"
 
 
-@dataclass(frozen=True)
-class Display:
-    """Equations set together, and what the margin says of them."""
-
-    groups: tuple[Equations, ...]
-    grades: frozenset[Grade] = frozenset()
-    routes: tuple[str, ...] = ()
-    end: str = "."
-    checks: tuple[str, ...] = ()
-
-    @property
-    def grade(self) -> Grade:
-        """How sure the least sure of its steps is."""
-        return min(self.grades, key=LEAST_SURE_FIRST.index)
-
-    def with_more(self, other: Display, beside: bool = False) -> Display:
-        """The lines of both, the others beside the last where they fit; the margin names the first step's routes."""
-        groups = (
-            (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
-        )
-        routes, checks = (self.routes or other.routes), (self.checks or other.checks)
-        return Display(groups, self.grades | other.grades, routes, checks=checks)
-
-    @property
-    def stops(self) -> tuple[str, ...]:
-        """The punctuation behind each step: commas between them, at the end what the sentence needs."""
-        return (",",) * (len(self.groups) - 1) + (self.end,)
-
-
-@dataclass(frozen=True)
-class Paragraph:
-    nodes: tuple[Inline, ...]
-
-
-@dataclass(frozen=True)
-class Illustration:
-    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
-
-    key: str
-    stem: str
-    alt: tuple[Inline, ...]
-    number: int | None
-    caption: tuple[Inline, ...]
-    at: str
-    rests_on: tuple[str, ...] = ()
-
-
-Block = Paragraph | Display | Illustration
-
-
-@dataclass(frozen=True)
-class PartPage:
-    label: str
-    ask: tuple[Inline, ...]
-    points: Fraction | None
-    blocks: tuple[Block, ...]
-    extra: bool = False
-    shown: bool = True  # not where only a page of more detail has it
-
-
-@dataclass(frozen=True)
-class Document:
-    """One problem's page."""
-
-    id: str
-    title: tuple[Inline, ...]
-    points: Fraction | None
-    statement: tuple[Inline, ...]
-    illustrations: tuple[Illustration, ...]
-    parts: tuple[PartPage, ...]
-    note: tuple[Inline, ...]
-    checks: Checks
-    closing: tuple[Inline, ...]
-    numbers: Mapping[str, int]
-    symbols: Mapping[str, Any]
-    shown_in: Mapping[str, str]  # step -> label of the part that shows it
-    dimensions: Mapping[Any, Dimension | None] = field(repr=False)
-    warnings: tuple[Complaint, ...] = ()
-    strategy: tuple[Inline, ...] = ()
-    limits: PartPage | None = None
-    evidence: EvidenceShown = EvidenceShown.NONE
-
-    @property
-    def parts_shown(self) -> tuple[PartPage, ...]:
-        return tuple(part for part in self.parts if part.shown)
-
-
 def document_of(
     problem: Problem,
     derivation: Derivation,
@@ -156,14 +69,16 @@ def document_of(
     others: Mapping[str, int] | None = None,
     drawings: Sequence[Recorded] = (),
     evidence: EvidenceShown = EvidenceShown.NONE,
+    like: Mapping[str, Number] | None = None,
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
 
-    `others` are the numbers of the set's problems, to which prose may refer.
+    others   the numbers of the set's problems, to which prose may refer
+    like     the numbers of the equations on a page of less detail, which they have here too
     """
     needed = NOTHING_NEEDED
     while True:
-        writer = _Writer(problem, derivation, values, words, level, others or {}, drawings, needed)
+        writer = _Writer(problem, derivation, values, words, level, others or {}, drawings, needed, like)
         document = writer.document([c for c in compared if c.here], evidence)
         more = needed.with_more(*writer.needs(document))
         if more == needed:
@@ -184,11 +99,12 @@ class _Writer:
         others: Mapping[str, int],
         drawings: Sequence[Recorded],
         needed: Needed,
+        like: Mapping[str, Number] | None,
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
         self.theorems = Theorems(words, level, derivation.steps)
-        self.numbers: dict[str, int] = {}
+        self.numbers = Numbering(like)
         self.shown_in: dict[str, str] = {}
         every = [*derivation.steps, *values.values()]
         self.dimensions, unlike = dimension_table(problem.dimensions, every)
@@ -341,7 +257,7 @@ class _Writer:
             return
         nodes = (Chain(),) if goes_on or mode == "hidden" or step.key == self.told_before else self._phrase(step)
         nodes = (*self.theorems.before(step), *nodes)
-        self.numbers[step.key] = max(self.numbers.values(), default=0) + 1
+        self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
         if again is not None and (sentence := told_by_number(step, nodes, self.level)):

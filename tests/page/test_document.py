@@ -13,7 +13,8 @@ from derive.building.solved import Solved
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint
 from derive.page.chain_lines import Equations
-from derive.page.document import Display, Document, Illustration, Paragraph, document_of
+from derive.page.document import document_of
+from derive.page.tree import Display, Document, Illustration, Paragraph
 from derive.page.wording import Math, Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, solved_once

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from derive.page.document import Display, Document, document_of
+from derive.page.document import document_of
+from derive.page.tree import Display, Document
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain

@@ -9,7 +9,7 @@ import pytest
 
 from derive.building.solved import Solved
 from derive.course.problem import Problem, load_problem
-from derive.page.document import Display, Document, Paragraph, document_of
+from derive.page.document import document_of
 from derive.page.introduced import expressions_in, letters_in
 from derive.page.selection import (
     EACH_WORKED_OUT,
@@ -25,6 +25,7 @@ from derive.page.selection import (
     TOLD,
     Selection,
 )
+from derive.page.tree import Display, Document, Paragraph
 from derive.page.wording import Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, rendered_once, solved_once

@@ -10,8 +10,9 @@ from derive.algebra.expressions import Relation, rate
 from derive.building.solution import derived
 from derive.building.solved import Solved, steps_key
 from derive.course.problem import Problem, load_problem
-from derive.page.document import Display, Document, document_of
+from derive.page.document import document_of
 from derive.page.introduced import expressions_in, letters_in, letters_of
+from derive.page.tree import Display, Document
 from derive.page.wording import Math, Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, kept, rendered_once

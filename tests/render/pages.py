@@ -11,13 +11,7 @@ from derive.algebra.equality import Grade
 from derive.course.placement import STATEMENT
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.checks import Checks
-from derive.page.document import (
-    Display,
-    Document,
-    Illustration,
-    Paragraph,
-    PartPage,
-)
+from derive.page.tree import Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import Math, ProblemRef, Ref, Text, phrases
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT

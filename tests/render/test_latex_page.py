@@ -13,7 +13,7 @@ from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import column
 from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
-from derive.page.document import Document, Paragraph
+from derive.page.tree import Document, Paragraph
 from derive.page.wording import DimensionMark, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
 from tests.courses import ROOT

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from derive.course.names import EvidenceShown
-from derive.page.document import Document, Paragraph
+from derive.page.tree import Document, Paragraph
 from derive.page.wording import Math, Ref, Text, ToldOnce
 from derive.render.notation.text import columns
 from derive.render.printing.text_page import PAGE_COLUMNS, inline_text, page_text

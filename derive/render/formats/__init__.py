@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from derive.course.problem import Problem
     from derive.course.reference.comparison import Told
-    from derive.page.document import Document
+    from derive.page.tree import Document
     from derive.page.wording import Phrases
     from derive.render.notation.notation import Notation
     from derive.steps.derivation import Derivation

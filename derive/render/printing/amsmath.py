@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from derive.page.document import Display
+from derive.page.tree import Display
 from derive.render.notation.latex import TEX_OPERATORS, latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.lines import Printed, printed_lines

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from derive.course.placement import STATEMENT
-from derive.page.document import Block, Display, Document, Illustration, PartPage
+from derive.page.numbering import Number
+from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
@@ -51,6 +52,7 @@ class HtmlPage:
 
     def __init__(self, document: Document, words: Phrases, notation: Notation, drawings: Files = ()):
         self.document, self.words, self.notation = document, words, notation
+        self._placed: set[Number] = set()
         self.drawings = {name: content for name, content in drawings if name.endswith(".svg")}
 
     def title(self) -> Html:
@@ -107,6 +109,11 @@ class HtmlPage:
             for printed in [printed_lines(group, self.notation)]
         ]
 
+    def numbers(self, folded: Folded) -> str:
+        """Of the equations that are folded."""
+        groups = [group for block in folded.blocks if isinstance(block, Display) for group in block.groups]
+        return ", ".join(f"({number})" for number in dict.fromkeys(group.number for group in groups))
+
     def tex(self, display: Display) -> str:
         """The same as LaTeX, to be copied."""
         return display_latex(display, self.notation)
@@ -118,8 +125,14 @@ class HtmlPage:
             cells = ['<span class="answer">', *cells, "</span>"]
         why = f'<span class="why">{self.inline(line.reason)}</span>' if line.reason else ""
         number = "" if line.number is None else f'<span class="number">({line.number})</span>'
-        anchor = "" if line.number is None else f' id="{_anchor(line.number)}"'
+        anchor = "" if line.number is None or not self._is_first(line.number) else f' id="{_anchor(line.number)}"'
         return f'<div class="row"{anchor}>{"".join(cells)}{why}{number}</div>'
+
+    def _is_first(self, number: Number) -> bool:
+        """Lines that are folded below an equation have its number again, but not its place."""
+        known = number in self._placed
+        self._placed.add(number)
+        return not known
 
     # --- drawings ----------------------------------------------------------------------------------------------------
 

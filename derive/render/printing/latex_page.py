@@ -11,7 +11,9 @@ from typing import Any
 
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
-from derive.page.document import Block, Display, Document, Illustration, Paragraph, PartPage
+from derive.page.folding import sentences
+from derive.page.numbering import Number
+from derive.page.tree import Block, Display, Document, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
@@ -187,7 +189,7 @@ class _Page:
         number = "" if last.number is None else self._numbered(last.number)
         return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
 
-    def _numbered(self, number: int) -> str:
+    def _numbered(self, number: Number) -> str:
         return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
 
     def in_statement(self) -> Sequence[Illustration]:
@@ -233,7 +235,7 @@ class _Questions(_Page):
 def passages_of(blocks: Sequence[Block]) -> list[Passage]:
     """A part, drawing by drawing, with what goes before each and after it: half of what is between two, at the most."""
     passages = [Passage()]
-    for sentence in _sentences(blocks):
+    for sentence in sentences(blocks):
         first, last = sentence[0], passages[-1]
         if not isinstance(first, Illustration) and last.drawings:
             passages[-1] = replace(last, after=(*last.after, sentence))
@@ -245,20 +247,6 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
         else:
             passages[-1] = replace(last, drawings=(*last.drawings, first))
     return passages
-
-
-def _sentences(blocks: Sequence[Block]) -> list[Blocks]:
-    """What stands together: the words before a display, the display, and the words that go on with its sentence."""
-    sentences: list[Blocks] = []
-    for block in blocks:
-        last = sentences[-1][-1] if sentences else None
-        to_its_display = isinstance(block, Display) and isinstance(last, Paragraph)
-        goes_on = isinstance(block, Paragraph) and isinstance(last, Display) and last.end == ","
-        if to_its_display or goes_on:
-            sentences[-1] = (*sentences[-1], block)
-        else:
-            sentences.append((block,))
-    return sentences
 
 
 def _rows(lines: Sequence[Printed]) -> list[list[Printed]]:
@@ -314,5 +302,5 @@ def _note_height(route: str) -> float:
     return NOTE_LINE * (1 + len(textwrap.wrap(route, NOTE_CHARACTERS)))
 
 
-def _anchor(problem_id: str, number: int) -> str:
+def _anchor(problem_id: str, number: Number) -> str:
     return f"{dotted(problem_id)}.{number}"

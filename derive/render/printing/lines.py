@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from derive.page.chain_lines import Equations
+from derive.page.numbering import Number
 from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken, terms_of
 from derive.render.notation.layout import Layout, width
@@ -29,7 +30,7 @@ class Printed:
     left: Layout | None
     sides: tuple[tuple[str, Layout], ...]
     reason: tuple[Inline, ...]
-    number: int | None = None
+    number: Number | None = None
     framed: int = 0
 
     @property

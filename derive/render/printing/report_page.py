@@ -11,7 +11,7 @@ from derive.algebra.equality import Grade
 from derive.course.reference.errata import Erratum
 from derive.course.reference.quotes import Remark
 from derive.page.checks import Row
-from derive.page.document import Document
+from derive.page.tree import Document
 from derive.page.wording import Phrases
 from derive.render.notation.latex import escaped, latex
 from derive.render.notation.notation import Notation

@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
-from derive.page.document import Display, Document, Illustration, Paragraph, PartPage
+from derive.page.numbering import Number
+from derive.page.tree import Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
@@ -24,12 +25,12 @@ def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     return _Page(document, words, notation).text()
 
 
-def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, int] | None = None) -> str:
+def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, Number] | None = None) -> str:
     """Running text; `numbers` are those of the equations it may refer to."""
     return " ".join("".join(_node(node, notation, numbers or {}) for node in nodes).split())
 
 
-def _node(node: Inline, notation: Notation, numbers: Mapping[str, int]) -> str:
+def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> str:
     match node:
         case Text(text):
             return text

@@ -1,0 +1,75 @@
+"""A page with what a page of more detail has besides, folded in its place: whoever wants it opens it there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from derive.page.chain_lines import ChainLine, Equations
+from derive.page.numbering import Number
+from derive.page.tree import Block, Display, Document, Folded, Paragraph, PartPage
+
+Sentence = tuple[Block, ...]
+
+
+def with_details(document: Document, full: Document) -> Document:
+    """A page with the lines that `full`, of the same problem with the same numbers, has besides."""
+    lines = {group.key: group.lines for part in document.parts for group in _groups(part.blocks)}
+    merged = {part.label: _merged(part, document.numbers, lines) for part in full.parts}
+    parts = tuple(
+        replace(part, blocks=_placed(part.blocks, merged[part.label])) if part.shown else part
+        for part in document.parts
+    )
+    return replace(document, parts=parts, numbers={**full.numbers, **document.numbers})
+
+
+def _merged(
+    full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
+) -> dict[str, tuple[Block, ...]]:
+    """What is folded behind each step, by the key of the step; before the first under the empty name."""
+    found: dict[str, list[Block]] = {}
+    at = ""
+    for sentence in sentences(full.blocks):
+        displays = [block for block in sentence if isinstance(block, Display)]
+        keys = [group.key for display in displays for group in display.groups]
+        if displays and not set(keys) & set(numbers):
+            found.setdefault(at, []).extend(sentence)
+            continue
+        for display in displays:
+            at = next((group.key for group in reversed(display.groups) if group.key in lines), at)
+            more = tuple(group for group in display.groups if _has_more(group.lines, lines.get(group.key, ())))
+            if more:
+                found.setdefault(at, []).append(replace(display, groups=more, end="."))
+    return {key: tuple(blocks) for key, blocks in found.items()}
+
+
+def _has_more(full: Sequence[ChainLine], shown: Sequence[ChainLine]) -> bool:
+    return bool(shown) and len(full) > len(shown)
+
+
+def _placed(blocks: Sequence[Block], folded: Mapping[str, tuple[Block, ...]]) -> tuple[Block, ...]:
+    """The blocks of a part, each sentence with what is folded behind its steps."""
+    found: list[Block] = [Folded(folded[""])] if "" in folded else []
+    for sentence in sentences(blocks):
+        found += sentence
+        behind = [block for group in _groups(sentence) for block in folded.get(group.key, ())]
+        found += [Folded(tuple(behind))] if behind else []
+    return tuple(found)
+
+
+def _groups(blocks: Sequence[Block]) -> list[Equations]:
+    return [group for block in blocks if isinstance(block, Display) for group in block.groups]
+
+
+def sentences(blocks: Sequence[Block]) -> list[Sentence]:
+    """What stands together: the words before a display, the display, and the words that go on with its sentence."""
+    found: list[Sentence] = []
+    for block in blocks:
+        last = found[-1][-1] if found else None
+        to_its_display = isinstance(block, Display) and isinstance(last, Paragraph)
+        goes_on = isinstance(block, Paragraph) and isinstance(last, Display) and last.end == ","
+        if to_its_display or goes_on:
+            found[-1] = (*found[-1], block)
+        else:
+            found.append((block,))
+    return found

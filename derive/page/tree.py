@@ -1,0 +1,111 @@
+"""What a page is made of, before any format: title, statement, parts, sentences, displays, drawings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.equality import LEAST_SURE_FIRST, Grade
+from derive.course.names import EvidenceShown
+from derive.errors import Complaint
+from derive.page.chain_lines import Equations
+from derive.page.checks import Checks
+from derive.page.numbering import Number
+from derive.page.wording import Inline
+
+
+@dataclass(frozen=True)
+class Display:
+    """Equations set together, and what the margin says of them."""
+
+    groups: tuple[Equations, ...]
+    grades: frozenset[Grade] = frozenset()
+    routes: tuple[str, ...] = ()
+    end: str = "."
+    checks: tuple[str, ...] = ()
+
+    @property
+    def grade(self) -> Grade:
+        """How sure the least sure of its steps is."""
+        return min(self.grades, key=LEAST_SURE_FIRST.index)
+
+    def with_more(self, other: Display, beside: bool = False) -> Display:
+        """The lines of both, the others beside the last where they fit; the margin names the first step's routes."""
+        groups = (
+            (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
+        )
+        routes, checks = (self.routes or other.routes), (self.checks or other.checks)
+        return Display(groups, self.grades | other.grades, routes, checks=checks)
+
+    @property
+    def stops(self) -> tuple[str, ...]:
+        """The punctuation behind each step: commas between them, at the end what the sentence needs."""
+        return (",",) * (len(self.groups) - 1) + (self.end,)
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    nodes: tuple[Inline, ...]
+
+
+@dataclass(frozen=True)
+class Illustration:
+    """A drawing of the script: its files' common name, its caption and its number if it has one, and what it shows."""
+
+    key: str
+    stem: str
+    alt: tuple[Inline, ...]
+    number: int | None
+    caption: tuple[Inline, ...]
+    at: str
+    rests_on: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Folded:
+    """What a page of more detail has besides, closed until a reader opens it."""
+
+    blocks: tuple[Block, ...]
+
+
+Block = Paragraph | Display | Illustration | Folded
+
+
+@dataclass(frozen=True)
+class PartPage:
+    label: str
+    ask: tuple[Inline, ...]
+    points: Fraction | None
+    blocks: tuple[Block, ...]
+    extra: bool = False
+    shown: bool = True  # not where only a page of more detail has it
+
+
+@dataclass(frozen=True)
+class Document:
+    """One problem's page."""
+
+    id: str
+    title: tuple[Inline, ...]
+    points: Fraction | None
+    statement: tuple[Inline, ...]
+    illustrations: tuple[Illustration, ...]
+    parts: tuple[PartPage, ...]
+    note: tuple[Inline, ...]
+    checks: Checks
+    closing: tuple[Inline, ...]
+    numbers: Mapping[str, Number]
+    symbols: Mapping[str, Any]
+    shown_in: Mapping[str, str]  # step -> label of the part that shows it
+    dimensions: Mapping[Any, Dimension | None] = field(repr=False)
+    warnings: tuple[Complaint, ...] = ()
+    strategy: tuple[Inline, ...] = ()
+    limits: PartPage | None = None
+    evidence: EvidenceShown = EvidenceShown.NONE
+
+    @property
+    def parts_shown(self) -> tuple[PartPage, ...]:
+        return tuple(part for part in self.parts if part.shown)
