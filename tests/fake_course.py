@@ -117,6 +117,14 @@ def report_document(root: Path, heading: object, problems: list[Rendered]) -> st
     return "".join(f"checks of {problem.id}\n" for problem in problems)
 
 
+def problem_page(root: Path, problem: Rendered, heading: object) -> str:
+    return f"<!-- {problem.id} -->{problem.html}\n"
+
+
+def index_page(root: Path, heading: object, problems: list[Rendered]) -> str:
+    return "".join(f"<!-- {problem.id} -->\n" for problem in problems)
+
+
 class Course:
     """A root with one set `hw1` of problems `one` and `two`."""
 
@@ -172,7 +180,7 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 def replace_derivation(monkeypatch: Any) -> None:
     """Put the stand-ins where the modules of `derive.building` that have these functions are imported from."""
-    documents = (problem_document, set_document, sheet_document, report_document)
+    documents = (problem_document, set_document, sheet_document, report_document, problem_page, index_page)
     modules = {"solution": (rendered,), "headline": (headline,), "explained": (explained,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")

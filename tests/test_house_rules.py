@@ -176,7 +176,7 @@ def test_the_engine_holds_no_sentence(name: str) -> None:
 @pytest.mark.parametrize("name", MODULES)
 def test_only_the_command_line_prints(name: str) -> None:
     prints = [n for n in ast.walk(tree(name)) if isinstance(n, ast.Call) and ast.unparse(n.func) == "print"]
-    assert not prints or name in PRINTING
+    assert not prints or name in PRINTING or name.startswith("cli.commands.")
 
 
 @pytest.mark.parametrize("name", MODULES)

@@ -1,6 +1,6 @@
-"""The letters of formulas on web pages: of STIX Two Math those that a page can have, for `templates/html/math.woff2`.
+"""The letters of formulas on web pages: of STIX Two Math those that a page can have, for `templates/html/math.woff`.
 
-Run it with the font as its argument where `fonttools` and `brotli` are installed; the font comes with the package
+Run it with the font as its argument where `fonttools` is installed; the font comes with the package
 `ziamath`, among others. Its licence, the SIL Open Font License, stays in what is made of it.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-FONT = Path(__file__).parent.parent / "templates" / "html" / "math.woff2"
+FONT = Path(__file__).parent.parent / "templates" / "html" / "math.woff"
 
 LATIN, GREEK = range(0x20, 0x7F), [*range(0x391, 0x3AA), *range(0x3B1, 0x3CA), 0x3D1, 0x3D5, 0x3D6, 0x3F1, 0x3F5]
 BOLD, ITALIC, BOLD_ITALIC = range(0x1D400, 0x1D41A), range(0x1D434, 0x1D468), range(0x1D468, 0x1D49C)
@@ -26,7 +26,7 @@ def subset(whole: str, made: Path) -> None:
     from fontTools import subset as of_font
 
     options = of_font.Options()
-    options.flavor, options.hinting, options.layout_features = "woff2", False, ["math", "dtls"]
+    options.flavor, options.hinting, options.layout_features = "woff", False, ["math", "dtls"]
     options.name_IDs = [0, 1, 2, 13, 14]  # whose it is and its licence, which stay with it
     font = of_font.load_font(whole, options)
     cut = of_font.Subsetter(options)

@@ -20,7 +20,7 @@ from derive.render.printing.templates import HTML, filled_html
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
-FONT = "math.woff2"  # of formulas, see tools/webfont.py
+FONT = "math.woff"  # of formulas, see tools/webfont.py
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "checks", "agree", "agree_to_figures", "errata", "remarks",

@@ -299,7 +299,7 @@ class _Build:
 
         derived = self.derived[name]
         texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in formats().values()}
-        self._page(name, lambda: problem_page(self.root, derived, self.heading))
+        texts |= self._page(name, lambda: problem_page(self.root, derived, self.heading))
         if self._record(dict(derived.files)):
             rank = FIRST if self.edits else LAST
             self._typeset(name, lambda: problem_document(self.root, derived, self.heading), texts, derived.files, rank)
@@ -311,19 +311,20 @@ class _Build:
         from derive.building.set_document import index_page, report_document, set_document, sheet_document
 
         parts = [self.derived[name] for name in self.names]
-        self._page(INDEX, lambda: index_page(self.root, self.heading, parts))
         files = tuple(file for part in parts for file in part.files)
         numbers = Kept(self.cache, digest("numbers", SOLUTIONS, self.engine.identity))  # one run is enough next time
-        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), {}, files, FIRST, numbers)
+        index = self._page(INDEX, lambda: index_page(self.root, self.heading, parts))
+        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), index, files, FIRST, numbers)
         self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files, LAST)
         self._typeset(REPORT, lambda: report_document(self.root, self.heading, parts), {}, (), LAST)
 
-    def _page(self, name: str, page: Callable[[], str]) -> None:
-        """A page for a browser, which waits for no TeX."""
+    def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
+        """A page for a browser, which stands beside a PDF."""
         try:
-            self._record({f"{name}.html": page()})
+            return {f"{name}.html": page()}
         except DeriveError as error:
             self.result.complaints += error.complaints
+            return {}
 
     def _typeset(
         self,

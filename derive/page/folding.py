@@ -37,7 +37,11 @@ def _merged(
             continue
         for display in displays:
             at = next((group.key for group in reversed(display.groups) if group.key in lines), at)
-            more = tuple(group for group in display.groups if _has_more(group.lines, lines.get(group.key, ())))
+            more = tuple(
+                group
+                for group in display.groups
+                if group.key not in numbers or _has_more(group.lines, lines.get(group.key, ()))
+            )
             if more:
                 found.setdefault(at, []).append(replace(display, groups=more, end="."))
     return {key: tuple(blocks) for key, blocks in found.items()}

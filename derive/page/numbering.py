@@ -21,11 +21,6 @@ class Number:
     def __str__(self) -> str:
         return f"{self.whole}{_letters(self.behind)}"
 
-    @property
-    def data(self) -> int | str:
-        """For other programs: a number where it is one."""
-        return str(self) if self.behind else self.whole
-
 
 class Numbering(dict[str, Number]):
     """The numbers of equations by the keys of their steps; `like` are those of a page of less detail."""

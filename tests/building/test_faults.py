@@ -11,7 +11,7 @@ import pytest
 from fake_course import Course, stand_in_course
 from pypdf import PdfReader
 
-from derive.building import sets as build
+from derive.building.named import TARGETS
 from derive.building.set_document import problem_document, set_document, sheet_document
 from derive.building.sets import Options, Report, built_set
 from derive.building.tex import chosen_engine, typeset
@@ -95,7 +95,7 @@ def test_a_name_that_make_cannot_have_is_left_out_with_one_warning(
 def test_the_makefile_has_the_same_reserved_names() -> None:
     makefile = (ROOT / "Makefile").read_text()
     line = next(line for line in makefile.splitlines() if line.startswith("RESERVED := "))
-    assert set(line.split()[2:]) == build.TARGETS
+    assert set(line.split()[2:]) == TARGETS
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from derive.building.tex import Engine, chosen_engine, prepare, typeset
 from derive.course.problem_set import ProblemSet
 from derive.errors import BuildFailed
 from derive.page.template import environment
-from derive.render.rendered import Rendered, Tex
+from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 from tests.courses import ROOT
 
@@ -34,8 +34,8 @@ A block \own{two}: $\mass a^2$ %s
 """
 PAGE = Rendered(
     id="hw1/one", detail="standard", title="One", points="3", texts={}, latex=Tex("solved"), title_latex=Tex("One"),
-    sheet=Tex("asked"), report=Tex("checked"), warnings=(), inputs=(), grades={}, counts=dict.fromkeys(COUNTED, 1),
-    steps=1, compared=0, agreed=True,
+    sheet=Tex("asked"), report=Tex("checked"), html=Html(""), title_html=Html(""), warnings=(), inputs=(), grades={},
+    counts=dict.fromkeys(COUNTED, 1), steps=1, compared=0, agreed=True,
 )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from derive.building import watch as watching
 from derive.building.sets import Options, Report
 from derive.building.watch import Shown, seen_in, watch
 from derive.errors import BuildFailed, Misused
-from tests.cli.test_commands import alone, alone_in, command
+from tests.cli.started import alone, alone_in, command
 from tests.courses import ROOT, course_in
 
 
@@ -212,7 +212,7 @@ def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_pa
     process.until("derived 1 of 1")
     page = root / "build" / "hw9" / "euler.tex"
     for file, old, new in (
-        ("phrases/en/page.yaml", "solutions: Solutions", "solutions: Worked out"),
+        ("phrases/en/page.yaml", "  solutions: Solutions", "  solutions: Worked out"),
         ("latex/document.tex.j2", r"{\headheight}{14pt}", r"{\headheight}{15pt}"),
     ):
         text = (root / "templates" / file).read_text()

@@ -94,9 +94,11 @@ def test_the_keyboard_reaches_the_main_part_first_and_then_what_scrolls(pages: d
 def test_a_display_can_be_copied_as_latex(pages: dict[str, str]) -> None:
     with browser_page(permissions=["clipboard-read", "clipboard-write"]) as page:
         page.goto(pages["block"])
-        page.locator(".copy").first.click()
+        page.locator("section > .display > .copy").first.focus()
+        page.keyboard.press("Enter")
+        page.wait_for_function("document.activeElement.textContent === 'Copied'")
         copied = page.evaluate("navigator.clipboard.readText()")
-        assert copied == page.locator(".display").first.get_attribute("data-tex")
+        assert copied == page.locator("section > .display").first.get_attribute("data-tex")
 
 
 def test_each_drawing_says_what_it_shows(pages: dict[str, str], desk: Page) -> None:

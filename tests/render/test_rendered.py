@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from derive.errors import Complaint, Place
-from derive.render.rendered import Rendered, Tex
+from derive.render.rendered import Html, Rendered, Tex
 
 TOLD = Complaint("x", "y", Place("one.yaml", 1, 2, "text", 3), notes=("z",), help="mend it", severity="warning")
 PAGE = Rendered(
@@ -21,6 +21,8 @@ PAGE = Rendered(
     title_latex=Tex("A top"),
     sheet=Tex("?"),
     report=Tex("!"),
+    html=Html("<p>"),
+    title_html=Html("<i>"),
     texts={"text": "ω", "json": "{}"},
     warnings=(TOLD, Complaint("a", "b")),
     inputs=("one.yaml", "one.py"),

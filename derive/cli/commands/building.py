@@ -84,10 +84,10 @@ def _reported(report: Report) -> int:
     complain([*report.warnings, *report.complaints])
     for bug in report.bugs:
         internal(str(bug), bug.trace)
-    pdfs = [shown_path(path) for path in report.changed if path.suffix == ".pdf"]
-    said = f"wrote {_listed(pdfs)}" if pdfs else "no page changed" if report.derived else "up to date"
+    pages = [shown_path(path) for path in report.changed if path.suffix in (".html", ".pdf")]
+    said = f"wrote {_listed(pages)}" if pages else "no page changed" if report.derived else "up to date"
     if report.failed:
-        said = f"failed; {said if pdfs else 'earlier pages are as they were'}"
+        said = f"failed; {said if pages else 'earlier pages are as they were'}"
     print(
         f"{report.set_id}: derived {report.derived} of {report.problems} problems, {said} ({report.seconds:.1f} s)",
         flush=True,

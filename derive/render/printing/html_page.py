@@ -26,7 +26,7 @@ from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.rendered import Files, Html
 
-WIDE = 34.0  # characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard
+WIDE = 27.0  # characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ def _side(relation: str, side: Layout) -> str:
 
 
 def _scrolling_if_wide(layout: Layout, formula: Html) -> str:
-    return _scrolling(formula, "") if width(layout) > WIDE else formula
+    return _scrolling(formula, "") if width(layout) > WIDE else f'<span class="side">{formula}</span>'
 
 
 def _scrolling(formula: str, said: str) -> str:

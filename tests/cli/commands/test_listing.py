@@ -1,0 +1,72 @@
+"""`derive list`: problems, topics, and what does not read."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from fake_course import Course
+
+from derive.cli.options import main
+from tests.cli.started import alone_in
+from tests.courses import course_in
+
+
+def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    course.problem("one", "A block")
+    course.problem("two", "refuse")
+    assert main(["list"]) == 0
+    heading, first, second = capfd.readouterr().out.splitlines()
+    assert heading.split() == ["problem", "points", "title"]
+    assert first.split() == ["hw1/one", "3", "A", "block"]
+    assert second.split(maxsplit=1) == ["hw1/two", "(does not read: `mass` must be a mass)"]
+
+
+def test_a_problem_that_ends_its_reader_costs_the_list_nothing_else(
+    course: Course, capfd: pytest.CaptureFixture[str]
+) -> None:
+    for name, said in {"one": "A block", "two": "die", "three": "A cone"}.items():
+        course.problem(name, said)
+    assert main(["list"]) == 0
+    lines = capfd.readouterr().out.splitlines()[1:]
+    assert [line.split(maxsplit=1)[1] for line in lines] == [
+        "3  A block",
+        "3  A cone",
+        "(does not read: `hw1/two` ended without a word: signal 9)",
+    ]
+
+
+def test_a_list_may_be_of_one_topic(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    course.problem("one", "A block")
+    rotation = course.root / "problems" / "hw1" / "rotation"
+    rotation.mkdir()
+    (rotation / "wheel.yaml").write_text("A wheel")
+    assert main(["list", "--topic", "rotation"]) == 0
+    heading, line = capfd.readouterr().out.splitlines()
+    assert (heading.split(), line.split()) == (
+        ["problem", "topic", "points", "title"],
+        ["hw1/wheel", "rotation", "3", "A", "wheel"],
+    )
+    assert main(["list", "--topic", "rotaton"]) == 2
+    assert "did you mean `rotation`?" in capfd.readouterr().err
+
+
+def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -> None:
+    title = {"about <<axis>>\nsolve": "about its axis\nsolve"}
+    root = course_in(tmp_path, title)
+    course_in(tmp_path / "wrong", {**title, "answer: inertia_tensor": "answers: inertia_tensor"})
+    shutil.copytree(tmp_path / "wrong" / "problems" / "hw9", tmp_path / "problems" / "hw8")
+    code = (
+        "import sys; from derive.building.headline import headline; from pathlib import Path\n"
+        "print(headline(Path.cwd(), 'hw9/block'), sorted({'sympy', 'derive.course.latex'} & set(sys.modules)))\n"
+        "from derive.cli.options import main; main(['list']); print('sympy' in sys.modules)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=alone_in(root), cwd=root)
+    first, _, wrong, right, last = done.stdout.splitlines()
+    assert first == "('10', 'A block turning about its axis') []"
+    assert wrong.split(maxsplit=1) == ["hw8/block", "(does not read: a part has no key `answers`)"]
+    assert right.split(maxsplit=2) == ["hw9/block", "10", "A block turning about its axis"]
+    assert last == "False"

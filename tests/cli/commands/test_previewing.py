@@ -1,0 +1,34 @@
+"""`derive preview`: what cannot be shown is told before a server begins."""
+
+from __future__ import annotations
+
+import socket
+from pathlib import Path
+
+import pytest
+
+from derive.cli.options import main
+from tests.courses import course_in
+
+
+@pytest.fixture(autouse=True)
+def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DERIVE_ROOT", str(course_in(tmp_path)))
+
+
+def test_a_problem_that_there_is_not_is_wrong_usage(capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["preview", "hw9/blok"]) == 2
+    assert "did you mean `hw9/block`?" in capfd.readouterr().err
+
+
+def test_a_port_that_is_taken_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        assert main(["preview", "hw9/block", "--port", str(taken.getsockname()[1])]) == 1
+    assert "is taken" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("port", ["-1", "70000", "web"])
+def test_a_port_is_a_number_that_a_port_can_have(port: str, capfd: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["preview", "hw9/block", "--port", port])
+    assert "invalid port value" in capfd.readouterr().err

@@ -1,0 +1,36 @@
+"""A display as LaTeX for other documents: what TeX and readers of mathematics know."""
+
+from __future__ import annotations
+
+from sympy import Symbol
+
+from derive.page.chain_lines import ChainLine, Equations
+from derive.page.numbering import Number
+from derive.page.tree import Display
+from derive.render.notation.notation import Notation
+from derive.render.printing.amsmath import display_latex
+
+a, b, c = (Symbol(name, positive=True) for name in "abc")
+
+
+def display(*lines: ChainLine, framed: int = 0) -> Display:
+    return Display((Equations("step", lines, Number(4), framed),))
+
+
+def test_one_row_is_a_formula_without_alignment() -> None:
+    assert display_latex(display(ChainLine(a, "equals", b)), Notation()) == "a =b.".replace("=b", "= b")
+
+
+def test_several_rows_are_aligned_at_their_relations() -> None:
+    long = sum((Symbol(f"x_{i}", positive=True) for i in range(30)), a)
+    shown = display_latex(display(ChainLine(a, "equals", long), ChainLine(None, "equals", b)), Notation())
+    assert shown.startswith("\\begin{aligned}") and shown.count("&=") == 2 and shown.endswith("\\end{aligned}")
+
+
+def test_an_answer_is_boxed_and_its_number_is_told_if_it_is_wanted() -> None:
+    answer = display(ChainLine(a, "equals", b), ChainLine(None, "equals", c), framed=1)
+    assert display_latex(answer, Notation(), numbered=True) == r"a = b = \boxed{c}.\qquad(4)"
+
+
+def test_an_answer_that_is_all_of_its_row_is_boxed_with_its_left_side() -> None:
+    assert display_latex(display(ChainLine(a, "equals", b), framed=1), Notation()) == r"\boxed{a = b}."
