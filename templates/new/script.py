@@ -3,8 +3,18 @@
 from sympy import pi
 
 from derive.figures import sketch
-from derive.given import *
-from derive.mechanics import *
+from derive.given import Acceleration, Length, Mass
+from derive.mechanics import (
+    Rod,
+    System,
+    coordinate,
+    equation_of_motion,
+    frequency,
+    frequency_squared,
+    lagrangian,
+    linearised,
+    weight,
+)
 
 
 def solve(length: Length, mass: Mass, gravity: Acceleration):
