@@ -73,6 +73,8 @@ def stand_in(name: str, **assumptions: bool) -> Symbol:
 
 PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign that is either: its square is 1, so b + PLUS_MINUS*c is b +- c
 
+BLANK = scalar("?")  # what is sought, where a page does not tell it
+
 TIME = scalar("t")  # there is one time: what contains it changes as it passes
 
 RATES = ("", "_dot", "_ddot", "_dddot")

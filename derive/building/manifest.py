@@ -15,7 +15,7 @@ from typing import Any
 
 from derive.building import sealed
 from derive.building.cache import digest, file_digest
-from derive.course.names import DOCUMENTS, INDEX
+from derive.course.names import INDEX, MORE
 from derive.render.formats import formats
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
@@ -35,6 +35,7 @@ class Manifest:
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
+    papers: list[list[str]] = field(default_factory=list)  # each with the name of its files
     evidence: str = ""  # how much the set says that its solutions tell of how they were checked
 
     @classmethod
@@ -72,8 +73,13 @@ class Manifest:
             self.complete
             and all(read(path) == content for path, content in self.set_inputs.items())
             and all(self.pages.get(name) == self.page_key(name, recipe, read) for name in self.problems)
-            and all(self.holds(name) for part in [*self.problems, *DOCUMENTS, INDEX] for name in self.outputs_of(part))
+            and all(self.holds(name) for name in self.all_outputs())
         )
+
+    def all_outputs(self) -> list[str]:
+        """Those of every problem, of every paper, and of the set for a browser."""
+        of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
+        return [*(output for name in self.problems for output in self.outputs_of(name)), *of_papers, f"{INDEX}.html"]
 
     def outputs_of(self, problem: str) -> list[str]:
         """All outputs of a problem, those that every problem has and its drawings."""
@@ -97,7 +103,7 @@ def _is_record(recorded: Any) -> bool:
     if any(type(value) is not type(getattr(empty, name)) for name, value in recorded.items()):
         return False
     texts = [*recorded["set_inputs"].values(), *recorded["pages"].values(), *recorded["outputs"].values()]
-    lists = [recorded["problems"], *recorded["inputs"].values(), *recorded["drawings"].values()]
+    lists = [recorded["problems"], *recorded["papers"], *recorded["inputs"].values(), *recorded["drawings"].values()]
     return (
         all(isinstance(each, list) for each in lists)
         and all(isinstance(text, str) for text in [*texts, *(text for each in lists for text in each)])
@@ -119,8 +125,10 @@ def _is_plain(output: str) -> bool:
 
 
 def outputs_of(name: str) -> list[str]:
-    """The outputs of a problem, or of a document of the whole set."""
-    if name == INDEX:
-        return [f"{name}.html"]
-    own = [] if name in DOCUMENTS else ["html", *(form.suffix for form in formats().values())]
-    return [f"{name}.{suffix}" for suffix in ("pdf", "tex", *own)]
+    """The outputs of a problem."""
+    return [f"{name}.{suffix}" for suffix in ("pdf", "tex", "html", *(form.suffix for form in formats().values()))]
+
+
+def outputs_of_paper(paper: str, file: str) -> list[str]:
+    """The outputs of a paper of the whole set."""
+    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if paper in MORE else ()))]

@@ -4,13 +4,14 @@ the pages of a set for a browser."""
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.course.names import DOCUMENTS
+from derive.course.names import MORE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import template_folder
@@ -29,14 +30,23 @@ COUNTED = (
 
 @dataclass(frozen=True)
 class Listed:
-    """A problem as its set shows it."""
+    """A problem as a paper of its set shows it."""
 
     number: str
     problem: Rendered
+    paper: str = SOLUTIONS
 
     @property
     def id(self) -> Tex:
         return Tex(self.problem.id)
+
+    @property
+    def body(self) -> Tex:
+        return Tex(self.problem.papers.get(self.paper, "")) if self.paper in MORE else self.problem.latex
+
+    @property
+    def html_body(self) -> Html:
+        return Html(self.problem.papers.get(f"{self.paper}.html", ""))
 
     @property
     def name(self) -> str:
@@ -64,6 +74,23 @@ def set_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) 
 def sheet_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
     """A complete .tex of the questions alone, for students."""
     return _document(root, "sheet.tex.j2", heading, _listed(problems))
+
+
+def paper_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
+    """A complete .tex of one of the papers that are made where they are asked for."""
+    return _document(root, "set.tex.j2", heading, _listed(problems, paper), paper)
+
+
+def paper_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
+    """The same for a browser, on one page."""
+    kind = phrases(template_folder(root)).labels["documents"][paper]
+    return _page(root, "paper.html.j2", heading, _listed(problems, paper), kind_of_paper=kind)
+
+
+def the_document(paper: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], str]:
+    """What makes the .tex of a paper."""
+    known = {SOLUTIONS: set_document, SHEET: sheet_document, REPORT: report_document}
+    return known.get(paper) or partial(paper_document, paper=paper)
 
 
 def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
@@ -96,7 +123,7 @@ def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) ->
 def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:
     folder = template_folder(root)
     font = b64encode((folder / HTML / FONT).read_bytes()).decode()
-    facts = {**_facts(root, heading, problems), "font": font, "documents": DOCUMENTS, **more}
+    facts = {**_facts(root, heading, problems), "font": font, "documents": heading.papers, **more}
     return filled_html(folder, template, facts)
 
 
@@ -105,12 +132,16 @@ def _alone(problem: Rendered, heading: ProblemSet) -> Listed:
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 
 
-def _listed(problems: Sequence[Rendered]) -> list[Listed]:
-    return [Listed(str(number), problem) for number, problem in enumerate(problems, 1)]
+def _listed(problems: Sequence[Rendered], paper: str = SOLUTIONS) -> list[Listed]:
+    return [Listed(str(number), problem, paper) for number, problem in enumerate(problems, 1)]
 
 
-def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed]) -> str:
+def _document(
+    root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], paper: str = SOLUTIONS
+) -> str:
     facts = _facts(root, heading, problems)
+    labels = facts["labels"]
+    facts["kind_of_paper"] = labels["solutions"] if paper == SOLUTIONS else labels["documents"][paper]
     return whole_latex(template_folder(root), template, facts)
 
 

@@ -27,7 +27,7 @@ from derive.building.preamble import at_hand, beginning
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
-from derive.course.names import DOCUMENTS, INDEX, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import INDEX, MORE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.render.formats import formats
 from derive.render.rendered import Files, Rendered
@@ -49,6 +49,7 @@ class Options:
     jobs: int = 0  # 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems of the set, if not all of them
+    papers: tuple[str, ...] = ()  # these alone, if not those that the set itself names
     evidence: str | None = None  # as much as the set itself says, if nothing else is
 
 
@@ -133,6 +134,7 @@ class _Build:
         self.manifest = Manifest.read(outputs)
         self.how = (engine_digest(*PACKAGES), *templates, options.detail or "")
         self.evidence = options.evidence or self.manifest.evidence
+        self.papers = self.manifest.papers
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
@@ -145,7 +147,8 @@ class _Build:
 
     @property
     def recipe(self) -> str:
-        return digest(*self.how, self.evidence)
+        asked = ",".join(self.options.papers)
+        return digest(*self.how, self.evidence, asked, *(part for paper in self.papers for part in paper))
 
     def report(self) -> Report:
         manifest, result = self.manifest, self.result
@@ -169,7 +172,8 @@ class _Build:
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence
         self.evidence = self.options.evidence or heading.evidence
-        self.heading = replace(heading, evidence=EvidenceShown(self.evidence))
+        self.manifest.papers = self.papers = [list(pair) for pair in self._wanted(heading.papers)]
+        self.heading = replace(heading, evidence=EvidenceShown(self.evidence), papers=self._wanted(heading.papers))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -199,6 +203,11 @@ class _Build:
                 # An interrupted build saves what it has finished, and is not complete.
                 self.manifest.save()
                 self.cache.let_go()
+
+    def _wanted(self, named: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+        """The papers that are asked for, each with the name of its files: the set's own, or itself."""
+        asked = self.options.papers or [paper for paper, _ in named]
+        return tuple((paper, dict(named).get(paper, paper)) for paper in asked)
 
     def _finish(self) -> None:
         """All that is under way, and what follows from it."""
@@ -244,8 +253,10 @@ class _Build:
 
         for name in names:
             problem = f"{self.set_id}/{name}"
-            shown = EvidenceShown(self.evidence)
-            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown)
+            shown, more = EvidenceShown(self.evidence), [paper for paper, _ in self.papers if paper in MORE]
+            work = partial(
+                rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown, papers=more
+            )
             self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
         self.crew.start()
 
@@ -308,15 +319,19 @@ class _Build:
         """The documents of the set, as soon as its last problem is derived."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.set_document import index_page, report_document, set_document, sheet_document
+        from derive.building.set_document import index_page, paper_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
-        numbers = Kept(self.cache, digest("numbers", SOLUTIONS, self.engine.identity))  # one run is enough next time
-        index = self._page(INDEX, lambda: index_page(self.root, self.heading, parts))
-        self._typeset(SOLUTIONS, lambda: set_document(self.root, self.heading, parts), index, files, FIRST, numbers)
-        self._typeset(SHEET, lambda: sheet_document(self.root, self.heading, parts), {}, files, LAST)
-        self._typeset(REPORT, lambda: report_document(self.root, self.heading, parts), {}, (), LAST)
+        self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts)))
+        for paper, file in self.papers:
+            numbers = Kept(self.cache, digest("numbers", paper, self.engine.identity))  # one run is enough next time
+            document = partial(the_document(paper), self.root, self.heading, parts)
+            of_set = partial(paper_page, self.root, self.heading, parts, paper)
+            page = self._page(file, of_set) if paper in MORE else {}
+            rank = FIRST if paper == SOLUTIONS else LAST
+            beside = files if paper != REPORT else ()
+            self._typeset(file, document, page, beside, rank, numbers if paper not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
         """A page for a browser, which stands beside a PDF."""
@@ -358,7 +373,7 @@ class _Build:
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
         """The text and the source follow their PDF, so that what lies side by side belongs together."""
-        if pdf.removesuffix(".pdf") in DOCUMENTS and outcome.error:
+        if pdf.removesuffix(".pdf") in [file for _, file in self.papers] and outcome.error:
             self.whole_failed = outcome
             return
         if not self._took(outcome):
@@ -389,8 +404,7 @@ class _Build:
 
     def _stamp(self) -> None:
         """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
-        names = [output for name in [*self.names, *DOCUMENTS, INDEX] for output in self.manifest.outputs_of(name)]
-        outputs = [f"build/{self.set_id}/{name}" for name in names]
+        outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         write(self.outputs / ".outputs", "\n".join([options, *outputs, ""]))
         write(self.outputs / ".built", "")

@@ -20,7 +20,7 @@ from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
 from derive.building.drawn import drawing_files
 from derive.building.solved import Solved, steps_key
-from derive.course.names import EvidenceShown
+from derive.course.names import HINTS, KEY, EvidenceShown
 from derive.course.parts import Question, points_text
 from derive.course.problem import Problem, load_problem, run_solve
 from derive.course.problem_set import problem_set
@@ -32,7 +32,9 @@ from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
 from derive.page.folding import with_details
+from derive.page.hints import with_hints
 from derive.page.numbering import Number
+from derive.page.rubric import credits_of, faults_of_rubric
 from derive.page.template import template_folder
 from derive.page.tree import Document
 from derive.page.wording import phrases
@@ -43,6 +45,7 @@ from derive.render.notation.notation import Notation
 from derive.render.notation.text import in_one_line
 from derive.render.printing.html_page import NO_HTML, problem_html
 from derive.render.printing.latex_page import NOT_TYPESET, problem_latex
+from derive.render.printing.papers import paper_fragments
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Rendered, SourceFault
 from derive.steps import record
@@ -69,12 +72,13 @@ def rendered(
     draws: bool = False,
     only: Collection[str] | None = None,
     evidence: EvidenceShown = EvidenceShown.NONE,
+    papers: Collection[str] = (),
 ) -> Rendered:
     """Derive a problem and print it; raises `DeriveError` with everything that is wrong.
 
     Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time; `draws`
     says whether the files of its drawings are wanted too, `only` in which formats the page is, else it is in all, and
-    `evidence` how much it tells of how it was checked.
+    `evidence` how much it tells of how it was checked, and `papers` what else is made of it: the key, hints, a rubric.
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
@@ -98,6 +102,14 @@ def rendered(
     wanted = {*formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
     files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()
+    rubric = {chr(ord("a") + i): part.rubric for i, part in enumerate(problem.parts)}
+    Faults(faults_of_rubric(document, rubric)).stop()
+
+    def page_of(paper: str) -> Document:
+        if paper == HINTS:
+            return with_hints(document, (s for p in problem.parts for s in derivation.answering(p.answers)), words)
+        return document if paper != KEY or level is Level.FULL else page_at(Level.FULL, document.numbers)
+
     folded = HTML in wanted and level is not Level.FULL
     whole = with_details(document, page_at(Level.FULL, document.numbers)) if folded else document
     page = problem_html(whole, words, notation, template_folder(root), files) if HTML in wanted else NO_HTML
@@ -113,6 +125,9 @@ def rendered(
         report=fragments.report,
         html=page.solution,
         title_html=page.title,
+        papers=paper_fragments(
+            papers, page_of, credits_of(document, rubric), words, notation, template_folder(root), files
+        ),
         texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
         warnings=(*(w for w in document.warnings if w not in of_nobody), *failures),
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),

@@ -7,6 +7,7 @@ import gc
 import sys
 from collections.abc import Sequence
 
+from derive.course.names import PAPERS
 from derive.render.formats import TYPESET, formats
 
 DETAILS = ("brief", "standard", "full")
@@ -73,6 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     how = build.add_mutually_exclusive_group()
     how.add_argument("--force", action="store_true", help="do everything again")
     how.add_argument("--watch", action="store_true", help="build again at each edit, until Ctrl-C")
+    build.add_argument("--only", type=_papers, default=(), metavar="PAPERS", help=f"of {', '.join(PAPERS)}")
     preview = command("preview", "show a problem in the browser while you write it, until Ctrl-C")
     preview.epilog = "example: derive preview hw9/block"
     preview.add_argument("id", metavar="ID|SET", help="such as hw9/block")
@@ -132,14 +134,19 @@ def _count(text: str) -> int:
     return int(text)
 
 
+def _papers(text: str) -> tuple[str, ...]:
+    papers = tuple(text.split(","))
+    if not set(papers) <= set(PAPERS):
+        raise ValueError(text)
+    return papers
+
+
 def _port(text: str) -> int:
     if not 0 <= int(text) < 65536:
         raise ValueError(text)
     return int(text)
 
 
-_positive.__name__, _port.__name__, _count.__name__ = (
-    "time limit",
-    "port",
-    "count",
-)  # argparse names the type in its message
+# argparse names the type in its message
+_positive.__name__, _port.__name__ = "time limit", "port"
+_count.__name__, _papers.__name__ = "count", "list of papers"

@@ -10,6 +10,10 @@ from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 SOLUTIONS, SHEET, REPORT = DOCUMENTS = ("solutions", "problems", "report")
+# And those that are made where they are asked for: every line with the points of each step, hints without the answers,
+# the points alone.
+KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
+PAPERS = (*DOCUMENTS, *MORE)
 INDEX = "index"  # the page of a set for a browser
 
 

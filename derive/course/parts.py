@@ -133,6 +133,9 @@ class Question(Record):
         called="form",
     )
 
+    rubric: dict[Word, Fraction] = key(
+        "points of some of its steps, by the key of the step; the rest is shared among the others", mapping_of(POINTS)
+    )
     cases: Word | None = key("a plot of `drawings:`, for each of whose `cases:` the answers get their numbers", TEXT)
 
     def form_of(self, answer: str) -> AnswerForm:
@@ -152,6 +155,10 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
         message = "a part that is `extra` carries no points"
         faults.error("points", message, part.places["points"], help="leave `points` out, or `extra`")
         part = replace(part, points=None)
+    if part and (said := sum(part.rubric.values(), Fraction(0))) > (part.points or 0):
+        has = f"has {points_text(part.points)}" if part.points is not None else "has no points"
+        message = f"the steps of `rubric` have {points_text(said)} points, and the part {has}"
+        faults.error("points", message, part.places["rubric"], help="let them add up to at most those of the part")
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "what the problem asks for is shown at every detail"
         faults.error("detail", message, part.places["detail"], help="leave `detail` out, or say `extra: true`")

@@ -7,12 +7,16 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, INDEX, NAME, EvidenceShown
+from derive.course.names import DOCUMENTS, INDEX, NAME, PAPERS, EvidenceShown
 from derive.course.schema import TEXT, Record, as_written, key, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
 _NOT_PROBLEMS = ("set", "reference")
+
+
+# Each paper with the name of its files.
+THOSE_OF_EVERY_SET = tuple((paper, paper) for paper in DOCUMENTS)
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,7 @@ class ProblemSet:
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
     evidence: EvidenceShown = EvidenceShown.NONE
+    papers: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -34,6 +39,12 @@ class ProblemSet:
         return {full.partition("/")[2]: number for number, full in enumerate(self.problems, 1)}
 
 
+PAPERS_SCHEMA = {
+    "anyOf": [
+        {"type": "array", "items": {"enum": list(PAPERS)}, "minItems": 1},
+        {"type": "object", "additionalProperties": False, "properties": {p: {"type": "string"} for p in PAPERS}},
+    ]
+}
 NAMES = {"type": "array", "items": {"type": "string"}, "minItems": 1}
 
 
@@ -46,6 +57,7 @@ class SetKeys(Record):
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("who teaches the course", TEXT)
     evidence: str | None = key("how much the solutions tell of how they were checked", one_of(tuple(EvidenceShown)))
+    papers: Tree | None = key("the papers that are made, or the name of each one's files", as_written(PAPERS_SCHEMA))
     problems: Tree | None = key("names of the problems in order", as_written(NAMES), required=True)
 
 
@@ -112,6 +124,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
+    papers = _papers(written.papers, [full.partition("/")[2] for full in problems], faults)
     faults.stop()
     evidence = EvidenceShown(written.evidence or EvidenceShown.NONE)
     return ProblemSet(
@@ -123,7 +136,35 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         problems,
         (path,),
         evidence,
+        papers,
     )
+
+
+def _papers(node: Tree | None, problems: List[str], faults: Faults) -> tuple[tuple[str, str], ...]:
+    """`[solutions, hints]`, or `{solutions: hw9-solutions}`; no two files may have one name."""
+    if node is None:
+        return THOSE_OF_EVERY_SET
+    pairs: list[tuple[Tree, Tree]] = []
+    if isinstance(node, Mapping):
+        pairs = [(name, value) for name, value in node.pairs]
+    elif isinstance(node, Sequence) and node.items:
+        pairs = [(item, item) for item in node.items]
+    else:
+        wrong_type(faults, "`papers`", "a list of papers, or a mapping of papers to names of files", node)
+    found: dict[str, str] = {}
+    for paper, file in pairs:
+        if not isinstance(paper, Scalar) or not isinstance(file, Scalar):
+            wrong_type(faults, "a paper", "a name", paper if not isinstance(paper, Scalar) else file)
+        elif paper.text not in PAPERS:
+            help_line = did_you_mean(paper.text, PAPERS) or f"the papers are {', '.join(PAPERS)}"
+            faults.error("no-such-paper", f"there is no paper `{paper.text}`", paper.place, help=help_line)
+        elif not NAME.fullmatch(file.text):
+            faults.error("paper-name", f"`{file.text}` cannot be the name of a file", file.place)
+        elif file.text in (*found.values(), *problems, INDEX):
+            faults.error("paper-name", f"`{file.text}` is the name of another file", file.place, help="choose another")
+        else:
+            found[paper.text] = file.text
+    return tuple(found.items())
 
 
 def mapping_in(root: Path, path: str, what: str) -> Mapping:
@@ -145,7 +186,7 @@ def _listed(node: Tree | None, set_id: str, known: List[str], faults: Faults) ->
     for item in node.items:
         if not isinstance(item, Scalar) or item.empty:
             wrong_type(faults, "a problem of the set", "a name", item)
-        elif item.text in (*DOCUMENTS, INDEX):
+        elif item.text in (*PAPERS, INDEX):
             message = f"a problem cannot be called `{item.text}`, for a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item.text not in names:

@@ -33,6 +33,7 @@ _SHAPE: dict[str, Any] = {
         "rules": _TABLE,
         "explain": _TABLE,
         "documents": _TABLE,
+        "hints": _TABLE,
         "web": _TABLE,
         "explain_headings": [_TEXT],
         "explain_columns": [_TEXT],

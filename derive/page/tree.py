@@ -69,6 +69,7 @@ class Folded:
     """What a page of more detail has besides, closed until a reader opens it."""
 
     blocks: tuple[Block, ...]
+    title: str = ""  # what of it, if it is not the lines of the equations before it
 
 
 Block = Paragraph | Display | Illustration | Folded

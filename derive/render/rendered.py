@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from derive.errors import Complaint, Place
@@ -31,6 +31,7 @@ class Rendered:
     texts                   its page by the name of each format
     latex, sheet, report    its fragments of a document: the solution, the questions alone, and how it was checked
     html, title_html        the solution and its title, for a page in a browser
+    papers                  fragments of the other papers that were asked for, in TeX by name and in HTML by `name.html`
     counts                  the numbers of how it was checked, see `Checks.counts`
     steps, compared         how many steps there are, and how many statements of the reference
     source_faults           errata of the source and remarks on it: which of them, line, what is printed,
@@ -56,6 +57,7 @@ class Rendered:
     compared: int
     agreed: bool
     files: Files = ()
+    papers: dict[str, str] = field(default_factory=dict)
     source_faults: tuple[SourceFault, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
@@ -78,6 +80,7 @@ class Rendered:
                 report=Tex(_text(data["report"])),
                 html=Html(_text(data["html"])),
                 title_html=Html(_text(data["title_html"])),
+                papers={_text(name): _text(page) for name, page in dict(data["papers"]).items()},
                 warnings=tuple(_complaint(warning) for warning in data["warnings"]),
                 inputs=tuple(_text(path) for path in data["inputs"]),
                 grades=_counts(data["grades"]),

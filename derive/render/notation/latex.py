@@ -79,6 +79,7 @@ BETWEEN_TERMS = {
     )
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
+BLANK = "?"  # what is sought
 COLUMN_STRUT = r"\rule[-.95em]{0pt}{2.45em}"  # keeps fractions below one another apart
 
 
@@ -265,6 +266,8 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 
 def _name(name: Name) -> str:
     base = name.letter
+    if base == BLANK:
+        return "{?}"  # as wide apart as a letter would be
     letter = rf"\{base}" if base in GREEK_LETTERS else base
     if base in SCRIPT_LETTERS:
         letter = rf"\mathcal{{{base[-1]}}}"

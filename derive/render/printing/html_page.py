@@ -6,14 +6,16 @@ another where the window is narrow; what is still too wide scrolls within its ow
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import Any
 
+from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
+from derive.page.rubric import Credit
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
@@ -50,8 +52,19 @@ def problem_html(
 class HtmlPage:
     """What the template may ask of a document, in HTML."""
 
-    def __init__(self, document: Document, words: Phrases, notation: Notation, drawings: Files = ()):
-        self.document, self.words, self.notation = document, words, notation
+    def __init__(
+        self,
+        document: Document,
+        words: Phrases,
+        notation: Notation,
+        drawings: Files = (),
+        rubric: Mapping[str, Sequence[Credit]] | None = None,
+        top: int = 1,
+    ):
+        """`top` is the level of the heading that it stands below."""
+        self.document, self.words, self.notation, self.rubric = document, words, notation, rubric or {}
+        self.alone = top == 1
+        self.begin, self.end = Html(f"<h{top + 1}>"), Html(f"</h{top + 1}>")
         self._placed: set[Number] = set()
         self.drawings = {name: content for name, content in drawings if name.endswith(".svg")}
 
@@ -60,6 +73,22 @@ class HtmlPage:
 
     def worth(self, part: PartPage) -> str:
         return self.words.worth(part.points, part.extra)
+
+    def credits(self, part: PartPage) -> Sequence[Credit]:
+        return self.rubric.get(part.label, ())
+
+    def worth_of(self, credit: Credit) -> str:
+        return points_text(credit.points)
+
+    def result_of(self, credit: Credit) -> Html:
+        """The last line of a step, with its left side."""
+        (*_, last) = printed_lines(credit.equations, self.notation)
+        (relation, side), left = last.sides[-1], credit.equations.lines[0].left
+        begun = latex(self.notation.side(left), inline=True) if left is not None else ""
+        return of_latex(f"{begun} {TEX_OPERATORS[relation]} {latex(side, inline=True)}", inline=True)
+
+    def number_of(self, credit: Credit) -> str:
+        return f"({credit.equations.number})"
 
     def sections(self) -> Sequence[PartPage]:
         """The parts, and behind them the limiting cases."""

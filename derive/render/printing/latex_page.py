@@ -10,9 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from derive.course.names import EvidenceShown
+from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.folding import sentences
 from derive.page.numbering import Number
+from derive.page.rubric import Credit
 from derive.page.tree import Block, Display, Document, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
@@ -57,9 +59,9 @@ NOT_TYPESET = Fragments(*[Tex("")] * 4)
 
 
 def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> Fragments:
-    page, questions = _Page(document, words, notation), _Questions(document, words, notation)
+    page, questions = LatexPage(document, words, notation), _Questions(document, words, notation)
 
-    def fragment(template: str, what: _Page) -> Tex:
+    def fragment(template: str, what: LatexPage) -> Tex:
         return filled_template(folder, template, {"page": what})
 
     return Fragments(
@@ -75,11 +77,17 @@ def whole_latex(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
     return filled_template(folder, template, facts)
 
 
-class _Page:
+class LatexPage:
     """What the template may ask of a document, in TeX."""
 
-    def __init__(self, document: Document, words: Phrases, notation: Notation):
-        self.document, self.words, self.notation = document, words, notation
+    def __init__(
+        self,
+        document: Document,
+        words: Phrases,
+        notation: Notation,
+        rubric: Mapping[str, Sequence[Credit]] | None = None,
+    ):
+        self.document, self.words, self.notation, self.rubric = document, words, notation, rubric or {}
 
     @property
     def id(self) -> Tex:
@@ -93,6 +101,26 @@ class _Page:
 
     def worth(self, part: PartPage) -> Tex:
         return Tex(escaped(self.words.worth(part.points, part.extra)))
+
+    def credits(self, part: PartPage) -> Sequence[Credit]:
+        """What the steps of a part are worth, on papers that tell it."""
+        return self.rubric.get(part.label, ())
+
+    def worth_of(self, credit: Credit) -> str:
+        return points_text(credit.points)
+
+    def result_of(self, credit: Credit) -> Tex:
+        """The last line of a step, with its left side."""
+        (*_, last) = printed_lines(credit.equations, self.notation)
+        (relation, side), left = last.sides[-1], credit.equations.lines[0].left
+        begun = latex(self.notation.side(left), inline=True) if left is not None else ""
+        return Tex(f"{begun} {TEX_OPERATORS[relation]} {latex(side, inline=True)}")
+
+    def number_of(self, credit: Credit) -> str:
+        return f"({credit.equations.number})"
+
+    def sentences(self, blocks: Blocks) -> Sequence[Blocks]:
+        return sentences(blocks)
 
     def parts(self) -> Sequence[PartPage]:
         return self.document.parts_shown
@@ -225,7 +253,7 @@ class _Page:
         return Tex(rf"\textbf{{{escaped(title)}}} {self.inline(self.document.closing)}")
 
 
-class _Questions(_Page):
+class _Questions(LatexPage):
     """The same without what is derived: an equation is referred to by the part that asks for it."""
 
     def _reference(self, key: str) -> str:

@@ -1,0 +1,82 @@
+"""A rubric: the points of a part shared among its steps, in halves, so that they add up to those of the part.
+
+An instructor may say it, `rubric: {lagrangian: 2, motion_theta: 1}` in a part; what is not said is shared by rule: a
+step counts once, an answer twice, and what is left over goes to the answers first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from derive.course.yaml_tree import Word
+from derive.errors import Complaint, did_you_mean
+from derive.page.chain_lines import Equations
+from derive.page.tree import Display, Document, PartPage
+
+UNITS = (Fraction(1, 2), Fraction(1, 4))  # the least that a step may be worth: halves where they suffice
+ANSWER, STEP = 2, 1  # how much each counts
+
+
+@dataclass(frozen=True)
+class Credit:
+    """What a step is worth: one of the equations of the page."""
+
+    equations: Equations
+    points: Fraction
+
+
+def credits_of(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> dict[str, tuple[Credit, ...]]:
+    """The rubric of each part by its label; `said` is what the problem says, by label.
+
+    Parts that name no points share what those that do leave of the points of the problem.
+    """
+    asked = [part for part in document.parts_shown if not part.extra]
+    named = [part for part in asked if part.points is not None]
+    open_parts = [part for part in asked if part.points is None]
+    left = (document.points or Fraction(0)) - sum((part.points or Fraction(0) for part in named), Fraction(0))
+    points: dict[str, Fraction] = {}
+    for parts, worth in (*(([part], part.points or Fraction(0)) for part in named), (open_parts, left)):
+        own = {str(key): share for part in parts for key, share in said.get(part.label, {}).items()}
+        others = [group for part in parts for group in _groups(part) if group.key not in own]
+        points |= {**_shared(worth - sum(own.values(), Fraction(0)), others), **own}
+    found = {
+        part.label: tuple(Credit(group, share) for group in _groups(part) if (share := points.get(group.key)))
+        for part in asked
+    }
+    return {label: rubric for label, rubric in found.items() if rubric}
+
+
+def _shared(points: Fraction, groups: Sequence[Equations]) -> dict[str, Fraction]:
+    """In whole units by largest remainder; where there is not enough for all, the answers and later steps have it."""
+    if not groups or points <= 0:
+        return {}
+    answers = sum(1 for group in groups if group.framed)
+    unit = next((unit for unit in UNITS if points / unit >= max(1, answers)), UNITS[-1])
+    weights = [ANSWER if group.framed else STEP for group in groups]
+    exact = [points / unit * weight / sum(weights) for weight in weights]
+    counts = [int(share) for share in exact]
+    order = sorted(range(len(groups)), key=lambda i: (exact[i] - counts[i], weights[i], i), reverse=True)
+    for i in order[: int(points / unit) - sum(counts)]:
+        counts[i] += 1
+    shares = {group.key: unit * count for group, count in zip(groups, counts, strict=True)}
+    shares[groups[-1].key] += points - sum(shares.values(), Fraction(0))  # what is less than a unit
+    return {key: share for key, share in shares.items() if share}
+
+
+def faults_of_rubric(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> list[Complaint]:
+    """Steps that a rubric names, and that do not stand in their part."""
+    faults = []
+    for part in document.parts_shown:
+        steps = [group.key for group in _groups(part)]
+        for key in said.get(part.label, {}):
+            if key not in steps:
+                help_line = did_you_mean(key, steps) or f"the part has {', '.join(f'`{step}`' for step in steps)}"
+                message = f"part ({part.label}) has no step `{key}` that could have points"
+                faults.append(Complaint("no-such-step", message, key.place, help=help_line))
+    return faults
+
+
+def _groups(part: PartPage) -> list[Equations]:
+    return [group for block in part.blocks if isinstance(block, Display) for group in block.groups]

@@ -1,0 +1,44 @@
+"""The papers that are made where they are asked for, in TeX and HTML: a problem's key, its hints and its rubric."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+
+from derive.course.names import HINTS, KEY, RUBRIC
+from derive.page.rubric import Credit
+from derive.page.tree import Document
+from derive.page.wording import Phrases
+from derive.render.notation.notation import Notation
+from derive.render.printing.html_page import HtmlPage
+from derive.render.printing.latex_page import LatexPage
+from derive.render.printing.templates import filled_html, filled_template
+from derive.render.rendered import Files
+
+Credits = Mapping[str, tuple[Credit, ...]]
+
+
+def paper_fragments(
+    wanted: Collection[str],
+    pages: Callable[[str], Document],
+    rubric: Credits,
+    words: Phrases,
+    notation: Notation,
+    folder: Path,
+    drawings: Files,
+) -> dict[str, str]:
+    """Each paper by its name, and as HTML by `name.html`; `pages` yields the page that a paper is made of."""
+    found: dict[str, str] = {}
+    for paper in wanted:
+        if paper not in TEMPLATES:
+            continue
+        document, template = pages(paper), TEMPLATES[paper]
+        credited = rubric if paper != HINTS else {}
+        tex = LatexPage(document, words, notation, credited)
+        html = HtmlPage(document, words, notation, drawings, credited, top=2)
+        found[paper] = filled_template(folder, f"{template}.tex.j2", {"page": tex})
+        found[f"{paper}.html"] = filled_html(folder, f"{template}.html.j2", {"page": html})
+    return found
+
+
+TEMPLATES = {KEY: "problem", HINTS: "problem", RUBRIC: "rubric"}
