@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -46,6 +48,7 @@ def rendered(
     draws: bool = False,
     only: tuple[str, ...] | None = None,
     evidence: str = "none",
+    papers: tuple[str, ...] = (),
 ) -> Rendered:
     path = path_of(root, problem_id)
     said = (root / path).read_text().strip()
@@ -117,6 +120,19 @@ def report_document(root: Path, heading: object, problems: list[Rendered]) -> st
     return "".join(f"checks of {problem.id}\n" for problem in problems)
 
 
+def paper_document(root: Path, heading: object, problems: list[Rendered], paper: str) -> str:
+    return "".join(f"{paper} of {problem.id}\n" for problem in problems)
+
+
+def the_document(paper: str) -> Callable[[Path, object, list[Rendered]], str]:
+    known = {"solutions": set_document, "problems": sheet_document, "report": report_document}
+    return known.get(paper) or partial(paper_document, paper=paper)
+
+
+def paper_page(root: Path, heading: object, problems: list[Rendered], paper: str) -> str:
+    return f"<!-- {paper} -->{paper_document(root, heading, problems, paper)}"
+
+
 def problem_page(root: Path, problem: Rendered, heading: object) -> str:
     return f"<!-- {problem.id} -->{problem.html}\n"
 
@@ -180,7 +196,16 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 def replace_derivation(monkeypatch: Any) -> None:
     """Put the stand-ins where the modules of `derive.building` that have these functions are imported from."""
-    documents = (problem_document, set_document, sheet_document, report_document, problem_page, index_page)
+    documents = (
+        problem_document,
+        set_document,
+        sheet_document,
+        report_document,
+        problem_page,
+        index_page,
+        paper_page,
+        the_document,
+    )
     modules = {"solution": (rendered,), "headline": (headline,), "explained": (explained,), "set_document": documents}
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")

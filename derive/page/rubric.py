@@ -7,12 +7,12 @@ step counts once, an answer twice, and what is left over goes to the answers fir
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, did_you_mean
-from derive.page.chain_lines import Equations
+from derive.page.chain_lines import ChainLine, Equations
 from derive.page.tree import Display, Document, PartPage
 
 UNITS = (Fraction(1, 2), Fraction(1, 4))  # the least that a step may be worth: halves where they suffice
@@ -25,6 +25,13 @@ class Credit:
 
     equations: Equations
     points: Fraction
+
+    @property
+    def result(self) -> ChainLine:
+        """The last equation of the step, with its own left side."""
+        lines = self.equations.lines
+        left = next((line.left for line in reversed(lines) if line.left is not None), None)
+        return replace(lines[-1], left=left)
 
 
 def credits_of(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> dict[str, tuple[Credit, ...]]:

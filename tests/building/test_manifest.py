@@ -12,7 +12,7 @@ from fake_course import Course, stand_in_course
 
 from derive.building import sealed
 from derive.building.cache import digest
-from derive.building.manifest import Manifest, outputs_of
+from derive.building.manifest import Manifest, outputs_of, outputs_of_paper
 from derive.building.sets import Options, Report, built_set
 
 
@@ -135,7 +135,8 @@ def test_an_output_is_taken_away_only_as_it_was_written(tmp_path: Path) -> None:
 
 
 def test_a_document_of_the_set_has_no_text_and_no_json() -> None:
-    assert outputs_of("solutions") == ["solutions.pdf", "solutions.tex"]
+    assert outputs_of_paper("solutions", "hw9") == ["hw9.pdf", "hw9.tex"]
+    assert outputs_of_paper("hints", "hw9-hints") == ["hw9-hints.pdf", "hw9-hints.tex", "hw9-hints.html"]
     own = outputs_of("block")
     assert {"block.pdf", "block.tex", "block.json", "block.txt"} <= set(own)
     assert Manifest(Path(), drawings={"block": ["block-axes.svg"]}).outputs_of("block") == [*own, "block-axes.svg"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from derive.page.chain_lines import ChainLine
 from derive.page.tree import Display
 from derive.render.notation.latex import TEX_OPERATORS, latex
 from derive.render.notation.notation import Notation
@@ -17,6 +18,12 @@ def display_latex(display: Display, notation: Notation, numbered: bool = False) 
         for line in printed
     ]
     return rows[0].replace("&", "", 1) if len(rows) == 1 else _aligned(rows)
+
+
+def equation_latex(line: ChainLine, notation: Notation) -> str:
+    """One equation within a line of text."""
+    left = latex(notation.side(line.left), inline=True) if line.left is not None else ""
+    return f"{left} {TEX_OPERATORS[line.relation]} {latex(notation.result(line.right), inline=True)}".strip()
 
 
 def _aligned(rows: list[str]) -> str:

@@ -22,7 +22,7 @@ from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, 
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import mathml, of_latex
 from derive.render.notation.notation import Notation
-from derive.render.printing.amsmath import display_latex
+from derive.render.printing.amsmath import display_latex, equation_latex
 from derive.render.printing.lines import Printed, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
@@ -81,11 +81,8 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """The last line of a step, with its left side."""
-        (*_, last) = printed_lines(credit.equations, self.notation)
-        (relation, side), left = last.sides[-1], credit.equations.lines[0].left
-        begun = latex(self.notation.side(left), inline=True) if left is not None else ""
-        return of_latex(f"{begun} {TEX_OPERATORS[relation]} {latex(side, inline=True)}", inline=True)
+        formula = equation_latex(credit.result, self.notation)
+        return of_latex(formula, inline=True)
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"

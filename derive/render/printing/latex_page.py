@@ -20,6 +20,7 @@ from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
+from derive.render.printing.amsmath import equation_latex
 from derive.render.printing.lines import Printed, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
@@ -110,11 +111,8 @@ class LatexPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Tex:
-        """The last line of a step, with its left side."""
-        (*_, last) = printed_lines(credit.equations, self.notation)
-        (relation, side), left = last.sides[-1], credit.equations.lines[0].left
-        begun = latex(self.notation.side(left), inline=True) if left is not None else ""
-        return Tex(f"{begun} {TEX_OPERATORS[relation]} {latex(side, inline=True)}")
+        formula = equation_latex(credit.result, self.notation)
+        return Tex(formula)
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"

@@ -9,7 +9,7 @@ from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
-from derive.page.tree import Display, Document, Illustration, Paragraph, PartPage
+from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
@@ -92,15 +92,22 @@ class _Page:
         label = f"({part.label}) " if part.label else ""
         heading = self._with_worth(f"{label}{self._inline(part.ask)}", self.words.worth(part.points, part.extra))
         blocks = [heading, "-" * min(columns(heading), PAGE_COLUMNS)]
-        for block in part.blocks:
+        return "\n".join([*blocks, *self._blocks(part.blocks)])
+
+    def _blocks(self, blocks: Sequence[Block]) -> list[str]:
+        """Each after an empty line."""
+        found: list[str] = []
+        for block in blocks:
             match block:
                 case Paragraph(nodes):
-                    blocks += [line for each in _with_theorems_apart(nodes) for line in ("", self._wrapped(each))]
+                    found += [line for each in _with_theorems_apart(nodes) for line in ("", self._wrapped(each))]
                 case Display():
-                    blocks += ["", self._display(block)]
+                    found += ["", self._display(block)]
                 case Illustration():
-                    blocks += ["", self._drawing(block)]
-        return "\n".join(blocks)
+                    found += ["", self._drawing(block)]
+                case Folded(inside, title):
+                    found += ["", title, *self._blocks(inside)]
+        return found
 
     def _drawing(self, illustration: Illustration) -> str:
         """What it shows, and its caption below."""

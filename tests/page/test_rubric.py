@@ -1,0 +1,89 @@
+"""A rubric: points on steps, which add up to those of the part whatever is shared and whatever is said."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from derive.building.solution import rendered
+from derive.errors import Rejected
+from derive.page.chain_lines import ChainLine, Equations
+from derive.page.numbering import Number
+from derive.page.rubric import Credit, _shared
+from tests.courses import course_in, rendered_once
+
+HALF = Fraction(1, 2)
+
+
+def groups(framed: list[bool]) -> list[Equations]:
+    line = ChainLine("T", "equals", 1)
+    return [Equations(f"step_{i}", (line,), Number(i + 1), int(answer)) for i, answer in enumerate(framed)]
+
+
+@given(st.integers(1, 60), st.lists(st.booleans(), min_size=1, max_size=30))
+def test_points_that_are_shared_add_up_and_none_is_negative(halves: int, framed: list[bool]) -> None:
+    points = halves * HALF
+    shares = _shared(points, groups(framed))
+    assert sum(shares.values()) == points
+    assert all(share > 0 for share in shares.values())
+
+
+@given(st.integers(2, 60), st.lists(st.booleans(), min_size=2, max_size=10))
+def test_an_answer_is_worth_no_less_than_a_step(halves: int, framed: list[bool]) -> None:
+    shares = _shared(halves * HALF, groups(framed))
+    answers = [shares.get(f"step_{i}", 0) for i, answer in enumerate(framed) if answer]
+    steps = [shares.get(f"step_{i}", 0) for i, answer in enumerate(framed[:-1]) if not answer]
+    assert not answers or not steps or min(answers) + HALF >= max(steps)
+
+
+def test_points_are_halves_where_there_are_enough() -> None:
+    assert set(_shared(Fraction(5), groups([False] * 3 + [True])).values()) <= {HALF * n for n in range(1, 10)}
+
+
+def test_a_step_is_shown_by_its_last_equation_with_its_own_left_side() -> None:
+    lines = (
+        ChainLine("x_dot", "equals", 1),
+        ChainLine("y_dot", "equals", 2, beside=True),
+        ChainLine(None, "equals", 3),
+    )
+    result = Credit(Equations("rates", lines, Number(1)), HALF).result
+    assert (result.left, result.right) == ("y_dot", 3)
+
+
+def rubric(tmp_path: Path, said: str) -> str:
+    root = course_in(tmp_path, {"    answer: inertia_tensor\n    points: 3\n": f"    answer: inertia_tensor\n{said}"})
+    return rendered(root, "hw9/block", papers=("rubric",)).papers["rubric"]
+
+
+def test_what_an_instructor_says_stands_and_the_rest_is_shared(tmp_path: Path) -> None:
+    said = rubric(tmp_path, "    points: 3\n    rubric: {inertia_tensor: 2.5}\n")
+    shown = said[said.index("part a") : said.index("part b")]
+    points = [
+        Fraction(line.rpartition("{")[2].rstrip("}")) for line in shown.splitlines() if line.startswith("\\credit")
+    ]
+    assert sum(points) == 3 and Fraction("2.5") in points
+
+
+@pytest.mark.parametrize(
+    ("said", "complaint"),
+    [
+        ("    points: 3\n    rubric: {inertia_tenser: 1}\n", "did you mean `inertia_tensor`"),
+        ("    points: 3\n    rubric: {inertia_tensor: 5}\n", "has 3"),
+        ("    rubric: {inertia_tensor: 9}\n", "has no points"),
+        ("    points: 3\n    rubric: {inertia_tensor: much}\n", "a number such as"),
+    ],
+)
+def test_a_rubric_that_does_not_fit_its_part_is_refused(tmp_path: Path, said: str, complaint: str) -> None:
+    with pytest.raises(Rejected, match=complaint):
+        rubric(tmp_path, said)
+
+
+def test_a_key_says_what_the_steps_are_worth(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    rendered_once(root, "hw9/block")
+    key = rendered(root, "hw9/block", papers=("key",)).papers
+    assert "Points:" in key["key"] and "Points:" in key["key.html"]

@@ -1,0 +1,79 @@
+"""The papers of a set: every one in TeX and in HTML, with the same numbers and the same answers."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from derive.building.set_document import paper_document, paper_page
+from derive.building.solution import rendered
+from derive.course.names import MORE
+from derive.course.problem_set import problem_set
+from derive.errors import Rejected
+from derive.render.rendered import Rendered
+from tests.courses import course_in, kept
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return course_in(tmp_path_factory.mktemp("papers"))
+
+
+@pytest.fixture(scope="module")
+def solved(course: Path) -> Rendered:
+    return rendered(course, "hw9/block", cache=kept(), papers=MORE)
+
+
+@pytest.mark.parametrize("paper", MORE)
+def test_a_paper_is_there_in_tex_and_in_html(course: Path, solved: Rendered, paper: str) -> None:
+    heading = problem_set(course, "hw9")
+    tex = paper_document(course, heading, [solved], paper)
+    page = paper_page(course, heading, [solved], paper)
+    assert tex.rstrip().endswith(r"\end{document}") and solved.papers[paper] in tex
+    assert page.rstrip().endswith("</html>") and solved.papers[f"{paper}.html"] in page
+
+
+def test_the_key_has_the_numbers_of_the_solutions(solved: Rendered) -> None:
+    numbers = re.findall(r"\\eqnumber\{(\d+)\}", solved.latex)
+    in_key = re.findall(r"\\eqnumber\{(\d+)\}", solved.papers["key"])
+    assert numbers and set(numbers) <= set(in_key)
+
+
+def test_only_papers_that_are_asked_for_are_made(course: Path) -> None:
+    assert set(rendered(course, "hw9/block", cache=kept(), papers=["hints"]).papers) == {"hints", "hints.html"}
+    assert rendered(course, "hw9/block", cache=kept()).papers == {}
+
+
+@pytest.mark.parametrize(
+    ("said", "papers"),
+    [
+        ("[solutions, hints]", (("solutions", "solutions"), ("hints", "hints"))),
+        ("{solutions: hw9-solutions, key: for-us}", (("solutions", "hw9-solutions"), ("key", "for-us"))),
+    ],
+)
+def test_a_set_names_its_papers_and_their_files(tmp_path: Path, said: str, papers: object) -> None:
+    root = course_in(tmp_path)
+    file = root / "problems" / "hw9" / "set.yaml"
+    file.write_text(f"{file.read_text()}\npapers: {said}\n")
+    assert problem_set(root, "hw9").papers == papers
+
+
+@pytest.mark.parametrize(
+    ("said", "complaint"),
+    [
+        ("[solution]", "did you mean `solutions`"),
+        ("{solutions: a/b}", "cannot be the name of a file"),
+        ("{solutions: block}", "name of another file"),
+        ("{solutions: x, key: x}", "name of another file"),
+        ("solutions", "a list of papers"),
+        ("[]", "empty"),
+    ],
+)
+def test_papers_that_cannot_be_are_refused_at_their_place(tmp_path: Path, said: str, complaint: str) -> None:
+    root = course_in(tmp_path)
+    file = root / "problems" / "hw9" / "set.yaml"
+    file.write_text(f"{file.read_text()}\npapers: {said}\n")
+    with pytest.raises(Rejected, match=complaint):
+        problem_set(root, "hw9")
