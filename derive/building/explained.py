@@ -13,12 +13,11 @@ from derive.course.problem import load_problem
 from derive.course.yaml_tree import abridged
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.explanation import Explanation, Section, explanation_of, told_of
-from derive.page.signs import sign_before
 from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
-from derive.render.notation.layout import Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
+from derive.render.printing.said import named_result
 from derive.render.printing.text_page import inline_text
 from derive.steps.derivation import standing_in
 from derive.steps.homogeneity import dimension_table
@@ -65,13 +64,7 @@ def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[
 
 
 def _value(step: Step, notation: Notation) -> str:
-    """`T = 7/24 M a² ω²`; of a relation the whole."""
-    result = notation.result(step.result)
-    return plain(
-        result
-        if step.symbol is None
-        else row(notation.layout(step.symbol), Operator(sign_before(step.chain[-1])), result)
-    )
+    return plain(named_result(step, notation))
 
 
 def _text(sections: list[Section], notation: Notation) -> str:

@@ -98,7 +98,8 @@ def rendered(
     document = page_at(level, page_at(Level.STANDARD).numbers if level is Level.FULL else None)
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
-    solution = Solution(document, words, notation, problem, derivation, values, solved.compared)
+    warnings = (*(w for w in document.warnings if w not in of_nobody), *failures)
+    solution = Solution(document, words, notation, problem, derivation, values, solved.compared, warnings, level.value)
     wanted = {*formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
     files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()
@@ -129,7 +130,7 @@ def rendered(
             papers, page_of, credits_of(document, rubric), words, notation, template_folder(root), files
         ),
         texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
-        warnings=(*(w for w in document.warnings if w not in of_nobody), *failures),
+        warnings=warnings,
         inputs=(*problem.inputs, reference_path(problem), *(heading.inputs if heading else ())),
         grades=_grades(derivation, values),
         counts=document.checks.counts(),

@@ -64,6 +64,11 @@ def _parser() -> argparse.ArgumentParser:
     explain.add_argument("id", metavar="ID", help="such as hw9/block")
     explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list them)")
     explain.add_argument("--format", choices=("text", "json"), default="text")
+    diff = command("diff", "tell what an edit changed, since the last build or a revision of git")
+    diff.epilog = "example: derive diff hw9/block --rev HEAD; exit codes: 0 the same, 1 changed, 2 cannot compare"
+    diff.add_argument("id", metavar="ID", help="such as hw9/block")
+    diff.add_argument("--rev", metavar="REVISION", help="compare with this revision of git (default: the last build)")
+    diff.add_argument("--format", choices=("text", "json"), default="text")
     check = command("check", "derive problems, verify every line, compare with the reference")
     check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem")
     check.add_argument(
@@ -95,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
     clean.add_argument("sets", nargs="*", metavar="SET", help="default: every set")
     clean.add_argument("--cache", action="store_true", help="only what is kept for the next build; documents stay")
     doctor = command("doctor", "show what a build needs and what is missing")
-    for sub in (solve, build, preview):
+    for sub in (solve, diff, build, preview):
         sub.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
     for sub in (solve, build):
         sub.add_argument(
@@ -103,7 +108,7 @@ def _parser() -> argparse.ArgumentParser:
         )
     for sub in (solve, check, build, doctor):
         sub.add_argument("--engine", metavar="NAME", help="tinytex (default), latexmk, pdflatex, lualatex or tectonic")
-    for sub in (solve, explain, check, build, preview):
+    for sub in (solve, explain, diff, check, build, preview):
         sub.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
     for sub in (check, build):
         sub.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")

@@ -28,6 +28,7 @@ COMMANDS = {
     "list": "listing.list_problems",
     "solve": "solving.solve",
     "explain": "solving.explain",
+    "diff": "comparing.diff",
     "check": "checking.check",
     "build": "building.build",
     "preview": "previewing.preview_pages",

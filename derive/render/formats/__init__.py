@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from derive.course.problem import Problem
     from derive.course.reference.comparison import Told
+    from derive.errors import Complaint
     from derive.page.tree import Document
     from derive.page.wording import Phrases
     from derive.render.notation.notation import Notation
@@ -28,7 +29,10 @@ TYPESET, HTML = ("latex", "pdf"), "html"
 
 @dataclass(frozen=True)
 class Solution:
-    """A page as a tree, and what it was made from: the numbers of answers by key, and how a reference compares."""
+    """A page as a tree, and what it was made from: the numbers of answers by key, and how a reference compares.
+
+    warnings   what whoever wrote it is told beside the page
+    """
 
     document: Document
     words: Phrases
@@ -37,6 +41,8 @@ class Solution:
     derivation: Derivation
     values: Mapping[str, Step]
     compared: Sequence[Told] = ()
+    warnings: Sequence[Complaint] = ()
+    detail: str = "standard"
 
 
 @dataclass(frozen=True)

@@ -27,12 +27,15 @@ from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
 from derive.algebra.swing import SwingTime
 from derive.course.parts import points_text
+from derive.errors import Complaint
 from derive.page.tree import Illustration
 from derive.render.formats import Solution
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
+from derive.render.notation.text import in_one_line
 from derive.render.printing.chain_names import Page, StepNames
 from derive.render.printing.plain_sympy import sympy_text
+from derive.render.printing.said import Said, named_result
 from derive.render.printing.text_page import inline_text
 from derive.steps.step import NUMBERS, Step
 
@@ -43,11 +46,14 @@ def contract(solution: Solution) -> str:
     document, notation = solution.document, solution.notation
     answered = [derivation.answering(part.answers) for part in problem.parts]
     page = Page([*derivation.steps, *values.values()])
+    said = Said(document, notation)
     data = {
         "problem": problem.id,
+        "detail": solution.detail,
         "title": inline_text(document.title, notation),
         "points": _points(problem.points),
-        "strategy": inline_text(document.strategy, notation, document.numbers),
+        "statement": said.text(document.statement),
+        "strategy": said.text(document.strategy),
         "given": {given.name: _given(given) for given in problem.givens},
         "parts": [
             {
@@ -55,6 +61,8 @@ def contract(solution: Solution) -> str:
                 "points": _points(page.points),
                 "extra": page.extra,
                 "answers": [step.key for step in steps],
+                "ask": said.text(page.ask),
+                "says": said.blocks(page.blocks),
             }
             for page, steps in zip(document.parts, answered, strict=True)
         ],
@@ -65,9 +73,12 @@ def contract(solution: Solution) -> str:
             for step in steps
         },
         "limits": [list(keys) for keys in derivation.closing],
+        "limits_say": said.blocks(document.limits.blocks) if document.limits else [],
+        "note": said.text(document.note),
         "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
         "steps": [_step(page.names_of(step), notation) for step in page.steps],
         "reference": [told.facts for told in solution.compared],
+        "warnings": [_warning(warning) for warning in solution.warnings],
     }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
@@ -81,6 +92,10 @@ def _drawing(drawing: Illustration, notation: Notation) -> dict[str, Any]:
         "alt": inline_text(drawing.alt, notation),
         "files": [f"{drawing.stem}.pdf", f"{drawing.stem}.svg"],
     }
+
+
+def _warning(warning: Complaint) -> dict[str, Any]:
+    return {"code": warning.code, "message": warning.message, "line": warning.place.line if warning.place else None}
 
 
 def _points(points: Any) -> int | float | None:
@@ -107,6 +122,7 @@ def _answer(named: StepNames, value: Step | None, dimension: Dimension | None, n
         "symbol": _symbol(step, notation),
         "sympy": named.text_of_value(step.result),
         "latex": latex(notation.result(step.result)),
+        "text": in_one_line(named_result(step, notation)),
         "unit": unit_of_kind(step.kind) if step.kind else unit_of_dimension(dimension or NUMBER),
         "number": first,
         **({"also": others} if others else {}),
@@ -168,6 +184,7 @@ def _form(named: StepNames, i: int, notation: Notation) -> dict[str, Any]:
     return {
         "sympy": named.text(form.expr),
         "latex": latex(layout),
+        "text": in_one_line(layout),
         "because": form.because,
         "level": form.level.value,
         **_to_the_line_before(named, i),

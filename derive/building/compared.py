@@ -1,0 +1,126 @@
+"""A problem as it is now beside its last build, or beside a revision of git: only this problem is derived."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from derive.building.cache import PACKAGES, Cache, engine_digest
+from derive.building.changes import Change, changes
+from derive.building.files import shown_path
+from derive.building.manifest import Manifest
+from derive.building.named import set_folder
+from derive.building.revision import TEMPLATES, course_at
+from derive.building.sets import CACHE
+from derive.building.workers import Bug, Job, done, job_of
+from derive.course.problem_set import path_of, problem_paths
+from derive.errors import Complaint, DeriveError, Misused
+
+_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # what builds of an earlier derive did not keep
+Page = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """The changes, with what they are counted from, and what a reader should know of the comparison itself."""
+
+    since: str
+    changes: tuple[Change, ...]
+    warnings: tuple[Complaint, ...] = ()
+
+
+def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -> Compared:
+    """What has changed since the last build, at the level of detail of that build."""
+    path_of(root, problem_id)
+    set_id, _, name = problem_id.partition("/")
+    before = _built(set_folder(root, set_id) / f"{name}.json", problem_id)
+    if detail and detail != before["detail"]:
+        message = f"the last build of `{problem_id}` shows its steps in detail `{before['detail']}`, not `{detail}`"
+        raise Misused(
+            Complaint("other-detail", message, help=f"`derive build {problem_id} --detail {detail}` makes one")
+        )
+    after = done(_job(root, root, problem_id, before["detail"], limit))
+    recorded = Manifest.read(set_folder(root, set_id)).engine
+    warnings = [_other_engine()] if recorded and recorded != engine_digest(*PACKAGES) else []
+    return Compared("the last build", tuple(changes(before, after)), tuple(warnings))
+
+
+def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Compared:
+    """What has changed since a revision, which is derived with the derive of today."""
+    path_of(root, problem_id)
+    with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
+        if problem_id not in problem_paths(old_root):
+            raise Misused(Complaint("no-such-problem", f"there was no problem `{problem_id}` at `{revision}`"))
+        after = done(_job(root, root, problem_id, detail, limit))
+        before, warnings = _derived_at(
+            revision, root, old_root, lambda: _job(root, old_root, problem_id, detail, limit)
+        )
+    return Compared(f"`{revision}`", tuple(changes(before, after)), warnings)
+
+
+def _built(file: Path, problem_id: str) -> Page:
+    """What the last build wrote."""
+    mend = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with what git has"
+    try:
+        page = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        message = f"`{problem_id}` has not been built: there is no `{shown_path(file)}` to compare with"
+        raise Misused(Complaint("not-built", message, help=mend)) from None
+    except (OSError, ValueError):
+        message = f"`{shown_path(file)}` is not as a build wrote it"
+        raise Misused(Complaint("not-built", message, help=mend)) from None
+    if not isinstance(page, dict) or any(key not in page for key in _SAYS):
+        message = f"`{shown_path(file)}` is of an earlier derive, which kept no sentences"
+        raise Misused(Complaint("not-built", message, help=mend))
+    return page
+
+
+def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
+    """The page of a problem of the course `of`; what was derived before is kept with the builds of `root`."""
+    return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
+
+
+def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
+    from derive.building.solution import rendered
+
+    outputs = set_folder(root, problem_id.partition("/")[0])
+    cache = Cache(outputs / CACHE if outputs.is_dir() else None)
+    page: Page = json.loads(rendered(of, problem_id, detail, cache, only=("json",)).texts["json"])
+    return page
+
+
+def _derived_at(
+    revision: str, root: Path, old_root: Path, job: Callable[[], Job]
+) -> tuple[Page, tuple[Complaint, ...]]:
+    """The page at a revision. Templates of then may lack the words for steps of now: then it has those of today."""
+    try:
+        return done(job()), ()
+    except (DeriveError, Bug) as error:
+        if not (old_root / TEMPLATES).is_dir():
+            raise _at(revision, error) from None
+        (old_root / TEMPLATES).rename(old_root / f"{TEMPLATES}-of-then")
+    if (root / TEMPLATES).is_dir():
+        (old_root / TEMPLATES).symlink_to(root / TEMPLATES)
+    try:
+        page = done(job())
+    except (DeriveError, Bug) as error:
+        raise _at(revision, error) from None
+    message = f"the templates of `{revision}` do not fit this derive: it has the words of today's"
+    return page, (Complaint("other-templates", message, severity="warning"),)
+
+
+def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
+    """A fault of the files of then is told as one."""
+    if isinstance(error, Bug):
+        return error
+    note = f"so it stands at `{revision}`, derived with the derive of today"
+    return type(error)([replace(each, notes=(*each.notes, note)) for each in error.complaints])
+
+
+def _other_engine() -> Complaint:
+    message = "derive itself is another than at the last build: some of the changes may come from it"
+    return Complaint("other-engine", message, severity="warning")

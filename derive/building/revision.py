@@ -1,0 +1,89 @@
+"""A course as a revision of git has it: the files of one set and the templates, put into a folder of their own."""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+import subprocess
+import tarfile
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from derive.building.files import writing
+from derive.errors import Complaint, Misused
+
+TEMPLATES = "templates"
+_NEVER_ASKS = {"GIT_TERMINAL_PROMPT": "0", "GIT_NO_LAZY_FETCH": "1", "GIT_OPTIONAL_LOCKS": "0", "LC_ALL": "C"}
+_TIME_LIMIT = 60
+
+
+@contextmanager
+def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
+    """The root of that course, for as long as it is looked at; nothing is asked of any other machine."""
+    commit = _commit(root, revision)
+    wanted = (f"problems/{set_id}", TEMPLATES)
+    there = _git(root, "ls-tree", "--name-only", commit, "--", *wanted).stdout.decode().splitlines()
+    if wanted[0] not in there:
+        message = f"there was no set `{set_id}` at `{revision}`"
+        raise Misused(
+            Complaint("no-such-set", message, help=f"`git log -- {wanted[0]}` lists the revisions that have it")
+        )
+    packed = _git(root, "archive", "--format=tar", commit, "--", *there)
+    if packed.returncode:
+        raise Misused(_unreadable(revision, packed.stderr))
+    with writing(Path(tempfile.gettempdir())), tempfile.TemporaryDirectory(prefix="derive-") as folder:
+        _unpack(packed.stdout, Path(folder))
+        yield Path(folder)
+
+
+def _commit(root: Path, revision: str) -> str:
+    """The full name of a revision; what is wrong if there is none."""
+    if not shutil.which("git"):
+        message = "`--rev` compares with a revision of git, but git is not installed"
+        raise Misused(
+            Complaint("no-git", message, help="install git, or compare with the last build: leave `--rev` out")
+        )
+    if _git(root, "rev-parse", "--git-dir").returncode:
+        message = "`--rev` compares with a revision of git, but the course is in no repository of git"
+        help_line = "leave `--rev` out to compare with the last build; `git init` begins a repository"
+        raise Misused(Complaint("no-repository", message, help=help_line))
+    named = not revision.startswith("-") and revision.isprintable()
+    found = _git(root, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") if named else None
+    if found is None or found.returncode:
+        help_line = "name a commit, a branch or a tag: `HEAD`, `HEAD~1`, `main`; `git log` lists them"
+        raise Misused(Complaint("no-such-revision", f"git knows no revision `{revision}` here", help=help_line))
+    return found.stdout.decode().strip()
+
+
+def _unreadable(revision: str, told: bytes) -> Complaint:
+    said = (told.decode(errors="replace").strip().splitlines() or ["it says nothing"])[-1]
+    return Complaint("revision-unreadable", f"git cannot read the files of `{revision}`: {said}")
+
+
+def _git(root: Path, *arguments: str) -> subprocess.CompletedProcess[bytes]:
+    command: Sequence[str] = ["git", "-C", str(root), "-c", "protocol.allow=never", *arguments]
+    try:
+        return subprocess.run(
+            command,
+            capture_output=True,
+            check=False,
+            env={**os.environ, **_NEVER_ASKS},
+            stdin=subprocess.DEVNULL,
+            timeout=_TIME_LIMIT,
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise Misused(Complaint("no-git", f"git gives no answer: {error}")) from None
+
+
+def _unpack(packed: bytes, folder: Path) -> None:
+    """Plain files only: a link would lead out of the revision."""
+    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+        for member in archive:
+            target = folder / member.name
+            content = archive.extractfile(member) if member.isfile() else None
+            if content and target.resolve().is_relative_to(folder.resolve()):
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(content.read())

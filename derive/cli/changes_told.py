@@ -1,0 +1,176 @@
+"""The changes of `derive diff` in words: on a terminal in colour, and always with marks that do without it."""
+
+from __future__ import annotations
+
+import json
+import textwrap
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict
+from itertools import groupby
+
+from derive.building.changes import ADDED, CHANGED, EQUAL, REMOVED, Change
+from derive.building.compared import Compared
+from derive.cli.terminal import WIDTH
+from derive.render.notation.text import columns
+
+# Each sort with its heading, and what one and several of it are called.
+_SORTS = {
+    "given": ("given", "given value", "given values"),
+    "points": ("points", "number of points", "numbers of points"),
+    "part": ("parts", "part", "parts"),
+    "asked": ("asked for", "question's answers", "questions' answers"),
+    "answer": ("answers", "answer", "answers"),
+    "step": ("steps", "step", "steps"),
+    "order": ("order", "order of steps", "orders"),
+    "sentence": ("sentences", "sentence", "sentences"),
+    "drawing": ("drawings", "drawing", "drawings"),
+    "number": ("numbers of equations", "number of an equation", "numbers of equations"),
+    "reference": ("reference", "comparison with the source", "comparisons with the source"),
+    "warning": ("warnings", "warning", "warnings"),
+}
+_FACETS = {
+    "name": "name",
+    "result": "result",
+    "lines": "lines on the way",
+    "rule": "made by",
+    "outcome": "outcome",
+    "inputs": "rests on",
+    "evidence": "evidence",
+}
+_SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
+_COLOURS = {ADDED: "32", REMOVED: "31"}
+_AROUND = 6  # words of a sentence that are shown on either side of what changed in it
+_MOST_LINES = 3  # of a step's lines on the way
+
+
+def told(problem_id: str, compared: Compared, coloured: bool) -> str:
+    """Every change under the heading of its sort; first how many there are."""
+    found = compared.changes
+    if not found:
+        return f"{problem_id}: nothing has changed since {compared.since}"
+    shown = _Shown(coloured)
+    sorts = [(sort, list(group)) for sort, group in groupby(found, key=lambda change: change.of)]
+    counts = [f"{len(group)} {_SORTS[sort][1 if len(group) == 1 else 2]}" for sort, group in sorts]
+    head = textwrap.fill(f"{problem_id}: changed since {compared.since}: {', '.join(counts)}", WIDTH)
+    return "\n".join([head, *(line for sort, group in sorts for line in ["", _SORTS[sort][0], *shown.sort(group)])])
+
+
+def as_json(problem_id: str, compared: Compared) -> str:
+    """The same for programs."""
+    listed = [{**asdict(change), "how": change.how} for change in compared.changes]
+    data = {"problem": problem_id, "since": compared.since, "changed": bool(listed), "changes": listed}
+    return json.dumps(data, indent=2, ensure_ascii=False)
+
+
+class _Shown:
+    """Lines of the terminal."""
+
+    def __init__(self, coloured: bool):
+        self.coloured = coloured
+
+    def sort(self, changes: Sequence[Change]) -> Iterable[str]:
+        of = changes[0].of
+        ways: dict[str, Callable[[Sequence[Change]], Iterable[str]]] = {
+            "part": self._parts,
+            "step": self._steps,
+            "sentence": self._sentences,
+            "number": self._numbers,
+            "order": self._order,
+        }
+        return ways.get(of, self._values)(changes)
+
+    def _painted(self, text: str, how: str) -> str:
+        return f"\x1b[{_COLOURS[how]}m{text}\x1b[0m" if self.coloured and how in _COLOURS else text
+
+    def _head(self, change: Change, text: str = "") -> str:
+        return self._painted(f"  {_SIGNS[change.how]} {change.where}", change.how) + text
+
+    def _pair(self, head: str, before: str, after: str, indent: str) -> list[str]:
+        """What it was and what it is: in one line if there is room, else one above the other for the eye."""
+        line = f"{head}: {before} -> {after}"
+        if before and after and columns(line) <= WIDTH and "\n" not in line:
+            return [f"{head}: {self._painted(before, REMOVED)} -> {self._painted(after, ADDED)}"]
+        pairs = ((REMOVED, before), (ADDED, after))
+        marked = [(how, f"{indent}{_SIGNS[how]} {text}") for how, texts in pairs for text in texts.splitlines()]
+        return [head, *(self._painted(text, how) for how, text in marked)]
+
+    def _values(self, changes: Sequence[Change]) -> Iterable[str]:
+        for change in changes:
+            if change.how == CHANGED:
+                yield from self._pair(self._head(change), change.before, change.after, "      ")
+            else:
+                yield self._head(change, f": {change.before or change.after}")
+
+    def _parts(self, changes: Sequence[Change]) -> Iterable[str]:
+        for change in changes:
+            moved = change.how == CHANGED
+            yield (
+                f"  {change.before} is now {change.after}"
+                if moved
+                else self._head(change, f": {change.before or change.after}")
+            )
+
+    def _steps(self, changes: Sequence[Change]) -> Iterable[str]:
+        for change in changes:
+            facets = {facet: (before, after) for facet, before, after in change.facets}
+            result = facets.pop("result", None)
+            if change.how != CHANGED:
+                yield self._head(change, f": {change.before or change.after}")
+            elif result:
+                yield from self._pair(self._head(change), *result, "      ")
+            else:
+                yield self._head(change)
+            if result and "lines" in facets:  # of which the result tells enough
+                del facets["lines"]
+            for facet, (before, after) in facets.items():
+                cut = _few if facet == "lines" else str
+                yield from self._pair(f"      {_FACETS[facet]}", cut(before), cut(after), "        ")
+
+    def _sentences(self, changes: Sequence[Change]) -> Iterable[str]:
+        for where, group in groupby(changes, key=lambda change: change.where):
+            yield f"  {where}"
+            for change in group:
+                yield from self._filled([w for run, *ends in _ended(change.words) for w in _marked(*run, *ends)])
+
+    def _filled(self, words: Sequence[tuple[str, str]]) -> Iterable[str]:
+        """Words set in lines by the room that they take, which their colours do not."""
+        indent, line, room = " " * 6, list[str](), WIDTH - 6
+        for how, word in words:
+            if columns(word) > room and line:
+                yield indent + " ".join(line)
+                line, room = [], WIDTH - 6
+            line.append(self._painted(word, how))
+            room -= columns(word) + 1
+        yield indent + " ".join(line)
+
+    def _numbers(self, changes: Sequence[Change]) -> Iterable[str]:
+        listed = ", ".join(f"{change.where} {change.before} -> {change.after}" for change in changes)
+        return textwrap.wrap(listed, WIDTH, initial_indent="  ", subsequent_indent="  ", break_long_words=False)
+
+    def _order(self, changes: Sequence[Change]) -> Iterable[str]:
+        yield "  steps that are still there come in another order"
+
+
+def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], bool, bool]]:
+    """Each run of words, and whether the sentence begins or ends with it."""
+    return ((run, i == 0, i == len(runs) - 1) for i, run in enumerate(runs))
+
+
+def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, str]]:
+    """The words of a run one by one, in the marks of `git diff --word-diff`."""
+    marked = {EQUAL: _abridged(words, first, last), REMOVED: f"[-{words}-]", ADDED: f"{{+{words}+}}"}[how]
+    return [(how, word) for word in marked.split(" ")]
+
+
+def _abridged(words: str, first: bool, last: bool) -> str:
+    """Of many words that stayed, those next to what changed."""
+    listed = words.split(" ")
+    before, after = ([] if first else listed[:_AROUND]), ([] if last else listed[-_AROUND:])
+    return words if len(listed) <= len(before) + len(after) + 1 else " ".join([*before, "…", *after])
+
+
+def _few(lines: str) -> str:
+    """Of many lines the first, and how many others there are."""
+    listed = lines.splitlines()
+    more = len(listed) - _MOST_LINES
+    return lines if more <= 1 else "\n".join([*listed[:_MOST_LINES], f"and {more} more"])

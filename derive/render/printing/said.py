@@ -1,0 +1,62 @@
+"""What a page says, block by block, for programs that read its JSON: docs/json.md.
+
+A sentence has the numbers of the equations that its page has, and beside it their keys, for one equation more above it
+changes all numbers below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from derive.page.signs import sign_before
+from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph
+from derive.page.wording import Inline, Ref, ToldOnce
+from derive.render.notation.layout import Layout, Operator, row
+from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import inline_text
+from derive.steps.step import Step
+
+
+def named_result(step: Step, notation: Notation) -> Layout:
+    """`T = 7/24 M a² ω²`; of a relation the whole."""
+    result = notation.result(step.result)
+    if step.symbol is None:
+        return result
+    return row(notation.layout(step.symbol), Operator(sign_before(step.chain[-1])), result)
+
+
+class Said:
+    """The words of one page, as plain text."""
+
+    def __init__(self, document: Document, notation: Notation):
+        self.document, self.notation = document, notation
+
+    def text(self, nodes: Sequence[Inline]) -> str:
+        return inline_text(nodes, self.notation, self.document.numbers)
+
+    def sentence(self, nodes: Sequence[Inline]) -> dict[str, Any]:
+        """Running text, and the keys of the equations that it refers to, in its order."""
+        return {"text": self.text(nodes), "refers_to": list(_references(nodes))}
+
+    def blocks(self, blocks: Sequence[Block]) -> list[dict[str, Any]]:
+        return [each for block in blocks for each in self._block(block)]
+
+    def _block(self, block: Block) -> list[dict[str, Any]]:
+        match block:
+            case Paragraph(nodes):
+                return [self.sentence(nodes)]
+            case Display(groups):
+                return [{"equation": group.key, "number": str(group.number)} for group in groups]
+            case Illustration(key):
+                return [{"drawing": key}]
+            case Folded(blocks):
+                return self.blocks(blocks)
+
+
+def _references(nodes: Iterable[Inline]) -> Iterable[str]:
+    for node in nodes:
+        if isinstance(node, Ref):
+            yield node.key
+        elif isinstance(node, ToldOnce):
+            yield from _references(node.nodes)
