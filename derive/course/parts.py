@@ -79,7 +79,8 @@ def _level(node: Tree, name: str, faults: Faults) -> Level | None:
 
 _LEVELS = one_of(tuple(Level))
 DETAIL = Reader(_LEVELS.schema, _level, lambda: Level.BRIEF)
-POINTS = Reader({"type": "number", "minimum": 0, "multipleOf": 0.5}, _points)
+POINTS = Reader({"type": "number", "minimum": 0, "maximum": 9999.5, "multipleOf": 0.5}, _points)
+KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$"}
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ class AnswerForm(Record):
 
 
 _FORM = record_of(AnswerForm, "a form", _FORM_IS, "the form of `{}`")
-_FORM_BY_ANSWER = mapping_of(_FORM)
+_FORM_BY_ANSWER = mapping_of(_FORM, _FORM_IS)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
@@ -115,7 +116,7 @@ class Question(Record):
     ask: Prose = key("the question, in prose", PROSE, required=True)
     answers: tuple[Word, ...] = key(
         "key of the step that answers it, or a list of keys",
-        Reader(one_or_more(TEXT.schema), _answers, tuple),
+        Reader(one_or_more(KEY_OF_STEP), _answers, tuple),
         called="answer",
         required=True,
     )

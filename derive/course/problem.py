@@ -31,13 +31,12 @@ from derive.course.prose import Prose
 from derive.course.schema import read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, StockScript, stock_names, stock_script
-from derive.course.written import LimitKeys, SortOfLetter, written_problem
+from derive.course.written import SCRIPT, LimitKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Faults, Place, did_you_mean, nearest
 from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4
-_SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 
 
 @dataclass(frozen=True)
@@ -243,7 +242,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
         return "", None
     if name in stock_names():
         return "", StockScript(stock_script(name), name.place)
-    shown_as = normpath((PurePosixPath(path).parent / name).as_posix()) if _SCRIPT.fullmatch(name) else ""
+    shown_as = normpath((PurePosixPath(path).parent / name).as_posix()) if SCRIPT.fullmatch(name) else ""
     if not shown_as.startswith("problems/"):
         what = f"a script such as `block.py` or `../hw9/block.py`, or one of the engine, {', '.join(stock_names())}"
         help_line = did_you_mean(name, stock_names())

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from derive.course.schema import TEXT, Reader, wrong_type
+from derive.course.schema import LEFT_EMPTY, TEXT, Reader, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, abridged, shape_of
 from derive.errors import Faults, Place
 
@@ -92,4 +92,4 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 PROSE = Reader(TEXT.schema, _some_prose)
-PROSE_OR_NOTHING = Reader(TEXT.schema, read_prose)
+PROSE_OR_NOTHING = Reader({"type": [*TEXT.schema["type"], LEFT_EMPTY]}, read_prose)

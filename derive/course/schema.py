@@ -131,7 +131,9 @@ def _formula(node: Tree, name: str, faults: Faults) -> Formula | None:
     return None
 
 
-TEXT = Reader({"type": "string"}, _text)
+# Text needs no quotes where YAML itself would read a number: `title: 2015`.
+TEXT = Reader({"type": ["string", "number", "boolean"], "pattern": r"\S"}, _text)
+LEFT_EMPTY = "null"  # what editors find behind a `:` with nothing after it
 FORMULA = Reader({"type": ["string", "number"]}, _formula)
 YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)
 FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _figures)
@@ -169,7 +171,8 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
             wrong_type(faults, name if " " in name else f"`{name}`", wanted or "a mapping", node)
         return {}
 
-    return Reader({"type": "object", "additionalProperties": values.schema}, read, dict)
+    shape = "object" if wanted else ["object", LEFT_EMPTY]
+    return Reader({"type": shape, "additionalProperties": values.schema}, read, dict)
 
 
 def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
@@ -180,7 +183,7 @@ def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
             wrong_type(faults, f"`{name}`", "a mapping", node)
         return node if isinstance(node, Mapping) else None
 
-    return Reader({"type": "object", "additionalProperties": values}, read)
+    return Reader({"type": ["object", LEFT_EMPTY], "additionalProperties": values}, read)
 
 
 def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = None) -> Reader[tuple[T, ...]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from collections.abc import Mapping as Table
 from dataclasses import dataclass
@@ -35,6 +36,7 @@ from derive.errors import Faults, nearest
 ANY_OUTCOME = ""
 POSITIVE = "positive"  # before a kind
 SHOWN = ("full", "result", "hidden")
+SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # what a sentence calls the lines of its step
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
@@ -91,7 +93,8 @@ def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
 SYMBOLS = mapping_of(Reader(schema_of_sorts(KINDS), sort_of_letter))
 GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
-_TEXTS = {"type": "object", "additionalProperties": TEXT.schema}
+_WORDS = PROSE_OR_NOTHING.schema
+_TEXTS = {"type": "object", "additionalProperties": _WORDS}
 
 
 @dataclass(frozen=True)
@@ -151,8 +154,15 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
     return found
 
 
+def _way(*keys: str) -> dict[str, Any]:
+    """A limit that says of what it is one by these keys, and by none of the other ways."""
+    others = {"of", "letter", "where", "step"} - {*keys}
+    return {"required": list(keys), "not": {"anyOf": [{"required": [key]} for key in sorted(others)]}}
+
+
+_WAYS = {"oneOf": [_way("of", "letter"), _way("of", "where"), _way("step")], "dependencies": {"to": ["letter"]}}
 _LIMIT = record_of(LimitKeys, "a limit", "a mapping such as `{of: frequency, letter: M, to: infinity}`", "a limit")
-LIMITS = list_of(Reader(_LIMIT.schema, _limit), "a list of limits", each="a limit")
+LIMITS = list_of(Reader({**_LIMIT.schema, **_WAYS}, _limit), "a list of limits", each="a limit")
 
 _DRAWING = record_of(DrawingKeys, "a drawing", "a mapping with `at`, `caption` or `width`", "the drawing `{}`")
 
@@ -182,7 +192,7 @@ class ProblemKeys(Record):
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
-        mapping_of(Reader({"anyOf": [TEXT.schema, _TEXTS]}, _sentences)),
+        mapping_of(Reader({"anyOf": [_WORDS, _TEXTS]}, _sentences)),
     )
     show: Table[str, str] = key("how much of a step is shown, by the step's key", mapping_of(one_of(SHOWN)))
     figures: int | None = key("significant figures where `form` says nothing", FIGURES)

@@ -96,7 +96,7 @@ def test_the_schema_for_editors_is_that_of_the_readers() -> None:
     assert schema["properties"]["uses"] == {
         "description": "what it is for",
         "type": "array",
-        "items": {"type": "string"},
+        "items": TEXT.schema,
         "minItems": 2,
         "maxItems": 2,
     }
