@@ -1,0 +1,74 @@
+"""A course as git has it: its files, and what is said where there is no git, no repository, no such revision."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.building.revision import course_at
+from derive.errors import Misused
+from tests.building.repository import committed
+
+
+def course(root: Path, said: str = "first") -> Path:
+    folder = root / "problems" / "hw1"
+    folder.mkdir(parents=True)
+    (folder / "one.yaml").write_text(said)
+    (root / "elsewhere").write_text("of no interest")
+    return root
+
+
+def complaint(root: Path, revision: str, set_id: str = "hw1") -> tuple[str, str]:
+    with pytest.raises(Misused) as caught, course_at(root, revision, set_id):
+        pass
+    (found,) = caught.value.complaints
+    return found.code, found.message
+
+
+def test_the_files_of_the_set_are_as_they_were_and_gone_afterwards(tmp_path: Path) -> None:
+    root = committed(course(tmp_path))
+    (root / "problems" / "hw1" / "one.yaml").write_text("second")
+    with course_at(root, "HEAD", "hw1") as then:
+        files = [str(path.relative_to(then)) for path in sorted(then.rglob("*")) if path.is_file()]
+        assert files == ["problems/hw1/one.yaml"]
+        assert (then / "problems" / "hw1" / "one.yaml").read_text() == "first"
+    assert not then.exists()
+    assert (root / "problems" / "hw1" / "one.yaml").read_text() == "second"
+
+
+def test_a_course_below_the_top_of_its_repository_has_its_own_templates(tmp_path: Path) -> None:
+    root = course(tmp_path / "teaching" / "mechanics")
+    (root / "templates").mkdir()
+    (root / "templates" / "words.yaml").write_text("then")
+    committed(tmp_path)
+    with course_at(root, "HEAD", "hw1") as then:
+        assert (then / "templates" / "words.yaml").read_text() == "then"
+        assert (then / "problems" / "hw1" / "one.yaml").read_text() == "first"
+
+
+def test_a_link_is_left_out(tmp_path: Path) -> None:
+    root = course(tmp_path)
+    (root / "problems" / "hw1" / "two.yaml").symlink_to("/etc/passwd")
+    with course_at(committed(root), "HEAD", "hw1") as then:
+        assert [path.name for path in (then / "problems" / "hw1").iterdir()] == ["one.yaml"]
+
+
+@pytest.mark.parametrize("revision", ["nowhere", "HEAD~3", "", "--help", "HEAD:problems", "a\nb"])
+def test_a_revision_that_is_none_is_said(tmp_path: Path, revision: str) -> None:
+    assert complaint(committed(course(tmp_path)), revision)[0] == "no-such-revision"
+
+
+def test_a_set_that_was_not_there_is_said(tmp_path: Path) -> None:
+    assert complaint(committed(course(tmp_path)), "HEAD", "hw2") == ("no-such-set", "there was no set `hw2` at `HEAD`")
+
+
+def test_no_repository_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))
+    assert complaint(course(tmp_path), "HEAD")[0] == "no-repository"
+
+
+def test_no_git_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root = committed(course(tmp_path))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert complaint(root, "HEAD")[0] == "no-git"
