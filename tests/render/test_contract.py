@@ -56,26 +56,33 @@ def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
     page = json.loads(rendered_once(course_in(tmp_path), "hw9/block", only={"json"}).texts["json"])
     assert list(page) == [
         "problem",
+        "detail",
         "title",
         "points",
+        "statement",
         "strategy",
         "given",
         "parts",
         "assumed",
         "answers",
         "limits",
+        "limits_say",
+        "note",
         "drawings",
         "steps",
         "reference",
+        "warnings",
     ]
-    assert {frozenset(part) for part in page["parts"]} == {frozenset({"label", "points", "extra", "answers"})}
+    assert {frozenset(part) for part in page["parts"]} == {
+        frozenset({"label", "points", "extra", "answers", "ask", "says"})
+    }
     assert {frozenset(answer) for answer in page["answers"].values()} == {
-        frozenset({"symbol", "sympy", "latex", "unit", "number"})
+        frozenset({"symbol", "sympy", "latex", "text", "unit", "number"})
     }
     for step in page["steps"]:
         assert list(step) == ["key", "rule", "symbol", "outcome", "inputs", "names", "chain", "evidence"]
         assert list(step["symbol"]) == ["sympy", "latex", "formula"]
-        assert all(list(form)[:4] == ["sympy", "latex", "because", "level"] for form in step["chain"])
+        assert all(list(form)[:5] == ["sympy", "latex", "text", "because", "level"] for form in step["chain"])
         assert all(list(evidence) == ["claim", "compared", "grade", "detail"] for evidence in step["evidence"])
     assert [key for part in page["parts"] for key in part["answers"]] == list(page["answers"])
     keys = [step["key"] for step in page["steps"]]
