@@ -16,7 +16,7 @@ from typing import Any
 from derive.building import sealed
 from derive.building.cache import digest, file_digest
 from derive.course.names import INDEX, MORE
-from derive.render.formats import formats
+from derive.render.formats import built_formats
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -120,13 +120,13 @@ def _is_plain(output: str) -> bool:
         "pdf",
         "svg",
         "tex",
-        *(form.suffix for form in formats().values()),
+        *(form.suffix for form in built_formats().values()),
     }
 
 
 def outputs_of(name: str) -> list[str]:
     """The outputs of a problem."""
-    return [f"{name}.{suffix}" for suffix in ("pdf", "tex", "html", *(form.suffix for form in formats().values()))]
+    return [f"{name}.{suffix}" for suffix in ("pdf", "tex", "html", *(f.suffix for f in built_formats().values()))]
 
 
 def outputs_of_paper(paper: str, file: str) -> list[str]:

@@ -29,7 +29,7 @@ from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typ
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
 from derive.course.names import INDEX, MORE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
-from derive.render.formats import formats
+from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
 
 if TYPE_CHECKING:
@@ -309,7 +309,7 @@ class _Build:
         from derive.building.set_document import problem_document, problem_page
 
         derived = self.derived[name]
-        texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in formats().values()}
+        texts = {f"{name}.{form.suffix}": derived.texts[form.name] for form in built_formats().values()}
         texts |= self._page(name, lambda: problem_page(self.root, derived, self.heading))
         if self._record(dict(derived.files)):
             rank = FIRST if self.edits else LAST

@@ -38,7 +38,7 @@ from derive.page.rubric import credits_of, faults_of_rubric
 from derive.page.template import template_folder
 from derive.page.tree import Document
 from derive.page.wording import phrases
-from derive.render.formats import HTML, TYPESET, Solution, formats
+from derive.render.formats import HTML, TYPESET, Solution, built_formats, formats
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
 from derive.render.notation.notation import Notation
@@ -77,7 +77,7 @@ def rendered(
     """Derive a problem and print it; raises `DeriveError` with everything that is wrong.
 
     Its steps and drawings are taken from the `cache` if they are there, and are kept there for the next time; `draws`
-    says whether the files of its drawings are wanted too, `only` in which formats the page is, else it is in all, and
+    says whether the files of its drawings are wanted too, `only` in which formats the page is, else in all of a build,
     `evidence` how much it tells of how it was checked, and `papers` what else is made of it: the key, hints, a rubric.
     """
     problem = load_problem(root, problem_id)
@@ -100,7 +100,7 @@ def rendered(
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
     warnings = (*(w for w in document.warnings if w not in of_nobody), *failures)
     solution = Solution(document, words, notation, problem, derivation, values, solved.compared, warnings, level.value)
-    wanted = {*formats(), *TYPESET, HTML} if only is None else {*only}
+    wanted = {*built_formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
     files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()
     rubric = {chr(ord("a") + i): part.rubric for i, part in enumerate(problem.parts)}

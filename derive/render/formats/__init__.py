@@ -1,6 +1,7 @@
 """Each format in which a page is given out alone; each module here is one, and nothing else names it.
 
-A module says `FORMAT = Format(...)`, and from this follow `--format`, what `Rendered` holds, and the files of a build.
+A module says `FORMAT = Format(...)`, and from this follow `--format`, what `Rendered` holds, and, if it is
+`built`, the files of a build.
 Modules are imported wherever formats are listed, even by `--help`: what renders a page is imported when it renders.
 """
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 # Documents, made of a page and of what its set says; a format is made of a page alone.
 TYPESET, HTML = ("latex", "pdf"), "html"
+WRITTEN = "Written by derive"  # in the first line of what may be mistaken for written by hand, and may be replaced
 
 
 @dataclass(frozen=True)
@@ -47,16 +49,27 @@ class Solution:
 
 @dataclass(frozen=True)
 class Format:
-    """What `--format` calls it, the suffix of its files, and the text of a page in it."""
+    """What `--format` calls it, the suffix of its files, and the text of a page in it.
+
+    built     whether a build writes it for each problem; else it is made where it is asked for
+    drawings  the suffix of the drawings that it refers to, which stand beside it
+    """
 
     name: str
     suffix: str
     render: Callable[[Solution], str]
+    built: bool = True
+    drawings: str = ""
 
 
 def formats() -> Mapping[str, Format]:
     """Every format by its name."""
     return _formats(tuple(__path__))
+
+
+def built_formats() -> Mapping[str, Format]:
+    """Those that a build writes for each problem."""
+    return {name: form for name, form in formats().items() if form.built}
 
 
 @cache

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 from derive.page.chain_lines import ChainLine
 from derive.page.tree import Display
 from derive.render.notation.latex import TEX_OPERATORS, latex
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import Printed, printed_lines
+from derive.render.printing.lines import LINE_WIDTH, Printed, printed_lines
 
 
 def display_latex(display: Display, notation: Notation, numbered: bool = False) -> str:
     """The rows below each other, their relations aligned; what answers a question is boxed."""
-    rows = [
-        _row(line, stop if line is printed[-1] else "", numbered)
+    return aligned(display_rows(display, notation, ending=_number if numbered else None))
+
+
+def display_rows(
+    display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
+) -> list[str]:
+    """Each row with its punctuation, and behind that what its `ending` is; `&` stands where rows are aligned."""
+    return [
+        _row(line, (stop if line is printed[-1] else "") + (ending(line) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)
-        for printed in [printed_lines(group, notation)]
+        for printed in [printed_lines(group, notation, limit)]
         for line in printed
     ]
-    return rows[0].replace("&", "", 1) if len(rows) == 1 else _aligned(rows)
 
 
 def equation_latex(line: ChainLine, notation: Notation) -> str:
@@ -26,14 +34,20 @@ def equation_latex(line: ChainLine, notation: Notation) -> str:
     return f"{left} {TEX_OPERATORS[line.relation]} {latex(notation.result(line.right), inline=True)}".strip()
 
 
-def _aligned(rows: list[str]) -> str:
+def aligned(rows: Sequence[str]) -> str:
+    """Rows in one piece; one alone is aligned with nothing."""
+    if len(rows) == 1:
+        return rows[0].replace("&", "", 1)
     return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
 
 
-def _row(line: Printed, stop: str, numbered: bool) -> str:
+def _number(line: Printed) -> str:
+    return "" if line.number is None else rf"\qquad({line.number})"
+
+
+def _row(line: Printed, end: str) -> str:
     left = latex(line.left) if line.left else ""
     sides = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
-    end = stop + (rf"\qquad({line.number})" if numbered and line.number is not None else "")
     if line.frames_all:
         return rf"&\boxed{{{_spaced(left, *(part for side in sides for part in side))}}}{end}"
     at = len(sides) - line.framed

@@ -1,0 +1,90 @@
+"""A page as LaTeX for a document of somebody else: amsmath, that document's own numbers, and labels to refer to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from derive.page.numbering import Number
+from derive.page.tree import Display, Document, Illustration
+from derive.page.wording import Inline, Phrases, ProblemRef, ToldOnce
+from derive.render.notation.latex import escaped
+from derive.render.notation.notation import Notation
+from derive.render.printing.amsmath import display_rows
+from derive.render.printing.latex_page import LatexPage
+from derive.render.printing.lines import Printed
+from derive.render.printing.templates import filled_template
+from derive.render.rendered import Tex
+
+WIDTH = 46.0  # of a line, in characters, for the column of a plain article
+# What asks for a package, in the order in which they are loaded.
+PACKAGES = {
+    r"\usepackage[T1]{fontenc}": (r"\textquotedbl", r"\guill", r"\k{", r"\DJ", r"\dj"),
+    r"\usepackage{amsmath}": ("",),
+    r"\usepackage{bm}": (r"\bm{",),
+    r"\usepackage{graphicx}": (r"\includegraphics",),
+}
+
+
+def fragment(document: Document, words: Phrases, notation: Notation, folder: Path) -> Tex:
+    page = FragmentPage(document, words, notation)
+    body = filled_template(folder, "fragment.tex.j2", {"page": page})
+    needed = [package for package, signs in PACKAGES.items() if any(sign in body for sign in signs)]
+    return filled_template(
+        folder, "fragment_head.tex.j2", {"page": page, "packages": [Tex(each) for each in needed], "body": body}
+    )
+
+
+class FragmentPage(LatexPage):
+    """The same without commands of ours."""
+
+    def __init__(self, document: Document, words: Phrases, notation: Notation):
+        super().__init__(document, words, notation)
+        self._keys: dict[Number, str] = {}
+        for key, number in document.numbers.items():
+            self._keys.setdefault(number, key)
+        self._labelled: set[Number] = set()
+
+    def whole_worth(self) -> Tex:
+        return Tex(escaped(self.words.worth(self.document.points)))
+
+    def files(self) -> Sequence[Tex]:
+        """The drawings that stand beside the document."""
+        return [Tex(f"{drawing.stem}.pdf") for drawing in self.document.illustrations]
+
+    def labels(self) -> Sequence[Tex]:
+        return [Tex(self._label(number)) for number in self._keys if number in self._labelled]
+
+    def drawing(self, drawing: Illustration) -> Tex:
+        """The file, and its caption below."""
+        shown = rf"\includegraphics{{{drawing.stem}.pdf}}"
+        if drawing.number is None:
+            return Tex(shown)
+        label = escaped(f"{self.words.labels['figure']} {drawing.number}.")
+        return Tex(rf"{shown}\par\smallskip{{\small\textbf{{{label}}} {self.inline(drawing.caption)}}}")
+
+    def display(self, display: Display) -> Tex:
+        """Each numbered line with the number that comes next in the document that it stands in."""
+        *rows, last = display_rows(display, self.notation, WIDTH, self._ending)
+        return Tex("".join(f"{row} \\\\\n" for row in rows) + last)
+
+    def _node(self, node: Inline) -> str:
+        match node:
+            case ProblemRef(text=text):
+                return escaped(text)
+            case ToldOnce(nodes=told):
+                return self.inline(told)
+        return super()._node(node)
+
+    def _reference(self, key: str) -> str:
+        return rf"\eqref{{{self._label(self.document.numbers[key])}}}"
+
+    def _ending(self, line: Printed) -> str:
+        reason = rf"\quad\text{{\footnotesize[{self.inline(line.reason)}]}}" if line.reason else ""
+        if line.number is None or line.number in self._labelled:
+            return rf"{reason}\notag"
+        self._labelled.add(line.number)
+        return rf"{reason}\label{{{self._label(line.number)}}}"
+
+    def _label(self, number: Number) -> str:
+        return f"{self.document.id}:{self._keys[number]}"
