@@ -33,7 +33,7 @@ MODULES = {
 }
 
 # From the ground up: a room imports from the floors below it, and two rooms of one floor not from each other. What
-# scripts import, `given`, and the front door stand before the rooms.
+# scripts import, `given`, what notebooks import, and the front door stand before the rooms.
 FLOORS = (
     ("errors",),
     ("algebra",),
@@ -47,7 +47,7 @@ FLOORS = (
     ("preview",),
     ("cli",),
 )
-DOORS = {"given": "course", "__main__": "cli"}
+DOORS = {"given": "course", "notebook": "cli", "__main__": "cli"}
 FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 ENGINE = {name for name in MODULES if name.partition(".")[0] in {"errors", "algebra", "steps", "mechanics", "figures"}}
 PRINTING = {"cli.options", "cli.running", "cli.terminal", "building.doctor"}

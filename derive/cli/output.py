@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from pathlib import Path
 
 from derive import FOLDER
 from derive.building.files import writing
 from derive.errors import Complaint, Misused
+from derive.render.formats import WRITTEN
 
 _WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 
@@ -30,8 +32,16 @@ def _kept_from(path: Path, root: Path) -> str:
     """Why nothing may be written to that path; empty if it may."""
     if os.path.islink(path):
         return f"`{path}` is a link, and what it leads to is not replaced"
-    written = os.path.isfile(path) and (path.suffix in _WRITTEN_BY_HAND or _belongs_to(path, root))
+    by_hand = path.suffix in _WRITTEN_BY_HAND and not _is_ours(path)
+    written = os.path.isfile(path) and (by_hand or _belongs_to(path, root))
     return f"`{path}` is a file that somebody wrote, and is not replaced" if written else ""
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether the first line says that derive has written it."""
+    with suppress(OSError), path.open("rb") as file:
+        return WRITTEN.encode() in file.readline(200)
+    return False
 
 
 def _belongs_to(path: Path, root: Path) -> bool:

@@ -12,7 +12,7 @@ from derive.cli.asked import problem_id_of, root_of
 from derive.cli.output import check_output, deliver
 from derive.cli.running import delivered, waiting
 from derive.cli.terminal import complain, table
-from derive.render.formats import TYPESET
+from derive.render.formats import TYPESET, formats
 
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
@@ -29,12 +29,13 @@ def solve(arguments: argparse.Namespace) -> int:
     root, problem_id, limit = root_of(arguments), problem_id_of(arguments.id), arguments.time_limit
     check_output(arguments.output, root)
     set_id, form = problem_id.partition("/")[0], arguments.format
+    beside = formats()[form].drawings if form in formats() and arguments.output not in (None, "-") else ""
 
     def told() -> tuple[Rendered, ProblemSet]:
         heading = problem_set(root, set_id)
         heading = replace(heading, evidence=EvidenceShown(arguments.evidence or heading.evidence))
-        options = {"draws": form == "pdf", "only": (form,), "evidence": heading.evidence}
-        return rendered(root, problem_id, arguments.detail, **options), heading
+        draws, evidence = form == "pdf" or bool(beside), heading.evidence
+        return rendered(root, problem_id, arguments.detail, draws=draws, only=(form,), evidence=evidence), heading
 
     with waiting(f"deriving {problem_id}"):
         solved, heading = done(job_of(root, problem_id, told, limit))
@@ -45,7 +46,15 @@ def solve(arguments: argparse.Namespace) -> int:
     if arguments.format == "pdf":
         return _solve_pdf(arguments, root, problem_id, text, solved.files)
     deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
+    if beside:
+        _deliver_drawings(arguments.output, tuple(file for file in solved.files if file[0].endswith(f".{beside}")))
     return 0
+
+
+def _deliver_drawings(output: str, files: Files) -> None:
+    """What a page refers to, in its folder."""
+    for name, content in files:
+        deliver(content, str(Path(output).parent / name))
 
 
 def explain(arguments: argparse.Namespace) -> int:

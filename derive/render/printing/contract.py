@@ -117,7 +117,7 @@ def _given(given: Any) -> Any:
 def _answer(named: StepNames, value: Step | None, dimension: Dimension | None, notation: Notation) -> dict[str, Any]:
     step = named.step
     forms = [form for form in value.chain if form.because in NUMBERS] if value else []
-    first, *others = [_number(form.expr) for form in forms] or [None]
+    first, *others = [number_told(form.expr) for form in forms] or [None]
     return {
         "symbol": _symbol(step, notation),
         "sympy": named.text_of_value(step.result),
@@ -134,7 +134,7 @@ def _symbol(step: Step, notation: Notation) -> str:
     return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
-def _number(value: Any) -> dict[str, Any] | None:
+def number_told(value: Any) -> dict[str, Any] | None:
     """The rounded value, or nothing while letters are left in it; of a relation, that on its right."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):

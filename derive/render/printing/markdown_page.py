@@ -157,8 +157,8 @@ def formula_markdown(tex: str) -> str:
     """A formula in which nothing means anything to a reader of Markdown."""
     tex = _SIGNS.sub(lambda sign: _IN_WORDS[sign[0]], _BREAK.sub(r"\\cr ", tex))
     tex = re.sub(r"\\bm(?=\W)", r"\\boldsymbol", tex)
-    # Emphasis cannot end behind a space, so that none begins.
-    tex = re.sub(r"(?<=[^\w\s])_", " _", tex).replace("](", "] (")
+    # Emphasis begins neither within a word nor before a space.
+    tex = re.sub(r"(?<!\w)_", "_ ", tex).replace("](", "] (")
     return re.sub(r" +\n", "\n", re.sub(r" {2,}", " ", tex)).strip()
 
 

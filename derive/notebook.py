@@ -1,0 +1,140 @@
+"""A problem in a notebook or at Python's prompt: derived anew, its answers and drawings shown as they are on its page.
+
+problem = open_problem("hw9/block")
+problem.answer("torque")       # shown as a formula; .value is the SymPy expression
+problem.drawing("vectors")     # shown as a drawing
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from derive.building.solution import derived, rendered
+from derive.cli.asked import found_root, problem_id_of
+from derive.course.problem import Problem, load_problem
+from derive.errors import Complaint, Misused, did_you_mean
+from derive.page.signs import sign_before
+from derive.render.notation.latex import latex
+from derive.render.notation.layout import Layout, Operator, row
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import plain
+from derive.render.printing.chain_names import Page
+from derive.render.printing.contract import number_told
+from derive.steps.derivation import Derivation
+from derive.steps.homogeneity import dimension_table
+from derive.steps.step import NUMBERS, Step
+
+__all__ = ["open_problem"]
+
+
+def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
+    """The problem of that id, as `hw9/block`, of the course in `root`: by default that which is here or above."""
+    folder = found_root(None if root is None else str(root))
+    if folder is None:
+        help_line = "run it in the course's folder, or name that: `open_problem(..., root=...)`"
+        raise Misused(Complaint("no-root", "there is no folder `problems` here or above", help=help_line))
+    return Opened(load_problem(folder, problem_id_of(problem_id)))
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One result as it was derived now.
+
+    value   what the page prints, a SymPy expression; of a relation, the whole
+    sympy   the same as plain SymPy text, which needs nothing of derive to be read; of two roots, each
+    number  the number that it has in a unit, if it has one
+    grade   how sure it is: proved, sampled, definition or approximation
+    """
+
+    key: str
+    value: Any
+    sympy: str | list[str]
+    number: str
+    grade: str
+    formula: Layout
+
+    def __repr__(self) -> str:
+        return plain(self.formula)
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {latex(self.formula)}$".replace(r"\bm{", r"\boldsymbol{")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A drawing as it was drawn now."""
+
+    svg: str
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+
+class Opened:
+    """A problem, derived when the first of its answers is asked for, and once."""
+
+    def __init__(self, problem: Problem):
+        self._problem = problem
+
+    def __repr__(self) -> str:
+        return f"{self._problem.id}: {', '.join(self.answers)}"
+
+    @property
+    def answers(self) -> tuple[str, ...]:
+        """The keys of what its parts ask for."""
+        derivation, _ = self._derived
+        steps = [step for part in self._problem.parts for step in derivation.answering(part.answers)]
+        return tuple(dict.fromkeys(step.key for step in steps))
+
+    def answer(self, key: str) -> Answer:
+        """What a part asks for, or any other step of the page, by its key."""
+        derivation, values = self._derived
+        steps = {step.key: step for step in derivation.steps}
+        if key not in steps:
+            help_line = did_you_mean(key, steps) or "its answers are " + ", ".join(f"`{each}`" for each in self.answers)
+            raise Misused(Complaint("no-such-step", f"no step is called `{key}`", help=help_line))
+        step, forms = steps[key], values[key].chain if key in values else ()
+        numbers = [form for form in forms if form.because in NUMBERS]
+        told = number_told(numbers[0].expr) if numbers else None
+        return Answer(
+            key,
+            step.result,
+            Page([*derivation.steps, *values.values()]).names_of(step).text_of_value(step.result),
+            told["text"] if told else "",
+            step.grade.value,
+            self._formula(step, [(sign_before(form), form.expr) for form in numbers]),
+        )
+
+    def drawing(self, key: str) -> Drawn:
+        """A drawing of the page, by its key."""
+        name = f"{self._problem.id.rpartition('/')[2]}-{key}.svg"
+        if name not in self._drawings:
+            keys = [file.partition("-")[2].removesuffix(".svg") for file in self._drawings]
+            message = f"no drawing is called `{key}`"
+            raise Misused(Complaint("no-such-drawing", message, help=did_you_mean(key, keys)))
+        return Drawn(self._drawings[name].decode())
+
+    @cached_property
+    def _derived(self) -> tuple[Derivation, dict[str, Step]]:
+        derivation, values, *_ = derived(self._problem)
+        return derivation, values
+
+    @cached_property
+    def _drawings(self) -> dict[str, bytes]:
+        files = rendered(self._problem.root, self._problem.id, draws=True, only=()).files
+        return {name: content for name, content in files if name.endswith(".svg")}
+
+    @cached_property
+    def _notation(self) -> Notation:
+        derivation, values = self._derived
+        return Notation(dimension_table(self._problem.dimensions, [*derivation.steps, *values.values()])[0])
+
+    def _formula(self, step: Step, numbers: list[tuple[str, Any]]) -> Layout:
+        """`theta = arccos(...) ~ 21.64 deg`."""
+        lettered = step.symbol is not None
+        before = [self._notation.layout(step.symbol), Operator(sign_before(step.chain[-1]))] if lettered else []
+        behind = [item for sign, expr in numbers for item in (Operator(sign), self._notation.result(expr))]
+        return row(*before, self._notation.result(step.result), *behind)

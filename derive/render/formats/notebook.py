@@ -1,0 +1,14 @@
+"""A page as a Jupyter notebook, the cells of which derive the problem anew; nothing that they show is stored."""
+
+from __future__ import annotations
+
+from derive.render.formats import Format, Solution
+
+
+def _rendered(solution: Solution) -> str:
+    from derive.render.printing.notebook_page import notebook
+
+    return notebook(solution)
+
+
+FORMAT = Format("notebook", "ipynb", _rendered, built=False)
