@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 from derive.page.chain_lines import ChainLine
 from derive.page.tree import Display
 from derive.render.notation.latex import TEX_OPERATORS, latex
+from derive.render.notation.layout import Layout
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import LINE_WIDTH, Printed, printed_lines
+from derive.render.printing.lines import LINE_WIDTH, Printed, framed_together, printed_lines
 
 
 def display_latex(display: Display, notation: Notation, numbered: bool = False) -> str:
@@ -21,10 +22,10 @@ def display_rows(
 ) -> list[str]:
     """Each row with its punctuation, and behind that what its `ending` is; `&` stands where rows are aligned."""
     return [
-        _row(line, (stop if line is printed[-1] else "") + (ending(line) if ending else ""))
+        _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)
-        for printed in [printed_lines(group, notation, limit)]
-        for line in printed
+        for rows in [framed_together(printed_lines(group, notation, limit))]
+        for lines in rows
     ]
 
 
@@ -45,17 +46,43 @@ def _number(line: Printed) -> str:
     return "" if line.number is None else rf"\qquad({line.number})"
 
 
-def _row(line: Printed, end: str) -> str:
-    left = latex(line.left) if line.left else ""
-    sides = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
-    if line.frames_all:
-        return rf"&\boxed{{{_spaced(left, *(part for side in sides for part in side))}}}{end}"
-    at = len(sides) - line.framed
-    plain = [part for side in sides[:at] for part in side]
-    if line.framed:
-        (sign, first), *others = sides[at:]
-        plain += [sign, rf"\boxed{{{_spaced(first, *(part for side in others for part in side))}}}"]
-    return f"{left} &{_spaced(*plain)}{end}".lstrip()
+def _row(lines: Sequence[Printed], end: str) -> str:
+    """A line, or all lines that are in one frame, which begins behind the relation where they go on from another."""
+    first, *others = lines
+    left = latex(first.left) if first.left else ""
+    if not others:
+        body = _boxed(f"{left} {_sides(first.sides)}".strip()) if first.frames_all else _with_box(first)
+    elif first.frames_all:
+        body = _boxed(aligned([f"{left} &{_sides(first.sides)}", *_going_on(others)]))
+    else:
+        ((relation, begun),) = first.sides
+        body = f"{_sign(relation)} " + _boxed(aligned([f"&{latex(begun)}", *_going_on(others)]))
+    return f"&{body}{end}" if first.frames_all else f"{left} &{body}{end}".lstrip()
+
+
+def _going_on(lines: Sequence[Printed]) -> list[str]:
+    return [f"&{_sides(line.sides)}" for line in lines]
+
+
+def _with_box(line: Printed) -> str:
+    """Relations and right sides; those that are the result in a box, the relation before it."""
+    at = len(line.sides) - line.framed
+    if not line.framed:
+        return _sides(line.sides)
+    (relation, first), *others = line.sides[at:]
+    return _spaced(_sides(line.sides[:at]), _sign(relation), _boxed(_spaced(latex(first), _sides(others))))
+
+
+def _sides(sides: Sequence[tuple[str, Layout]]) -> str:
+    return _spaced(*(part for relation, side in sides for part in (_sign(relation), latex(side))))
+
+
+def _sign(relation: str) -> str:
+    return TEX_OPERATORS[relation].strip()
+
+
+def _boxed(formula: str) -> str:
+    return rf"\boxed{{{formula}}}"
 
 
 def _spaced(*parts: str) -> str:

@@ -21,7 +21,7 @@ from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import equation_latex
-from derive.render.printing.lines import Printed, printed_lines
+from derive.render.printing.lines import Printed, framed_together, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import closing_title, inline_text, second_ways
@@ -192,7 +192,7 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
-        rows = _rows(printed)
+        rows = framed_together(printed)
         set_rows = [self._row(lines, stop if lines is rows[-1] else "") for lines in rows]
         breaks = [r"\inlongstep" if i > 1 else r"\samestep" for i in range(1, len(rows))]
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
@@ -273,18 +273,6 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
         else:
             passages[-1] = replace(last, drawings=(*last.drawings, first))
     return passages
-
-
-def _rows(lines: Sequence[Printed]) -> list[list[Printed]]:
-    """Lines that one frame holds are one row."""
-    rows: list[list[Printed]] = []
-    for line in lines:
-        goes_on = line.left is None and line.sides[0][0] == "on"
-        if goes_on and line.framed and rows and rows[-1][-1].framed:
-            rows[-1].append(line)
-        else:
-            rows.append([line])
-    return rows
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -79,6 +80,18 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     packed = _with_condition_framed(packed) if equations.framed else packed
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
+
+
+def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
+    """Rows: of one line each, but for lines that one frame holds."""
+    rows: list[list[Printed]] = []
+    for line in lines:
+        goes_on = line.left is None and line.sides[0][0] == "on"
+        if goes_on and line.framed and rows and rows[-1][-1].framed:
+            rows[-1].append(line)
+        else:
+            rows.append([line])
+    return rows
 
 
 def _with_bare_number_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
