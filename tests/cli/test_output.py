@@ -9,6 +9,7 @@ import pytest
 
 from derive.cli.output import check_output, deliver
 from derive.errors import DeriveError, Misused
+from derive.render.formats import WRITTEN
 
 
 @pytest.mark.parametrize("output", [None, "-", "new.txt", "old.txt"])
@@ -46,3 +47,12 @@ def test_a_file_is_written_and_a_folder_is_not(tmp_path: Path, capfdbinary: pyte
     assert (tmp_path / "new.txt").read_bytes() == capfdbinary.readouterr().out == b"answer"
     with pytest.raises(DeriveError):
         deliver(b"answer", str(tmp_path))
+
+
+def test_a_page_that_derive_wrote_may_be_written_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("page.md").write_text(f"<!-- {WRITTEN} from problems/hw1/one.yaml -->\n\n# One\n")
+    check_output("page.md", tmp_path)
+    Path("page.md").write_text(f"# One\n\n{WRITTEN} by somebody\n")
+    with pytest.raises(Misused, match="is a file that somebody wrote"):
+        check_output("page.md", tmp_path)

@@ -28,7 +28,7 @@ from tests.test_transcripts import PAGES
 FORMATS = {"json", "text", "latex", "html", "markdown", "notebook", "fragment"}
 # page -> how many answers it has
 ANSWERS = {"block": 6, "block-numbers": 6, "cone": 5, "slab": 5, "top": 5, "euler": 2}
-LISTED = {"principal_moments", "principal_directions", "agreement"}  # told in a sentence, or entry by entry
+LISTED = {"principal_moments", "principal_directions", "agreement"}  # entry by entry, or on full pages alone
 
 
 @cache

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Symbol
+from sympy import Add, Symbol
 
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.numbering import Number
@@ -34,3 +34,14 @@ def test_an_answer_is_boxed_and_its_number_is_told_if_it_is_wanted() -> None:
 
 def test_an_answer_that_is_all_of_its_row_is_boxed_with_its_left_side() -> None:
     assert display_latex(display(ChainLine(a, "equals", b), framed=1), Notation()) == r"\boxed{a = b}."
+
+
+def test_one_box_is_around_all_lines_of_an_answer() -> None:
+    terms = [Symbol(f"{'abcdefgh'[i]}_{'mnopqrst'[i] * 12}") for i in range(8)]
+    answer = display(ChainLine(a, "equals", Add(*terms)), framed=1)
+    shown = display_latex(answer, Notation())
+    assert shown.count(r"\boxed") == 1
+    assert shown.startswith(r"\boxed{\begin{aligned}" + "\na &= ")
+    assert r" \\" + "\n&" in shown
+    chain = display(ChainLine(a, "equals", b), ChainLine(None, "equals", Add(*terms)), framed=1)
+    assert r"= \boxed{\begin{aligned}" in display_latex(chain, Notation())

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
+from pathlib import Path
 
 import pytest
 from fake_course import Course
 
 from derive.cli.options import main
+from tests.courses import course_in
 
 
 def test_solve_prints_the_text_and_nothing_else(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
@@ -77,3 +80,15 @@ def test_explain_works_in_a_worker_with_a_limit(course: Course, capfd: pytest.Ca
     assert "error[time-limit]" in capfd.readouterr().err
     assert main(["explain", "hw1/two", "torque"]) == 1
     assert "error[wrong-kind]" in capfd.readouterr().err
+
+
+def test_a_page_in_a_file_has_the_drawings_that_it_refers_to_beside_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(course_in(tmp_path))
+    assert main(["solve", "hw9/block", "--format", "markdown", "-o", "page.md"]) == 0
+    linked = re.findall(r"\]\((.*\.svg)\)", Path("page.md").read_text(encoding="utf-8"))
+    assert len(linked) == 2
+    assert sorted(path.name for path in tmp_path.glob("*.svg")) == sorted(linked)
+    assert not [*tmp_path.glob("*.pdf")]
+    assert main(["solve", "hw9/block", "--format", "markdown", "-o", "page.md"]) == 0, "it may be written again"

@@ -10,7 +10,7 @@ import pytest
 
 import derive.render.formats
 from derive.cli.options import main
-from derive.render.formats import formats
+from derive.render.formats import built_formats, formats
 from tests.courses import course_in, rendered_once
 from tests.fake_course import stand_in_course
 
@@ -47,7 +47,10 @@ def stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def test_formats_are_known_by_their_names() -> None:
     known = {name: form.suffix for name, form in formats().items()}
     assert known.items() >= {"json": "json", "text": "txt"}.items()
-    assert len(set(known.values())) == len(known)
+    built = [form.suffix for form in built_formats().values()]
+    assert len({*built, "tex", "pdf", "html", "svg"}) == len(built) + 4, "no two outputs of a build have one name"
+    assert {"markdown": "md", "notebook": "ipynb", "fragment": "tex"}.items() <= known.items()
+    assert not {"markdown", "notebook", "fragment"} & set(built_formats())
 
 
 @pytest.mark.usefixtures("stand_in")

@@ -1,0 +1,48 @@
+"""A page to be read into another document: it says what it needs, and needs no more."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from derive.building.tex import chosen_engine, typeset
+from derive.page.tree import Paragraph
+from derive.page.wording import Text
+from derive.render.printing.fragment_page import fragment
+from tests.courses import ROOT, rendered_once
+from tests.render.pages import NOTATION, WHOLE, WORDS, page
+
+FOLDER = ROOT / "templates"
+TEXT = fragment(WHOLE, WORDS, NOTATION, FOLDER)
+
+
+def needed(text: str) -> list[str]:
+    return re.findall(r"^%   (\\usepackage.*)$", text, re.MULTILINE)
+
+
+def test_it_lists_the_packages_and_the_drawings_that_it_needs() -> None:
+    assert needed(TEXT) == [r"\usepackage{amsmath}", r"\usepackage{graphicx}"]
+    assert re.findall(r"^%   (\S+\.pdf)$", TEXT, re.MULTILINE) == ["one-axes.pdf"]
+    plain = fragment(page(Paragraph((Text("A «word»"),)), illustrations=()), WORDS, NOTATION, FOLDER)
+    assert needed(plain) == [r"\usepackage[T1]{fontenc}", r"\usepackage{amsmath}"]
+
+
+def test_equations_have_labels_and_the_numbers_of_the_document() -> None:
+    assert re.findall(r"\\label\{(.*?)\}", TEXT) == ["hw9/one:mass", "hw9/one:energy"]
+    assert re.findall(r"^%   (hw9/one:\S+)$", TEXT, re.MULTILINE) == ["hw9/one:mass", "hw9/one:energy"]
+    assert r"\eqref{hw9/one:mass}" in TEXT
+    assert "\\tag" not in TEXT
+
+
+@pytest.mark.parametrize("name", ["block", "cone", "euler", "slab", "top"])
+def test_a_plain_article_with_these_packages_typesets_it(tmp_path: Path, name: str) -> None:
+    """The small TeX of the wheel has the fonts of lmodern alone; another needs none of it."""
+    found = rendered_once(ROOT, f"hw9/{name}", draws=True, only={"fragment"})
+    text = found.texts["fragment"]
+    packages = [r"\usepackage{lmodern}", *needed(text)]
+    document = ["\\documentclass{article}", *packages, "\\begin{document}", "\\section{Mine}", text, "\\end{document}"]
+    target, log = tmp_path / "mine.pdf", tmp_path / "log"
+    typeset("\n".join(document), target, chosen_engine(None), beside=found.files, log=log)
+    assert target.read_bytes().startswith(b"%PDF")

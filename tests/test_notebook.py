@@ -1,0 +1,52 @@
+"""A problem opened in a notebook: its answers and drawings, and what is said of a key that it does not have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.errors import Misused
+from derive.notebook import Opened, open_problem
+from tests.courses import course_in
+
+
+@pytest.fixture(scope="module")
+def block(tmp_path_factory: pytest.TempPathFactory) -> Opened:
+    return open_problem("hw9/block", course_in(tmp_path_factory.mktemp("course")))
+
+
+def test_it_lists_its_answers(block: Opened) -> None:
+    assert {"inertia_tensor", "kinetic_energy", "torque"} <= {*block.answers}
+    assert repr(block).startswith("hw9/block: inertia_tensor, ")
+
+
+def test_an_answer_is_an_expression_and_is_shown_as_a_formula(block: Opened) -> None:
+    energy = block.answer("kinetic_energy")
+    letters = {str(letter): letter for letter in energy.value.free_symbols}
+    M, a, *rates = (letters[name] for name in ("M", "a", "omega_x", "omega_y", "omega_z"))
+    wanted = M * a**2 * sum(n * rate**2 for n, rate in zip((13, 10, 5), rates, strict=True)) / 24
+    assert (energy.value - wanted).expand() == 0
+    assert energy._repr_latex_().startswith(r"$\displaystyle T=\frac{1}{24}\,Ma^{2}")
+    assert repr(energy).startswith("T = 1/24 M a² (13")
+    assert energy.grade == "proved"
+
+
+def test_an_answer_has_its_number(block: Opened) -> None:
+    assert block.answer("angle_between").number == "21.64 degree"
+    assert repr(block.answer("angle_between")).endswith("≈ 21.64°")
+
+
+def test_a_drawing_is_shown_as_svg(block: Opened) -> None:
+    assert block.drawing("vectors")._repr_svg_().startswith("<svg")
+
+
+def test_what_it_does_not_have_is_told(block: Opened, tmp_path: Path) -> None:
+    with pytest.raises(Misused, match="no step is called `torqe`") as step:
+        block.answer("torqe")
+    assert "torque" in step.value.complaints[0].help
+    with pytest.raises(Misused, match="no drawing is called `vector`") as drawing:
+        block.drawing("vector")
+    assert "vectors" in drawing.value.complaints[0].help
+    with pytest.raises(Misused, match="there is no folder `problems`"):
+        open_problem("hw9/block", tmp_path)
