@@ -15,6 +15,7 @@ from typing import Any
 
 from derive.building import sealed
 from derive.building.cache import digest, file_digest
+from derive.building.recipe import Recipe, recipe_digest
 from derive.course.names import INDEX, MORE
 from derive.render.formats import built_formats
 
@@ -31,12 +32,14 @@ class Manifest:
     tex_engine: str = ""
     engine: str = ""  # digest of the modules that derived its problems
     set_inputs: dict[str, str] = field(default_factory=dict)
-    inputs: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files it was derived from
+    inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of what it was derived from
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all that its page was made from
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     papers: list[list[str]] = field(default_factory=list)  # each with the name of its files
     evidence: str = ""  # how much the set says that its solutions tell of how they were checked
+    made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
+    recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest -> its ingredients
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
@@ -45,6 +48,8 @@ class Manifest:
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
     def save(self) -> None:
+        used = set(self.made_by.values())
+        self.recipes = {key: recipe for key, recipe in self.recipes.items() if key in used}
         recorded = {name: value for name, value in asdict(self).items() if name != "folder"}
         sealed.seal(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
@@ -59,13 +64,22 @@ class Manifest:
         """Take away what was made of a problem that the set no longer has."""
         for output in self.outputs_of(problem):
             self.remove(output)
-        for table in (self.pages, self.inputs, self.drawings):
+        for table in (self.pages, self.inputs, self.drawings, self.made_by):
             table.pop(problem, None)
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
         """What its page is kept under: a digest of how it was made, and of what `read` tells of each of its inputs."""
-        inputs = self.inputs.get(problem, [])
+        inputs = self.inputs.get(problem, {})
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
+
+    def made(self, problem: str, recipe: Recipe, read: Callable[[str], str]) -> str:
+        """Note what a page was made from; the key that it is kept under."""
+        made_by = recipe_digest(recipe)
+        self.recipes[made_by] = {**recipe}
+        self.made_by[problem] = made_by
+        self.inputs[problem] = {path: read(path) for path in self.inputs.get(problem, {})}
+        self.pages[problem] = self.page_key(problem, made_by, self.inputs[problem].__getitem__)
+        return self.pages[problem]
 
     def is_current(self, recipe: str, read: Callable[[str], str]) -> bool:
         """Whether nothing at all need be done for the set."""
@@ -102,8 +116,12 @@ def _is_record(recorded: Any) -> bool:
         return False
     if any(type(value) is not type(getattr(empty, name)) for name, value in recorded.items()):
         return False
-    texts = [*recorded["set_inputs"].values(), *recorded["pages"].values(), *recorded["outputs"].values()]
-    lists = [recorded["problems"], *recorded["papers"], *recorded["inputs"].values(), *recorded["drawings"].values()]
+    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "made_by")]
+    tables += [*recorded["inputs"].values(), *recorded["recipes"].values()]
+    lists = [recorded["problems"], *recorded["papers"], *recorded["drawings"].values()]
+    if not all(isinstance(each, dict) for each in tables):
+        return False
+    texts = [text for table in tables for text in table.values()]
     return (
         all(isinstance(each, list) for each in lists)
         and all(isinstance(text, str) for text in [*texts, *(text for each in lists for text in each)])

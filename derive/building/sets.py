@@ -17,13 +17,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive import FOLDER
-from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, file_digest, folder_digest
+from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, file_digest
 from derive.building.files import folder, shown_path, write, writing
 from derive.building.loaded import load
 from derive.building.manifest import Manifest, outputs_of
 from derive.building.named import check_asked, set_folder
 from derive.building.preamble import at_hand, beginning
+from derive.building.recipe import EVIDENCE, PAPERS, recipe_digest, recipe_of
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
@@ -65,6 +65,15 @@ class Edits:
     wrote: Callable[[Path], None]  # is told of the PDF of a problem as soon as it has changed
 
 
+@dataclass(frozen=True)
+class Ended:
+    """A piece of work that has come to its end: `derived`, `kept`, `typeset` or `failed`, of what, after how long."""
+
+    how: str
+    of: str
+    seconds: float = 0.0
+
+
 @dataclass
 class Report:
     """What a build did: how many problems it derived, which files changed, what went wrong."""
@@ -84,14 +93,20 @@ class Report:
 
 
 def built_set(
-    root: Path, set_id: str, options: Options, tell: Callable[[str], None], edits: Edits | None = None
+    root: Path,
+    set_id: str,
+    options: Options,
+    tell: Callable[[str], None],
+    edits: Edits | None = None,
+    ended: Callable[[Ended], None] = lambda _: None,
 ) -> Report:
-    """Build one set. `tell` shows what is under way to someone who waits; with `edits` it may raise `Superseded`."""
+    """Build one set. `tell` shows what is under way to someone who waits, and `ended` is told of each piece that is
+    done; with `edits` it may raise `Superseded`."""
     engine = chosen_engine(options.engine)
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
     with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
-        return _Build(root, set_id, options, engine, outputs, tell, edits).report()
+        return _Build(root, set_id, options, engine, outputs, tell, edits, ended).report()
 
 
 @contextmanager
@@ -125,16 +140,16 @@ class _Build:
         outputs: Path,
         tell: Callable[[str], None],
         edits: Edits | None,
+        ended: Callable[[Ended], None],
     ):
         self.root, self.set_id, self.options, self.engine, self.outputs = root, set_id, options, engine, outputs
-        self.edits = edits
+        self.edits, self.ended = edits, ended
         self.started = time.time_ns()
-        templates = [folder_digest(each / "templates") for each in (root, FOLDER, FOLDER.parent)]
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
-        self.how = (engine_digest(*PACKAGES), *templates, options.detail or "")
-        self.evidence = options.evidence or self.manifest.evidence
         self.papers = self.manifest.papers
+        self.made_by = recipe_of(root, options.detail, options.evidence or self.manifest.evidence)
+        self.made_by[PAPERS] = self._papers_told()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
         self.derived: dict[str, Rendered] = {}
@@ -147,8 +162,7 @@ class _Build:
 
     @property
     def recipe(self) -> str:
-        asked = ",".join(self.options.papers)
-        return digest(*self.how, self.evidence, asked, *(part for paper in self.papers for part in paper))
+        return recipe_digest(self.made_by)
 
     def report(self) -> Report:
         manifest, result = self.manifest, self.result
@@ -171,9 +185,11 @@ class _Build:
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence
-        self.evidence = self.options.evidence or heading.evidence
         self.manifest.papers = self.papers = [list(pair) for pair in self._wanted(heading.papers)]
-        self.heading = replace(heading, evidence=EvidenceShown(self.evidence), papers=self._wanted(heading.papers))
+        self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
+        self.made_by[PAPERS] = self._papers_told()
+        shown = EvidenceShown(self.made_by[EVIDENCE])
+        self.heading = replace(heading, evidence=shown, papers=self._wanted(heading.papers))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -203,6 +219,10 @@ class _Build:
                 # An interrupted build saves what it has finished, and is not complete.
                 self.manifest.save()
                 self.cache.let_go()
+
+    def _papers_told(self) -> str:
+        """Those that are asked for, and the names of their files."""
+        return ",".join([*self.options.papers, *(f"{paper}={file}" for paper, file in self.papers)])
 
     def _wanted(self, named: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
         """The papers that are asked for, each with the name of its files: the set's own, or itself."""
@@ -237,8 +257,10 @@ class _Build:
         kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.recalled_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
+            self.ended(Ended("kept", f"{self.set_id}/{name}"))
             told_before = self.manifest.pages.get(name) == keys[name]
-            self._take(name, keys[name], page, () if told_before else page.warnings)
+            self.manifest.made(name, self.made_by, self._input_digest)
+            self._take(name, page, () if told_before else page.warnings)
 
     def _derive(self, names: Sequence[str]) -> None:
         if not names:
@@ -253,7 +275,8 @@ class _Build:
 
         for name in names:
             problem = f"{self.set_id}/{name}"
-            shown, more = EvidenceShown(self.evidence), [paper for paper, _ in self.papers if paper in MORE]
+            shown = EvidenceShown(self.made_by[EVIDENCE])
+            more = [paper for paper, _ in self.papers if paper in MORE]
             work = partial(
                 rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown, papers=more
             )
@@ -266,20 +289,20 @@ class _Build:
         prepare(beginning(template_folder(self.root), self.options.detail), self.engine, self.cache)
 
     def _was_derived(self, name: str, outcome: Outcome) -> None:
+        self.ended(Ended("failed" if outcome.error else "derived", f"{self.set_id}/{name}", outcome.seconds))
         if not self._took(outcome):
             return
         page: Rendered = outcome.value
         self.result.derived += 1
-        self.manifest.inputs[name] = sorted({*page.inputs, f"problems/{self.set_id}/reference.yaml"})
-        key = self.manifest.page_key(name, self.recipe, self._input_digest)
-        self.cache.keep_data(key, page.to_data())
-        self._take(name, key, page, page.warnings)
+        inputs = sorted({*page.inputs, f"problems/{self.set_id}/reference.yaml"})
+        self.manifest.inputs[name] = dict.fromkeys(inputs, "")
+        self.cache.keep_data(self.manifest.made(name, self.made_by, self._input_digest), page.to_data())
+        self._take(name, page, page.warnings)
         self._whole()
 
-    def _take(self, name: str, key: str, page: Rendered, warnings: Sequence[Complaint]) -> None:
+    def _take(self, name: str, page: Rendered, warnings: Sequence[Complaint]) -> None:
         """A page of the set, derived now or before, and all that stands beside it."""
         self.result.warnings += warnings
-        self.manifest.pages[name] = key
         self.derived[name] = page
         self._check_files(name, page)
         self._document(name)
@@ -373,6 +396,7 @@ class _Build:
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
         """The text and the source follow their PDF, so that what lies side by side belongs together."""
+        self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         if pdf.removesuffix(".pdf") in [file for _, file in self.papers] and outcome.error:
             self.whole_failed = outcome
             return

@@ -17,7 +17,7 @@ from derive import FOLDER
 from derive.building.cache import folder_digest
 from derive.building.loaded import load
 from derive.building.named import check_asked
-from derive.building.sets import Edits, Options, Report, Superseded, built_set
+from derive.building.sets import Edits, Ended, Options, Report, Superseded, built_set
 from derive.building.tex import chosen_engine
 from derive.errors import BuildFailed, Complaint, DeriveError
 
@@ -37,12 +37,14 @@ class Shown:
     wrote      a PDF that changed, and how many seconds that took
     built      what a build did
     refused    why there was none
+    ended      each piece of work that is done
     """
 
     under_way: Callable[[str], None]
     wrote: Callable[[Path, float], None]
     built: Callable[[Report], None]
     refused: Callable[[Sequence[Complaint]], None]
+    ended: Callable[[Ended], None] = lambda _: None
 
 
 def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown) -> None:
@@ -84,7 +86,8 @@ class _Watch:
             if folder_digest(FOLDER, "*.py") != self.loaded:
                 message = "derive itself has been edited, and what is loaded is derive as it was"
                 raise BuildFailed(Complaint("restart", message, help="end this and start it again"))
-            report = built_set(self.root, set_id, options, self.shown.under_way, Edits(self._edited, wrote))
+            edits = Edits(self._edited, wrote)
+            report = built_set(self.root, set_id, options, self.shown.under_way, edits, self.shown.ended)
         except DeriveError as error:
             self._check_edited()
             self.shown.refused(error.complaints)

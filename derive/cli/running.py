@@ -36,6 +36,8 @@ COMMANDS = {
     "schema": "beginning.schema",
     "clean": "keeping.clean",
     "doctor": "keeping.doctor",
+    "why": "staleness.why",
+    "completion": "shells.completion",
 }
 
 
@@ -120,9 +122,9 @@ def waiting(text: str) -> Iterator[None]:
         tell("")
 
 
-def delivered(pdf: bytes, output: str) -> None:
+def delivered(pdf: bytes, output: str, quiet: bool = False) -> None:
     from derive.building.files import shown_path
 
     deliver(pdf, output)
-    if output != "-":
+    if output != "-" and not quiet:
         print(f"wrote {shown_path(Path(output))}", file=sys.stderr)

@@ -15,12 +15,12 @@ _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
 MOST = 50  # complaints that are shown
 WIDTH = 98
 _INDENT = 22  # of what is told of a fault of the source
-_PAINT = {"error": "1;31", "warning": "1;33"}
+_PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 
 def complain(complaints: Iterable[Complaint]) -> None:
     """Each fault once, in its order, on standard error; of very many the first, and how many more there are."""
-    coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    coloured = in_colour()
     found = list(dict.fromkeys(complaints))
     for text in dict.fromkeys(complaint.shown() for complaint in found[:MOST]):
         painted = _HEAD.sub(lambda m: f"\x1b[{_PAINT[m[1]]}m{m[0]}\x1b[0m", text, count=1)
@@ -29,11 +29,24 @@ def complain(complaints: Iterable[Complaint]) -> None:
         print(f"and {len(found) - MOST} more", file=sys.stderr)
 
 
+def in_colour() -> bool:
+    """Whether what is told on standard error has colours: on a terminal that knows them, unless somebody says no."""
+    return sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
 def tell(text: str) -> None:
     """Show what is under way, over what was shown before; an empty text clears the line. Silent in a pipe."""
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
         print(f"\r\x1b[K{text[:width]}", end="", file=sys.stderr, flush=True)
+
+
+def note(how: str, of: str, seconds: float) -> None:
+    """A line that stays, of a piece of work that is done, and how long it took where it took any time."""
+    tell("")
+    colour = _PAINT["error"] if how == "failed" else _PAINT["done"]
+    painted = f"\x1b[{colour}m{how}\x1b[0m" if in_colour() else how
+    print(f"{painted} {of}" + (f" ({seconds:.1f} s)" if seconds else ""), file=sys.stderr, flush=True)
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:

@@ -44,7 +44,19 @@ def test_a_record_names_plain_outputs_or_is_none(course: Course, name: str) -> N
 
 
 @pytest.mark.parametrize(
-    "field", ["problems", "complete", "set_inputs", "inputs", "outputs", "drawings", "pages", "tex_engine"]
+    "field",
+    [
+        "problems",
+        "complete",
+        "set_inputs",
+        "inputs",
+        "outputs",
+        "drawings",
+        "pages",
+        "tex_engine",
+        "made_by",
+        "recipes",
+    ],
 )
 @pytest.mark.parametrize("value", [3, None, [1], {"one": 3}, "text"])
 def test_a_record_with_a_field_of_another_type_counts_as_none(course: Course, field: str, value: object) -> None:
@@ -89,7 +101,7 @@ def test_a_kept_derivation_of_another_text_is_not_used(course: Course) -> None:
 def test_a_record_is_read_as_it_was_saved_and_only_in_its_own_folder(tmp_path: Path) -> None:
     (tmp_path / "hw1").mkdir()
     record = Manifest(
-        tmp_path / "hw1", ["one"], True, "tex", "modules", {"set.yaml": "1"}, {"one": ["one.yaml"]}, {"one": "2"}
+        tmp_path / "hw1", ["one"], True, "tex", "modules", {"set.yaml": "1"}, {"one": {"one.yaml": "1"}}, {"one": "2"}
     )
     record.save()
     assert Manifest.read(tmp_path / "hw1") == record
@@ -98,7 +110,7 @@ def test_a_record_is_read_as_it_was_saved_and_only_in_its_own_folder(tmp_path: P
 
 
 def test_a_page_is_of_its_recipe_and_of_each_of_its_files() -> None:
-    record = Manifest(Path(), inputs={"one": ["a", "b"], "two": ["a", "b"]})
+    record = Manifest(Path(), inputs={"one": {"a": "", "b": ""}, "two": {"a": "", "b": ""}})
     read = {"a": "1", "b": "2"}.__getitem__
     keys = {
         record.page_key("one", "recipe", read),
@@ -108,6 +120,17 @@ def test_a_page_is_of_its_recipe_and_of_each_of_its_files() -> None:
         record.page_key("none", "recipe", read),
     }
     assert len(keys) == 5
+
+
+def test_what_a_page_was_made_from_is_noted_and_recipes_of_no_page_are_forgotten(tmp_path: Path) -> None:
+    record = Manifest(tmp_path / "hw1", inputs={"one": {"a": "", "b": ""}})
+    (tmp_path / "hw1").mkdir()
+    first = record.made("one", {"sympy": "1"}, {"a": "1", "b": "2"}.__getitem__)
+    assert record.inputs == {"one": {"a": "1", "b": "2"}}
+    assert record.recipes[record.made_by["one"]] == {"sympy": "1"}
+    assert record.made("one", {"sympy": "2"}, {"a": "1", "b": "2"}.__getitem__) != first == first
+    record.save()
+    assert list(Manifest.read(tmp_path / "hw1").recipes.values()) == [{"sympy": "2"}]
 
 
 def test_nothing_is_current_before_a_build_came_to_its_end(tmp_path: Path) -> None:

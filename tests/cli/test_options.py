@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 from argparse import Namespace
 
 import pytest
 
 from derive.cli import running
-from derive.cli.options import main
+from derive.cli.options import main, parser_of_commands
+from derive.cli.running import COMMANDS
 
 
 @pytest.fixture
@@ -70,13 +72,47 @@ def test_what_is_no_command_line_is_wrong_usage(
     assert handed == []
 
 
-def test_each_command_has_help_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+def commands() -> dict[str, argparse.ArgumentParser]:
+    (found,) = (a for a in parser_of_commands()._actions if isinstance(a, argparse._SubParsersAction))
+    return dict(found.choices)
+
+
+def screen(arguments: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    monkeypatch.setenv("COLUMNS", "80")
     with pytest.raises(SystemExit) as ended:
-        main(["--help"])
+        main([*arguments, "--help"])
     assert ended.value.code == 0
-    whole = capsys.readouterr().out
-    for command in ("list", "solve", "check", "build", "clean", "doctor"):
-        assert f"\n    {command} " in whole
-        with pytest.raises(SystemExit):
-            main([command, "--help"])
-        assert capsys.readouterr().out.startswith(f"usage: derive {command} ")
+    return capsys.readouterr().out.splitlines()
+
+
+@pytest.mark.parametrize("name", ["", *COMMANDS])
+def test_help_fits_a_screen_and_shows_an_example(
+    name: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lines = screen([name] if name else [], capsys, monkeypatch)
+    assert len(lines) <= 24
+    assert max(map(len, lines)) <= 80
+    (example,) = [line for line in lines if line.startswith("example: ")]
+    for said in example.removeprefix("example: ").split(", then "):
+        program, command, *rest = said.split()
+        assert program == "derive"
+        assert not name or command == name
+        assert commands()[command].parse_args(rest)
+
+
+def test_each_command_is_listed_and_has_help_of_its_own(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = screen([], capsys, monkeypatch)
+    assert commands().keys() == COMMANDS.keys()
+    for command in COMMANDS:
+        assert [line for line in whole if line.startswith(f"  {command} ")], command
+        assert screen([command], capsys, monkeypatch)[0].startswith(f"usage: derive {command}")
+
+
+def test_to_tell_more_and_to_tell_nothing_exclude_each_other(handed: list[Namespace]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["build", "-q", "-v"])
+    assert ended.value.code == 2
+    main(["check", "-q"])
+    assert (handed[0].quiet, handed[0].verbose) == (True, False)

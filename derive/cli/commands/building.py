@@ -5,17 +5,37 @@ from __future__ import annotations
 import argparse
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive.cli.asked import problem_id_of, root_of, warn_of_names
 from derive.cli.running import internal
-from derive.cli.terminal import complain, tell
+from derive.cli.terminal import complain, note, tell
 from derive.errors import Complaint, Misused
 
 if TYPE_CHECKING:
-    from derive.building.sets import Options, Report
+    from derive.building.sets import Ended, Options, Report
+
+
+@dataclass(frozen=True)
+class Voice:
+    """How much is told besides what is wrong: with `quiet` nothing, with `verbose` each piece of work that is done."""
+
+    quiet: bool = False
+    verbose: bool = False
+
+    def tell(self, text: str) -> None:
+        if not self.quiet:
+            tell(text)
+
+    def ended(self, piece: Ended) -> None:
+        if self.verbose:
+            note(piece.how, piece.of, piece.seconds)
+
+    def say(self, text: str) -> None:
+        if not self.quiet:
+            print(text, flush=True)
 
 
 def build(arguments: argparse.Namespace) -> int:
@@ -39,9 +59,13 @@ def build(arguments: argparse.Namespace) -> int:
         raise Misused(
             Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
         )
+    voice = Voice(arguments.quiet, arguments.verbose)
     if arguments.watch:
-        return _watched(root, asked, options)
-    return max(_reported(built_set(root, name, replace(options, only=only), tell)) for name, only in asked.items())
+        return _watched(root, asked, options, voice)
+    return max(
+        _reported(built_set(root, name, replace(options, only=only), voice.tell, None, voice.ended), voice)
+        for name, only in asked.items()
+    )
 
 
 def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
@@ -52,7 +76,7 @@ def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
     return {set_id: () if "" in names else tuple(names) for set_id, names in found.items()}
 
 
-def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options) -> int:
+def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, voice: Voice) -> int:
     """Builds at each edit until somebody interrupts, which is its only end and no failure."""
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
@@ -61,11 +85,11 @@ def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options)
 
     def wrote(path: Path, seconds: float) -> None:
         tell("")
-        print(f"wrote {shown_path(path)} ({seconds:.1f} s)", flush=True)
+        voice.say(f"wrote {shown_path(path)} ({seconds:.1f} s)")
 
     def built(report: Report) -> None:
         if report.derived or report.changed or report.failed or failed.get(report.set_id, True):
-            _reported(report)
+            _reported(report, voice)
         failed[report.set_id] = report.failed
 
     def refused(complaints: Sequence[Complaint]) -> None:
@@ -73,12 +97,12 @@ def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options)
         complain(complaints)
 
     with suppress(KeyboardInterrupt):
-        watch(root, asked, options, Shown(tell, wrote, built, refused))
+        watch(root, asked, options, Shown(voice.tell, wrote, built, refused, voice.ended))
     tell("")
     return 0
 
 
-def _reported(report: Report) -> int:
+def _reported(report: Report, voice: Voice) -> int:
     from derive.building.files import shown_path
 
     tell("")
@@ -89,10 +113,8 @@ def _reported(report: Report) -> int:
     said = f"wrote {_listed(pages)}" if pages else "no page changed" if report.derived else "up to date"
     if report.failed:
         said = f"failed; {said if pages else 'earlier pages are as they were'}"
-    print(
-        f"{report.set_id}: derived {report.derived} of {report.problems} problems, {said} ({report.seconds:.1f} s)",
-        flush=True,
-    )
+    derived = f"derived {report.derived} of {report.problems} problems"
+    voice.say(f"{report.set_id}: {derived}, {said} ({report.seconds:.1f} s)")
     return 1 if report.failed else 0
 
 

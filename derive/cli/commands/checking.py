@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import time
+from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING
 
 from derive.cli.asked import problem_id_of, root_of, warn_of_names
 from derive.cli.check_table import check_table
 from derive.cli.running import delivered, internal, waiting
-from derive.cli.terminal import complain, faults_of_source, tell
+from derive.cli.terminal import complain, faults_of_source, note, tell
 from derive.errors import DeriveError
 from derive.render.formats import TYPESET
 
@@ -37,24 +39,34 @@ def check(arguments: argparse.Namespace) -> int:
         for problem in ids
     }
     outcomes: dict[str, Outcome] = {}
-    with Crew(arguments.jobs or os.cpu_count() or 1, lambda running: tell(f"checking {', '.join(running)}")) as crew:
+    started = time.monotonic()
+
+    def under_way(running: list[str]) -> None:
+        if not arguments.quiet:
+            done = f"{len(outcomes)} of {len(jobs)} checked"
+            tell(f"{done}; {', '.join(running)} ({time.monotonic() - started:.0f} s)")
+
+    with Crew(arguments.jobs or os.cpu_count() or 1, under_way) as crew:
         for job in jobs:
             crew.put(job)
         for outcome in crew.outcomes():
             outcomes[jobs[outcome.job]] = outcome
+            if arguments.verbose:
+                note("failed" if outcome.error else "checked", jobs[outcome.job], outcome.seconds)
     tell("")
     ordered = [(problem, outcomes[problem]) for problem in ids]
-    print(check_table(ordered), flush=True)
+    if not arguments.quiet:
+        print(check_table(ordered), flush=True)
     solved = {problem: outcome.value for problem, outcome in ordered if not outcome.error}
     for problem, page in solved.items():
-        if page.source_faults:
+        if page.source_faults and not arguments.quiet:
             print(f"\n{faults_of_source(problem, page.source_faults)}", flush=True)
     code = max([0, *(_verdict_code(outcome) for _, outcome in ordered)])
     if arguments.report:
-        with waiting("typesetting the report"):
+        with nullcontext() if arguments.quiet else waiting("typesetting the report"):
             written = reports(root, solved, arguments.engine, arguments.time_limit)
         for output, pdf in written.items():
-            delivered(pdf, output)
+            delivered(pdf, output, arguments.quiet)
     return code
 
 

@@ -23,6 +23,8 @@ def preview_pages(arguments: argparse.Namespace) -> int:
             webbrowser.open(address)
 
     def told(of: str, shown: Shown) -> None:
+        if arguments.quiet and shown.main:
+            return
         said = "shown" if shown.main else "not shown: "
         print(
             f"{set_id}/{of}: {said if shown.main else said + shown.complaints[0]} ({shown.seconds:.2f} s)", flush=True

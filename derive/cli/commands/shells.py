@@ -1,0 +1,17 @@
+"""`derive completion`: what has a shell complete."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import sys
+from pathlib import Path
+
+
+def completion(arguments: argparse.Namespace) -> int:
+    """Print the script of a shell; that of fish names the program: this one, where no other would be found."""
+    from argcomplete.shell_integration import shellcode
+
+    own = None if arguments.shell != "fish" or shutil.which("derive") else str(Path(sys.argv[0]).absolute())
+    print(shellcode(["derive"], shell=arguments.shell, argcomplete_script=own))
+    return 0

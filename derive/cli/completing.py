@@ -1,0 +1,68 @@
+"""What a shell completes: names of sets, problems, topics and pages, by the names of their files alone.
+
+A shell asks each time that somebody presses Tab, so that nothing is read here, and nothing loaded that derives.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from derive.cli.asked import found_root
+from derive.errors import DeriveError
+
+_NOT_PROBLEMS = ("set", "reference")
+_PAGES = (".html", ".json", ".pdf", ".svg", ".tex", ".txt")
+
+
+def offer(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell that asks, and end; options are offered where a `-` begins one."""
+    from argcomplete import autocomplete
+
+    autocomplete(parser, always_complete_options=False)
+
+
+def offered(names: str, prefix: str, root: str | None) -> list[str]:
+    """The names of a sort that begin so; none where there is no course."""
+    try:
+        folder = found_root(root)
+    except DeriveError:
+        return []
+    found = _NAMES[names](folder) if folder else ()
+    return sorted({name for name in found if name.startswith(prefix)})
+
+
+def _sets(root: Path) -> list[str]:
+    return [file.parent.name for file in (root / "problems").glob("*/set.yaml")]
+
+
+def _files(root: Path) -> list[tuple[str, ...]]:
+    """The parts of the path of each problem: set, topic if it has one, file."""
+    top = root / "problems"
+    files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in top.glob(depth)]
+    return [file.relative_to(top).parts for file in files if file.stem not in _NOT_PROBLEMS]
+
+
+def _ids(root: Path) -> list[str]:
+    return [f"{parts[0]}/{Path(parts[-1]).stem}" for parts in _files(root)]
+
+
+def _topics(root: Path) -> list[str]:
+    return [parts[1] for parts in _files(root) if len(parts) > 2]
+
+
+def _pages(root: Path) -> list[str]:
+    pages = [file for file in (root / "build").glob("*/[!.]*") if file.suffix in _PAGES]
+    return [file.relative_to(root).as_posix() for file in pages]
+
+
+_NAMES: dict[str, Callable[[Path], Iterable[str]]] = {
+    "sets": _sets,
+    "ids": _ids,
+    "ids and sets": lambda root: [*_sets(root), *_ids(root)],
+    "topics": _topics,
+    "new": lambda root: [f"{name}/" for name in _sets(root)],
+    "like": lambda root: ["system", "body", "rotation", "script", *_ids(root)],
+    "outputs": lambda root: [*_pages(root), *_ids(root), *_sets(root)],
+}

@@ -1,0 +1,180 @@
+"""Which input made an output stale, told in words with the command that mends it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from fake_course import Course, stand_in_course
+
+from derive.building.manifest import Manifest
+from derive.building.sets import Options, built_set
+from derive.building.staleness import MOST, Asked, Staleness, asked_about, staleness
+from derive.errors import DeriveError, Misused
+
+
+@pytest.fixture
+def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Course:
+    course = stand_in_course(tmp_path, monkeypatch)
+    (tmp_path / "templates").mkdir()
+    (tmp_path / "templates" / "own.j2").write_text("one")
+    (course.folder / "reference.yaml").write_text("one")
+    built(course)
+    return course
+
+
+def built(course: Course, **options: object) -> None:
+    assert not built_set(course.root, "hw1", replace(Options(), **options), lambda _: None).failed
+
+
+def told(course: Course, what: str, **options: str) -> Staleness:
+    return staleness(replace(Asked(course.root, *asked_about(course.root, what)), **options))
+
+
+@pytest.mark.parametrize("what", ["build/hw1/one.pdf", "build/hw1/one.txt", "hw1/one", "hw1", "build/hw1/index.html"])
+def test_what_was_just_built_is_up_to_date(course: Course, what: str) -> None:
+    assert told(course, what).shown() == f"{what} is up to date"
+
+
+def edited(course: Course) -> None:
+    course.problem("one", "edited")
+
+
+def taken_away(course: Course) -> None:
+    (course.folder / "reference.yaml").unlink()
+
+
+def of_words(course: Course) -> None:
+    (course.root / "templates" / "own.j2").write_text("two")
+
+
+def added(course: Course) -> None:
+    (course.root / "templates" / "new.j2").write_text("new")
+
+
+def of_the_set(course: Course) -> None:
+    course.heading("two", "one")
+
+
+def by_hand(course: Course) -> None:
+    (course.outputs / "one.pdf").write_text("mine")
+
+
+def lost(course: Course) -> None:
+    (course.outputs / "one.pdf").unlink()
+
+
+def of_tex(course: Course) -> None:
+    with open(course.root / "bin" / "pdflatex", "a") as program:
+        program.write("\n")
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (edited, "`problems/hw1/one.yaml` has changed"),
+        (taken_away, "`problems/hw1/reference.yaml` is gone"),
+        (of_words, "`templates/own.j2` has changed"),
+        (added, "`templates/new.j2` is new"),
+        (of_the_set, "`problems/hw1/set.yaml` has changed"),
+        (by_hand, "`one.pdf` is not as the build wrote it: somebody edited it"),
+        (lost, "`one.pdf` is not there any more"),
+        (of_tex, "the program of the TeX engine pdflatex has changed"),
+    ],
+)
+def test_the_input_that_changed_is_named_and_a_build_mends_it(
+    course: Course, change: Callable[[Course], None], reason: str
+) -> None:
+    change(course)
+    found = told(course, "build/hw1/one.pdf")
+    assert found.reasons == (reason,)
+    assert found.mends == ("to bring it up to date: `derive build hw1/one`",)
+    built(course)
+    assert told(course, "build/hw1/one.pdf").reasons == ()
+
+
+def test_an_edit_of_one_problem_makes_the_documents_stale_and_no_other_problem(course: Course) -> None:
+    edited(course)
+    assert told(course, "hw1/two").reasons == ()
+    found = told(course, "build/hw1/solutions.pdf")
+    assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
+    assert found.mends == ("to bring it up to date: `derive build hw1`",)
+
+
+def test_other_options_are_told_with_the_command_that_keeps_them(course: Course) -> None:
+    built(course, detail="full")
+    found = told(course, "build/hw1/one.pdf")
+    assert found.reasons == ("it was made with `--detail full`, and would be with no `--detail`",)
+    assert found.mends[-1] == "to build as before: `derive build hw1/one --detail full`"
+    assert told(course, "build/hw1/one.pdf", detail="full").reasons == ()
+    assert "`derive build hw1/one --evidence end`" in told(course, "hw1/one", evidence="end").mends[0]
+
+
+def test_another_engine_concerns_pdfs_alone(course: Course) -> None:
+    (course.root / "bin" / "lualatex").symlink_to("pdflatex")
+    found = told(course, "build/hw1/one.pdf", engine="lualatex")
+    assert found.reasons == ("it was typeset by pdflatex, and would be by lualatex",)
+    assert told(course, "build/hw1/one.txt", engine="lualatex").reasons == ()
+    assert told(course, "build/hw1/one.pdf", engine="latexmk").reasons != ()
+
+
+def test_other_modules_and_packages_are_told(course: Course) -> None:
+    record = Manifest.read(course.outputs)
+    (recipe,) = record.recipes.values()
+    recipe.update({"sympy": "1.0", "the modules of derive": "other"})
+    record.save()
+    modules, sympy = sorted(told(course, "hw1/one").reasons)
+    assert modules == "derive itself has changed"
+    assert sympy.startswith("the package sympy is ")
+    assert sympy.endswith(", and was 1.0")
+
+
+def test_what_was_never_built_is_told_so(course: Course) -> None:
+    course.problem("three", "third")
+    course.heading("one", "two", "three")
+    assert told(course, "hw1/three").reasons[-1] == "the problem `hw1/three` has not been built"
+    (course.outputs / ".manifest.json").unlink()
+    assert told(course, "build/hw1/one.pdf").shown().splitlines() == [
+        "build/hw1/one.pdf is out of date:",
+        "  `hw1` has not been built here yet",
+        "to bring it up to date: `derive build hw1/one`",
+    ]
+
+
+def test_a_fault_keeps_documents_stale_until_it_is_mended(course: Course) -> None:
+    course.problem("one", "refuse")
+    assert built_set(course.root, "hw1", Options(), lambda _: None).failed
+    assert [reason for reason in told(course, "hw1").reasons if "found a fault" in reason]
+    course.problem("one", "first")
+    built(course)
+    assert told(course, "hw1").reasons == ()
+
+
+def test_of_very_many_reasons_the_first_are_told(course: Course) -> None:
+    many = Staleness("x", tuple(map(str, range(MOST + 3))))
+    assert many.shown().splitlines()[-1] == "  and 3 more"
+
+
+@pytest.mark.parametrize(
+    ("what", "code"),
+    [
+        ("build/hw1/one.doc", "no-such-output"),
+        ("build/hw1/on.pdf", "no-such-problem"),
+        ("hw1/on", "no-such-problem"),
+        ("hw2", "no-such-set"),
+        ("/etc/passwd", "no-such-set"),
+    ],
+)
+def test_what_no_build_makes_is_refused(course: Course, what: str, code: str) -> None:
+    with pytest.raises(DeriveError) as caught:
+        told(course, what)
+    assert isinstance(caught.value, Misused)
+    assert caught.value.complaints[0].code == code
+
+
+def test_a_page_is_found_from_where_one_is(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(course.outputs)
+    assert asked_about(course.root, "one.pdf") == ("hw1", ("one.pdf",))
+    assert asked_about(course.root, str(course.outputs / "one.pdf")) == ("hw1", ("one.pdf",))
