@@ -1,0 +1,51 @@
+"""The page of complaints is made from the code and the golden complaints, and misses none."""
+
+from __future__ import annotations
+
+import ast
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+from tests.courses import ROOT
+
+MADE = runpy.run_path(str(ROOT / "tools" / "errors.py"))
+MODULES = sorted((ROOT / "derive").rglob("*.py"))
+OF_A_SCRIPT = {"routes"}  # raised by a script of the tests itself
+
+
+def test_the_page_of_complaints_is_up_to_date() -> None:
+    text = MADE["DOCUMENT"].read_text(encoding="utf-8")
+    assert MADE["document"]() == text, "run `python -m tools.errors`"
+
+
+def test_every_code_has_a_cause_and_a_mend_and_none_is_spare() -> None:
+    assert MADE["told"]().keys() == MADE["messages"]().keys()
+    for code, (cause, mend) in MADE["told"]().items():
+        assert cause.endswith(".") and mend.endswith("."), code
+        assert cause != mend, code
+
+
+def test_every_golden_complaint_is_an_example_of_a_code_that_is_raised() -> None:
+    assert MADE["examples"]().keys() - OF_A_SCRIPT <= MADE["messages"]().keys()
+    assert len(MADE["examples"]()) >= 50
+    assert all("error[" in said for said in MADE["examples"]().values())
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_code_beside_its_message_is_told_of_whatever_function_takes_it(path: Path) -> None:
+    """Beside what `tools/errors.py` looks for: a word with hyphens, and next to it words with spaces."""
+    for call in (n for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(n, ast.Call)):
+        for code, message in zip(call.args, call.args[1:], strict=False):
+            if isinstance(code, ast.Constant) and re.fullmatch(r"[a-z]+(-[a-z]+)+", str(code.value)):
+                if " " in ast.unparse(message) and isinstance(message, ast.JoinedStr | ast.Constant):
+                    assert code.value in MADE["messages"]()
+
+
+def test_a_message_is_the_one_that_was_put_together_above() -> None:
+    said = MADE["messages"]()
+    assert said["no-erratum"] == ["the document is right about `…`, so this is no erratum"]
+    assert "unknown unit `…`…" in said["unknown-unit"]
+    assert "… took over … GiB of memory" in said["memory-limit"]

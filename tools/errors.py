@@ -1,0 +1,157 @@
+"""Write docs/errors.md: every code of a complaint, with its messages, its cause, its mend and an example.
+
+Messages are read off the code, examples are the golden complaints of the tests, cause and mend are tools/errors.yaml.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCUMENT, TOLD = ROOT / "docs" / "errors.md", ROOT / "tools" / "errors.yaml"
+EXAMPLES = ROOT / "tests" / "complaints"
+MOST = 5  # messages that are shown of one code
+
+_CODE = re.compile(r"[a-z]+(-[a-z]+)*")
+_SAID = re.compile(r"(?:error|warning)\[([a-z-]+)\]: ")
+_RAISING = {"Complaint", "Misfit", "complaint", "error", "rejected", "refuse", "refused", "_fault", "_stopped"}
+
+_BEGINNING = """\
+# Complaints and what mends them
+
+Made by `tools/errors.py` from the code, the tests and `tools/errors.yaml`; do not edit it.
+
+A complaint says where (file, line, column), what in brackets (its code, `wrong-kind`), shows the line, and helps where it
+can. All complaints about a file come at once; earlier outputs stay as they were. In the messages below, `…` stands for
+names and numbers of your problem.
+"""
+
+
+def messages() -> dict[str, list[str]]:
+    """Every code that the modules of derive raise, with its messages in the order of the modules."""
+    found: dict[str, list[str]] = {}
+    for file in sorted((ROOT / "derive").rglob("*.py")):
+        for code, message in _raised_in(ast.parse(file.read_text(encoding="utf-8"))):
+            told = found.setdefault(code, [])
+            if message and message not in told:
+                told.append(message)
+    return dict(sorted(found.items()))
+
+
+def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
+    names = _named_texts(module)
+    functions = [node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)]
+    for call in (node for node in ast.walk(module) if isinstance(node, ast.Call)):
+        at = _code_at(call)
+        if at is not None:
+            message = call.args[at + 1] if len(call.args) > at + 1 else ast.Constant("")
+            own = [f for f in functions if f.lineno <= call.lineno <= (f.end_lineno or 0)]
+            within = {**names, **(_named_texts(own[-1], call.lineno) if own else {})}
+            for code in (text for text in _texts(call.args[at], within) if _CODE.fullmatch(text)):
+                yield from ((code, text) for text in _texts(message, within) if text.strip("… "))
+                yield code, ""
+
+
+def _code_at(call: ast.Call) -> int | None:
+    """Where among its arguments a call has a code, if it is one that complains."""
+    if ast.unparse(call.func).rpartition(".")[2] not in _RAISING:
+        return None
+    return 1 if ast.unparse(call.func).endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None
+
+
+def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
+    """What each name is given last in a scope, above a line of it."""
+    found: dict[str, list[ast.expr]] = {}
+    assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
+    for node in sorted(assigned, key=lambda each: each.lineno):
+        for target, value in [pair for target in node.targets for pair in _pairs(target, node.value)]:
+            if isinstance(target, ast.Name):
+                found[target.id] = [value]
+    return found
+
+
+def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
+    """Targets with their values, also of several at once."""
+    if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts):
+        return list(zip(target.elts, value.elts, strict=True))
+    return [(target, value)]
+
+
+def _texts(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 3) -> list[str]:
+    """The texts that an expression may be, with a mark where something is put in."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return [node.value]
+    if isinstance(node, ast.JoinedStr):
+        parts = [str(p.value) if isinstance(p, ast.Constant) else "…" for p in node.values]
+        return [re.sub(r"…[ …]*…", "…", "".join(parts))]
+    if isinstance(node, ast.IfExp):
+        return [*_texts(node.body, names, depth), *_texts(node.orelse, names, depth)]
+    if isinstance(node, ast.BinOp):
+        return [left + right for left in _texts(node.left, names, depth) or ["…"]
+                for right in _texts(node.right, names, depth) or ["…"]]  # fmt: skip
+    if isinstance(node, ast.Name) and depth:
+        return [text for value in names.get(node.id, []) for text in _texts(value, names, depth - 1)]
+    return []
+
+
+@cache
+def examples() -> dict[str, str]:
+    """Of each code the shortest golden complaint."""
+    found: dict[str, list[str]] = {}
+    for file in sorted(EXAMPLES.rglob("*.txt")):
+        for said in _each_complaint(file.read_text(encoding="utf-8")):
+            code = _SAID.search(said)
+            if code:
+                found.setdefault(code[1], []).append(said)
+    return {code: min(said, key=len) for code, said in found.items()}
+
+
+def _each_complaint(text: str) -> Iterator[str]:
+    lines: list[str] = []
+    for line in text.splitlines():
+        if _SAID.search(line) and not line.startswith(" ") and lines:
+            yield "\n".join(lines)
+            lines = []
+        lines.append(line)
+    yield "\n".join(lines)
+
+
+@cache
+def told() -> dict[str, tuple[str, str]]:
+    """The cause and the mend of each code."""
+    read = yaml.safe_load(TOLD.read_text(encoding="utf-8"))
+    return {code: (entry["cause"], entry["mend"]) for code, entry in read.items()}
+
+
+def document() -> str:
+    """The whole page."""
+    return "\n".join([_BEGINNING, *(_entry(code, said) for code, said in messages().items())])
+
+
+def _entry(code: str, said: list[str]) -> str:
+    cause, mend = told()[code]
+    lines = [f"## {code}", "", *(f"- {_in_words(message)}" for message in said[:MOST])]
+    if said[MOST:]:
+        lines.append(f"- and {len(said) - MOST} more like these")
+    lines += [*([""] if said else []), f"**Cause.** {cause}", "", f"**Mend.** {mend}", ""]
+    if code in examples():
+        lines += ["```", examples()[code], "```", ""]
+    return "\n".join(lines)
+
+
+def _in_words(message: str) -> str:
+    return re.sub(r"(?<!`)<<", "\\\\<<", " ".join(message.split()))
+
+
+def main() -> None:
+    DOCUMENT.write_text(document(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
