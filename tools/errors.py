@@ -27,9 +27,9 @@ _BEGINNING = """\
 
 Made by `tools/errors.py` from the code, the tests and `tools/errors.yaml`; do not edit it.
 
-A complaint says where (file, line, column), what in brackets (its code, `wrong-kind`), shows the line, and helps where it
-can. All complaints about a file come at once; earlier outputs stay as they were. In the messages below, `…` stands for
-names and numbers of your problem.
+A complaint says where (file, line, column) and what is wrong, under a code such as `wrong-kind`; it shows the line, and
+helps where it can. All complaints about a file come at once; earlier outputs stay as they were. In the messages below,
+`…` stands for names and numbers of your problem.
 """
 
 
@@ -70,9 +70,9 @@ def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list
     found: dict[str, list[ast.expr]] = {}
     assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
     for node in sorted(assigned, key=lambda each: each.lineno):
-        for target, value in [pair for target in node.targets for pair in _pairs(target, node.value)]:
-            if isinstance(target, ast.Name):
-                found[target.id] = [value]
+        for name, value in (pair for target in node.targets for pair in _pairs(target, node.value)):
+            if isinstance(name, ast.Name):
+                found[name.id] = [value]
     return found
 
 

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from derive.cli.terminal import MOST, complain, faults_of_source, table, tell
+from derive.cli.terminal import MOST, complain, faults_of_source, in_colour, note, table, tell
 from derive.errors import Complaint, Place
 
 
@@ -19,6 +19,7 @@ class Terminal(io.StringIO):
 def on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("COLUMNS", "20")
+    monkeypatch.setenv("TERM", "xterm")
     shown = Terminal()
     monkeypatch.setattr(sys, "stderr", shown)
     return shown
@@ -57,6 +58,23 @@ def test_progress_is_one_line_that_fits(monkeypatch: pytest.MonkeyPatch) -> None
     tell("x" * 40)
     tell("")
     assert terminal.getvalue() == "\r\x1b[K" + "x" * 19 + "\r\x1b[K"
+
+
+def test_what_is_done_stays_over_what_is_under_way_with_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = on_a_terminal(monkeypatch)
+    monkeypatch.setenv("NO_COLOR", "1")
+    note("derived", "hw9/block", 1.25)
+    note("kept", "hw9/top", 0.0)
+    assert terminal.getvalue() == "\r\x1b[Kderived hw9/block (1.2 s)\n\r\x1b[Kkept hw9/top\n"
+
+
+def test_colour_is_for_terminals_that_know_it_and_where_nobody_says_no(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert not in_colour()
+    on_a_terminal(monkeypatch)
+    monkeypatch.setenv("TERM", "xterm")
+    assert in_colour()
+    monkeypatch.setenv("TERM", "dumb")
+    assert not in_colour()
 
 
 def test_progress_is_silent_in_a_pipe(capsys: pytest.CaptureFixture[str]) -> None:

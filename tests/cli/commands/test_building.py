@@ -88,10 +88,48 @@ def test_a_terminal_sees_progress_and_colour_and_a_pipe_neither(course: Course) 
     assert "of 2 derived" not in piped.stderr
 
 
-def on_a_terminal(course: Course, environment: dict[str, str]) -> str:
+@pytest.mark.parametrize("verb", ["build", "check"])
+def test_with_v_a_terminal_lists_each_problem_with_its_time_as_it_ends(course: Course, verb: str) -> None:
+    course.problem("two", "refuse")
+    seen = on_a_terminal(course, {}, verb, "-v")
+    done = {"build": "derived", "check": "checked"}[verb]
+    assert re.search(rf"\r\x1b\[K\x1b\[32m{done}\x1b\[0m hw1/one \(\d+\.\d s\)\r\n", seen)
+    assert re.search(r"\x1b\[1;31mfailed\x1b\[0m hw1/two \(\d+\.\d s\)\r\n", seen)
+    plain = on_a_terminal(course, {"NO_COLOR": "1"}, verb, "-v")
+    assert re.search(r"failed hw1/two \(\d+\.\d s\)\r\n", plain)
+    assert not re.search(r"\x1b\[[\d;]*m", plain)
+
+
+@pytest.mark.parametrize("verb", ["build", "check"])
+def test_with_q_a_terminal_sees_complaints_and_nothing_else(course: Course, verb: str) -> None:
+    assert on_a_terminal(course, {}, verb, "-q").replace("\r\x1b[K", "") == ""
+    course.problem("one", "refuse")
+    seen = on_a_terminal(course, {"NO_COLOR": "1"}, verb, "-q").replace("\r\x1b[K", "")
+    assert seen.splitlines()[0] == "problems/hw1/one.yaml:1:1: error[wrong-kind]: `mass` must be a mass"
+    assert len(seen.splitlines()) == 3
+
+
+def test_v_lists_pages_that_are_kept_and_documents_in_a_pipe_too(
+    course: Course, capfd: pytest.CaptureFixture[str]
+) -> None:
+    main(["build"])
+    capfd.readouterr()
+    course.problem("one", "edited")
+    main(["build", "-v"])
+    out, err = capfd.readouterr()
+    told = [re.sub(r" \(\d+\.\d s\)$", "", line) for line in err.splitlines()]
+    assert {"derived hw1/one", "kept hw1/two", "typeset hw1/solutions.pdf"} <= set(told)
+    assert out.count("\n") == 1
+
+
+def on_a_terminal(course: Course, environment: dict[str, str], *arguments: str) -> str:
     ours, theirs = pty.openpty()
     run = subprocess.Popen(
-        command("build"), stdin=theirs, stdout=theirs, stderr=theirs, env={**alone(course), **environment}
+        command(*(arguments or ("build",))),
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+        env={**alone(course), **environment},
     )
     os.close(theirs)
     seen = b""

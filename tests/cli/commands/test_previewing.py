@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import socket
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from derive.cli.options import main
+from derive.preview import preview as previewed
+from derive.preview.asking import Shown
 from tests.courses import course_in
 
 
@@ -32,3 +35,19 @@ def test_a_port_is_a_number_that_a_port_can_have(port: str, capfd: pytest.Captur
     with pytest.raises(SystemExit):
         main(["preview", "hw9/block", "--port", port])
     assert "invalid port value" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(("options", "lines"), [((), 3), (("-q",), 2)])
+def test_quiet_tells_the_address_and_what_is_wrong(
+    options: tuple[str, ...], lines: int, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def shows_one_page_and_one_fault(*given: Any) -> None:
+        *_, ready, told = given
+        ready("http://127.0.0.1:1/block.html")
+        told("block", Shown(main="<main>"))
+        told("top", Shown(complaints=("error[yaml]: no",)))
+
+    monkeypatch.setattr(previewed, "preview", shows_one_page_and_one_fault)
+    assert main(["preview", "hw9/block", *options]) == 0
+    said = capfd.readouterr().out.splitlines()
+    assert (len(said), said[0][:4], said[-1][:18]) == (lines, "http", "hw9/top: not shown")
