@@ -90,14 +90,23 @@ class Manifest:
             and all(self.holds(name) for name in self.all_outputs())
         )
 
+    @property
+    def documents(self) -> list[str]:
+        """The names of the files of what is made of the whole set."""
+        return [*(file for _, file in self.papers), INDEX]
+
     def all_outputs(self) -> list[str]:
         """Those of every problem, of every paper, and of the set for a browser."""
         of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
         return [*(output for name in self.problems for output in self.outputs_of(name)), *of_papers, f"{INDEX}.html"]
 
-    def outputs_of(self, problem: str) -> list[str]:
-        """All outputs of a problem, those that every problem has and its drawings."""
-        return [*outputs_of(problem), *self.drawings.get(problem, [])]
+    def outputs_of(self, name: str) -> list[str]:
+        """All outputs of a problem, with its drawings; or of a paper of the set, by the name of its files."""
+        if name == INDEX:
+            return [f"{INDEX}.html"]
+        if of_paper := next((paper for paper, file in self.papers if file == name), None):
+            return outputs_of_paper(of_paper, name)
+        return [*outputs_of(name), *self.drawings.get(name, [])]
 
     def holds(self, output: str) -> bool:
         """Whether that output is there and as it was written."""

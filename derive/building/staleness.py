@@ -14,11 +14,11 @@ from derive.building.cache import PACKAGES, file_digest
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
 from derive.building.named import check_asked, set_folder, set_names
-from derive.building.recipe import DETAIL, EVIDENCE, MODULES, Recipe, recipe_of
+from derive.building.recipe import DETAIL, EVIDENCE, MODULES, PAPERS, Recipe, recipe_of
 from derive.building.tex import chosen_engine
-from derive.course.names import DOCUMENTS, INDEX
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
+SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of what builds write
 MOST = 8  # reasons that are told of one output
 
 
@@ -57,14 +57,14 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
         check_asked(root, set_id)
         return set_id, ()
     manifest = Manifest.read(set_folder(root, set_id))
-    known = {*manifest.outputs, *(file for part in [*manifest.problems, *DOCUMENTS, INDEX] for file in
+    known = {*manifest.outputs, *(file for part in [*manifest.problems, *manifest.documents] for file in
                                   manifest.outputs_of(part))}  # fmt: skip
     if built and name in known:
         return set_id, (name,)
     stem = Path(name).stem if built else name
-    if stem in (*DOCUMENTS, INDEX):
+    if stem in manifest.documents:
         check_asked(root, set_id)
-    elif built and Path(name).suffix.removeprefix(".") not in {Path(each).suffix.removeprefix(".") for each in known}:
+    elif built and Path(name).suffix.removeprefix(".") not in SUFFIXES:
         help_line = did_you_mean(name, sorted(known)) or "name a page such as `build/hw9/block.pdf`, or a problem"
         raise Misused(Complaint("no-such-output", f"no build makes `{what}`", help=help_line))
     else:
@@ -86,7 +86,7 @@ def staleness(asked: Asked) -> Staleness:
     """Why these outputs would be made again by `derive build`."""
     folder = set_folder(asked.root, asked.set_id)
     manifest = Manifest.read(folder)
-    parts = [*manifest.problems, *DOCUMENTS, INDEX]
+    parts = [*manifest.problems, *manifest.documents]
     outputs = asked.outputs or tuple(file for part in parts for file in manifest.outputs_of(part))
     of = shown_path(folder / outputs[0]) if len(outputs) == 1 else _named(asked, manifest)
     if not manifest.pages:
@@ -109,13 +109,14 @@ def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterat
         if problem not in manifest.pages:
             yield f"the problem `{asked.set_id}/{problem}` has not been built"
         else:
-            yield from _of_recipe(manifest.recipes.get(manifest.made_by.get(problem, ""), {}), now)
+            recipe = manifest.recipes.get(manifest.made_by.get(problem, ""), {})
+            yield from _of_recipe(recipe, {**now, PAPERS: recipe.get(PAPERS, "")})
     if any(name.endswith(".pdf") for name in outputs):
         yield from _of_engine(manifest.tex_engine, asked.engine)
     for name in outputs:
         if set(_problems_of(manifest, [name])) <= manifest.pages.keys():
             yield from _of_output(manifest, name)
-    if not manifest.complete and any(Path(name).stem in (*DOCUMENTS, INDEX) for name in outputs):
+    if not manifest.complete and any(Path(name).stem in manifest.documents for name in outputs):
         yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found a fault"
 
 
@@ -123,7 +124,7 @@ def _problems_of(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
     """Those whose pages or drawings the outputs are; all, for a document of the set."""
     own = {name: problem for problem in manifest.pages for name in manifest.outputs_of(problem)}
     parts = dict.fromkeys(own.get(name, Path(name).stem) for name in outputs)
-    if parts.keys() & {*DOCUMENTS, INDEX}:
+    if parts.keys() & {*manifest.documents}:
         return list(dict.fromkeys([*manifest.problems, *manifest.pages]))
     return list(parts)
 
@@ -206,4 +207,4 @@ def _named(asked: Asked, manifest: Manifest) -> str:
     known = {name: problem for problem in manifest.pages for name in manifest.outputs_of(problem)}
     stems = {known.get(name, Path(name).stem) for name in asked.outputs}
     (one,) = stems if len(stems) == 1 else ("",)
-    return f"{asked.set_id}/{one}" if one and one not in (*DOCUMENTS, INDEX) else asked.set_id
+    return f"{asked.set_id}/{one}" if one and one not in manifest.documents else asked.set_id

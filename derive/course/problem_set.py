@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive.course.names import DOCUMENTS, INDEX, NAME, PAPERS, EvidenceShown
-from derive.course.schema import TEXT, Record, as_written, key, one_of, read_record, wrong_type
+from derive.course.schema import TEXT, Reader, Record, as_written, key, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
@@ -42,10 +42,38 @@ class ProblemSet:
 PAPERS_SCHEMA = {
     "anyOf": [
         {"type": "array", "items": {"enum": list(PAPERS)}, "minItems": 1},
-        {"type": "object", "additionalProperties": False, "properties": {p: {"type": "string"} for p in PAPERS}},
+        {
+            "type": "object",
+            "additionalProperties": False,
+            "minProperties": 1,
+            "properties": {paper: {"type": "string", "pattern": f"^{NAME.pattern}$"} for paper in PAPERS},
+        },
     ]
 }
 NAMES = {"type": "array", "items": {"type": "string"}, "minItems": 1}
+
+
+def _papers(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None:
+    """`[solutions, hints]`, or `{solutions: hw9-solutions}`: each paper with the name of its files."""
+    pairs: list[tuple[Tree, Tree]] = []
+    if isinstance(node, Mapping) and node.pairs:
+        pairs = [(paper, file) for paper, file in node.pairs]
+    elif isinstance(node, Sequence) and node.items:
+        pairs = [(item, item) for item in node.items]
+    else:
+        wrong_type(faults, f"`{name}`", "a list of papers, or a mapping of papers to names of files", node)
+    found: dict[Word, Word] = {}
+    for paper, file in pairs:
+        if not isinstance(paper, Scalar) or not isinstance(file, Scalar):
+            wrong_type(faults, "a paper", "a name", file if isinstance(paper, Scalar) else paper)
+        elif paper.text not in PAPERS:
+            help_line = did_you_mean(paper.text, PAPERS) or f"the papers are {', '.join(PAPERS)}"
+            faults.error("no-such-paper", f"there is no paper `{paper.text}`", paper.place, help=help_line)
+        elif not NAME.fullmatch(file.text):
+            faults.error("paper-name", f"`{file.text}` cannot be the name of a file", file.place)
+        else:
+            found[paper.word] = file.word
+    return found
 
 
 @dataclass(frozen=True)
@@ -57,7 +85,9 @@ class SetKeys(Record):
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("who teaches the course", TEXT)
     evidence: str | None = key("how much the solutions tell of how they were checked", one_of(tuple(EvidenceShown)))
-    papers: Tree | None = key("the papers that are made, or the name of each one's files", as_written(PAPERS_SCHEMA))
+    papers: dict[Word, Word] = key(
+        "the papers that are made, or the name of each one's files", Reader(PAPERS_SCHEMA, _papers, dict)
+    )
     problems: Tree | None = key("names of the problems in order", as_written(NAMES), required=True)
 
 
@@ -124,7 +154,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
-    papers = _papers(written.papers, [full.partition("/")[2] for full in problems], faults)
+    _clashes(written.papers, [full.partition("/")[2] for full in problems], faults)
     faults.stop()
     evidence = EvidenceShown(written.evidence or EvidenceShown.NONE)
     return ProblemSet(
@@ -136,35 +166,16 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         problems,
         (path,),
         evidence,
-        papers,
+        tuple((str(paper), str(file)) for paper, file in written.papers.items()) or THOSE_OF_EVERY_SET,
     )
 
 
-def _papers(node: Tree | None, problems: List[str], faults: Faults) -> tuple[tuple[str, str], ...]:
-    """`[solutions, hints]`, or `{solutions: hw9-solutions}`; no two files may have one name."""
-    if node is None:
-        return THOSE_OF_EVERY_SET
-    pairs: list[tuple[Tree, Tree]] = []
-    if isinstance(node, Mapping):
-        pairs = [(name, value) for name, value in node.pairs]
-    elif isinstance(node, Sequence) and node.items:
-        pairs = [(item, item) for item in node.items]
-    else:
-        wrong_type(faults, "`papers`", "a list of papers, or a mapping of papers to names of files", node)
-    found: dict[str, str] = {}
-    for paper, file in pairs:
-        if not isinstance(paper, Scalar) or not isinstance(file, Scalar):
-            wrong_type(faults, "a paper", "a name", paper if not isinstance(paper, Scalar) else file)
-        elif paper.text not in PAPERS:
-            help_line = did_you_mean(paper.text, PAPERS) or f"the papers are {', '.join(PAPERS)}"
-            faults.error("no-such-paper", f"there is no paper `{paper.text}`", paper.place, help=help_line)
-        elif not NAME.fullmatch(file.text):
-            faults.error("paper-name", f"`{file.text}` cannot be the name of a file", file.place)
-        elif file.text in (*found.values(), *problems, INDEX):
-            faults.error("paper-name", f"`{file.text}` is the name of another file", file.place, help="choose another")
-        else:
-            found[paper.text] = file.text
-    return tuple(found.items())
+def _clashes(papers: dict[Word, Word], problems: List[str], faults: Faults) -> None:
+    """No two files of a set may have one name."""
+    for n, file in enumerate(papers.values()):
+        others = [*list(papers.values())[:n], *problems, INDEX]
+        if file in others:
+            faults.error("paper-name", f"`{file}` is the name of another file", file.place, help="choose another")
 
 
 def mapping_in(root: Path, path: str, what: str) -> Mapping:
