@@ -28,7 +28,7 @@ from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.rendered import Files, Html
 
-WIDE = 27.0  # characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard
+WIDE = 24.0  # characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard
 
 
 @dataclass(frozen=True)
