@@ -200,7 +200,8 @@ def test_the_homework_agrees_but_for_its_errata(
     found = json.loads(rendered_once(root, f"hw9/{problem}", only={"json"}).texts["json"])["reference"]
     outcomes = [entry["outcome"] for entry in found]
     assert (len(found) - remarks, outcomes.count("erratum"), outcomes.count("remark")) == (count, errata, remarks)
-    assert {outcome.split(" to ")[0] for outcome in outcomes} == {"agrees", "erratum", "remark"}
+    assert outcomes.count("differs") == (problem == "top")  # whose pinned script has two rates coincide at the bound
+    assert {outcome.split(" to ")[0] for outcome in outcomes} - {"differs"} == {"agrees", "erratum", "remark"}
     assert {entry["grade"] for entry in found} <= {"proved", "approximation", None}
     assert all(entry["line"] for entry in found)
 
