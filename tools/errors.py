@@ -33,6 +33,7 @@ helps where it can. All complaints about a file come at once; earlier outputs st
 """
 
 
+@cache
 def messages() -> dict[str, list[str]]:
     """Every code that the modules of derive raise, with its messages in the order of the modules."""
     found: dict[str, list[str]] = {}

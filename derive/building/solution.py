@@ -36,6 +36,7 @@ from derive.page.hints import with_hints
 from derive.page.numbering import Number
 from derive.page.rubric import credits_of, faults_of_rubric
 from derive.page.template import template_folder
+from derive.page.theorems import alone
 from derive.page.tree import Document
 from derive.page.wording import phrases
 from derive.render.formats import HTML, TYPESET, Solution, built_formats, formats
@@ -99,7 +100,9 @@ def rendered(
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
     warnings = (*(w for w in document.warnings if w not in of_nobody), *failures)
-    solution = Solution(document, words, notation, problem, derivation, values, solved.compared, warnings, level.value)
+    solution = Solution(
+        alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
+    )
     wanted = {*built_formats(), *TYPESET, HTML} if only is None else {*only}
     typeset = not wanted.isdisjoint(TYPESET)
     files = drawing_files(problem, solved.drawings, document, words, notation, cache) if draws else ()

@@ -6,12 +6,36 @@ is typeset has the choice: it tells a theorem once, and in a later problem says 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from derive.mechanics.theorems import THEOREMS, Theorem
+from derive.page.tree import Block, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases, ToldIn, ToldOnce, filled
 from derive.steps.step import Level, Step
+
+
+def alone(document: Document) -> Document:
+    """The page as a document of its own: each theorem is told in a paragraph before the sentence that uses it."""
+
+    def of_part(part: PartPage) -> PartPage:
+        return replace(part, blocks=tuple(_paragraphs(part.blocks)))
+
+    limits = document.limits and of_part(document.limits)
+    return replace(document, parts=tuple(of_part(part) for part in document.parts), limits=limits)
+
+
+def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
+    for block in blocks:
+        match block:
+            case Paragraph(nodes):
+                yield from (Paragraph(node.nodes) for node in nodes if isinstance(node, ToldOnce))
+                if rest := tuple(node for node in nodes if not isinstance(node, ToldOnce)):
+                    yield Paragraph(rest)
+            case Folded(inside, title):
+                yield Folded(tuple(_paragraphs(inside)), title)
+            case _:
+                yield block
 
 
 class Theorems:

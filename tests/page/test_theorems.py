@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,11 +11,13 @@ from sympy import cos, sin, symbols
 
 from derive.mechanics import Particle, System, coordinate, equation_of_motion, lagrangian, point, weight
 from derive.mechanics.theorems import THEOREMS
-from derive.page.theorems import Theorems
-from derive.page.wording import Math, ToldIn, ToldOnce, phrases
+from derive.page.theorems import Theorems, alone
+from derive.page.tree import Folded, Paragraph, PartPage
+from derive.page.wording import Math, Text, ToldIn, ToldOnce, phrases
 from derive.steps.record import recorded
 from derive.steps.step import Level, Step
 from tests.courses import ROOT
+from tests.render.pages import WHOLE
 
 WORDS = phrases(ROOT / "templates")
 
@@ -70,3 +73,14 @@ def test_each_theorem_has_its_sentence_and_each_sentence_its_theorem() -> None:
     for theorem in THEOREMS:
         assert "<<formula>>" in WORDS.theorems[theorem.name]
         assert set(theorem.used_by) <= set(WORDS.rules)
+
+
+def test_a_page_alone_has_each_theorem_as_a_paragraph_before_its_sentence() -> None:
+    levers = ToldOnce("levers", (Text("Levers balance."),), (Text("For levers see above."),))
+    sentence = Paragraph((levers, Text("So this one does.")))
+    part = PartPage("a", (), None, (sentence, Folded((sentence,)), Paragraph((levers,))))
+    told = [Paragraph((Text("Levers balance."),)), Paragraph((Text("So this one does."),))]
+    paged = alone(replace(WHOLE, parts=(part,), limits=part))
+    assert paged.parts[0].blocks == (*told, Folded(tuple(told)), told[0])
+    assert paged.limits == paged.parts[0]
+    assert alone(paged) == paged

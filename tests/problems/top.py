@@ -30,7 +30,7 @@ def solve(
     here = let("tilt", lambda: tilt, symbol="theta", kind="angle")
     keys = ("slow_precession", "fast_precession")
     slow, fast = roots(steady, phi.rate, here, *top.values, together="precession_rates", keys=keys)
-    condition = real_where(slow, spin, key="precession_condition")
+    condition = real_where(slow, spin, distinct=True, key="precession_condition")
 
     p_phi, p_psi = conserved(L, phi), conserved(L, psi)
     upright = put_in(p_phi, S, {theta: 0}, key="upright_momentum")  # phi is cyclic: p_phi = I_z S at every tilt

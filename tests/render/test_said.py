@@ -10,7 +10,7 @@ import pytest
 
 from derive.page.numbering import Number
 from derive.page.tree import Folded, Paragraph
-from derive.page.wording import Ref, Text, ToldOnce
+from derive.page.wording import Ref, Text
 from derive.render.notation.notation import Notation
 from derive.render.printing.said import Said
 from tests.courses import course_in, rendered_once
@@ -26,8 +26,7 @@ SAID = Said(Page(), Notation({}))  # type: ignore[arg-type]
 
 
 def test_a_sentence_has_the_numbers_of_its_page_and_their_keys() -> None:
-    theorem = ToldOnce("x", (Text("so is "), Ref("torque")), ())
-    told = SAID.sentence((Text("By "), Ref("spin"), Text(" it is small, "), theorem))
+    told = SAID.sentence((Text("By "), Ref("spin"), Text(" it is small, so is "), Ref("torque")))
     assert told == {"text": "By (7) it is small, so is (12)", "refers_to": ["spin", "torque"]}
 
 
@@ -48,8 +47,7 @@ def test_the_json_has_all_that_the_text_says(page: dict[str, Any], tmp_path: Pat
     says = [block["text"] for part in page["parts"] for block in part["says"] if "text" in block]
     asks = [part["ask"] for part in page["parts"]]
     for sentence in [page["title"], page["statement"], *asks, *says]:
-        found = [" ".join(piece.split()).rstrip(".") for piece in sentence.split(".")]
-        assert sum(piece in words for piece in found) >= len(found) - 1
+        assert " ".join(sentence.split()) in words
 
 
 def test_each_equation_has_the_key_of_its_step_and_its_number_on_the_page(page: dict[str, Any]) -> None:

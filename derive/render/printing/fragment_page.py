@@ -7,7 +7,7 @@ from pathlib import Path
 
 from derive.page.numbering import Number
 from derive.page.tree import Display, Document, Illustration
-from derive.page.wording import Inline, Phrases, ProblemRef, ToldOnce
+from derive.page.wording import Inline, Phrases, ProblemRef
 from derive.render.notation.latex import escaped
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_rows
@@ -72,8 +72,6 @@ class FragmentPage(LatexPage):
         match node:
             case ProblemRef(text=text):
                 return escaped(text)
-            case ToldOnce(nodes=told):
-                return self.inline(told)
         return super()._node(node)
 
     def _reference(self, key: str) -> str:

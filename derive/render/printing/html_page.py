@@ -16,8 +16,9 @@ from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
+from derive.page.theorems import alone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import mathml, of_latex
@@ -62,7 +63,7 @@ class HtmlPage:
         top: int = 1,
     ):
         """`top` is the level of the heading that it stands below."""
-        self.document, self.words, self.notation, self.rubric = document, words, notation, rubric or {}
+        self.document, self.words, self.notation, self.rubric = alone(document), words, notation, rubric or {}
         self.alone = top == 1
         self.begin, self.end = Html(f"<h{top + 1}>"), Html(f"</h{top + 1}>")
         self._placed: set[Number] = set()
@@ -121,8 +122,6 @@ class HtmlPage:
                 return f'<a href="#{_anchor(number)}">({number})</a>'
             case ProblemRef(of, text):
                 return f'<a href="{escape(of.rpartition("/")[2])}.html">{escape(text)}</a>'
-            case ToldOnce(nodes=told):  # a page of its own
-                return self.inline(told)
         return ""
 
     # --- equations ---------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from derive.course.placement import STATEMENT
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import aligned, display_rows
@@ -104,8 +104,6 @@ class MarkdownPage:
                 return f"({self.document.numbers[key]})"
             case ProblemRef(of, text):
                 return f"[{text_markdown(text)}]({of.rpartition('/')[2]}.md)"
-            case ToldOnce(nodes=told):  # a page of its own
-                return self.inline(told)
         return ""
 
     def _heading(self, level: str, text: str, worth: str) -> str:
@@ -143,8 +141,6 @@ class MarkdownPage:
                 return latex(self.notation.result(expr), inline=True)
             case Text(text):
                 return rf"\text{{{_in_text(text)}}}"
-            case ToldOnce(nodes=told):
-                return self.told_in_formula(told)
         return rf"\text{{{_in_text(inline_text([node], self.notation, self.document.numbers))}}}"
 
 

@@ -6,12 +6,12 @@ changes all numbers below.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from derive.page.signs import sign_before
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph
-from derive.page.wording import Inline, Ref, ToldOnce
+from derive.page.wording import Inline, Ref
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
@@ -37,7 +37,7 @@ class Said:
 
     def sentence(self, nodes: Sequence[Inline]) -> dict[str, Any]:
         """Running text, and the keys of the equations that it refers to, in its order."""
-        return {"text": self.text(nodes), "refers_to": list(_references(nodes))}
+        return {"text": self.text(nodes), "refers_to": [node.key for node in nodes if isinstance(node, Ref)]}
 
     def blocks(self, blocks: Sequence[Block]) -> list[dict[str, Any]]:
         return [each for block in blocks for each in self._block(block)]
@@ -52,11 +52,3 @@ class Said:
                 return [{"drawing": key}]
             case Folded(blocks):
                 return self.blocks(blocks)
-
-
-def _references(nodes: Iterable[Inline]) -> Iterable[str]:
-    for node in nodes:
-        if isinstance(node, Ref):
-            yield node.key
-        elif isinstance(node, ToldOnce):
-            yield from _references(node.nodes)

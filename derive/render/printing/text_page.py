@@ -9,8 +9,9 @@ from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
+from derive.page.theorems import alone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldOnce, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import columns, plain, text_box, to_the_right
@@ -22,7 +23,7 @@ FRAMED = "  * "  # before a line that has in it what a part asks for
 
 def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     """The whole page."""
-    return _Page(document, words, notation).text()
+    return _Page(alone(document), words, notation).text()
 
 
 def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, Number] | None = None) -> str:
@@ -44,18 +45,7 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> st
             return f"({numbers[key]})"
         case ProblemRef(_, text):
             return text
-        case ToldOnce(nodes=told):  # a page of plain text is a document of one problem
-            return "".join(_node(each, notation, numbers) for each in told)
     return ""
-
-
-def _with_theorems_apart(nodes: Sequence[Inline]) -> list[tuple[Inline, ...]]:
-    """A theorem ends its paragraph: the sentence that it was told for begins another."""
-    paragraphs: list[tuple[Inline, ...]] = [()]
-    for node in nodes:
-        paragraphs[-1] = (*paragraphs[-1], node)
-        paragraphs += [()] if isinstance(node, ToldOnce) else []
-    return [each for each in paragraphs if each]
 
 
 def second_ways(display: Display, words: Phrases) -> list[str]:
@@ -100,7 +90,7 @@ class _Page:
         for block in blocks:
             match block:
                 case Paragraph(nodes):
-                    found += [line for each in _with_theorems_apart(nodes) for line in ("", self._wrapped(each))]
+                    found += ["", self._wrapped(nodes)]
                 case Display():
                     found += ["", self._display(block)]
                 case Illustration():
