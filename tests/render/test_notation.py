@@ -136,6 +136,8 @@ PINNED = [
     # numbers
     (rounded_form(acos(7 * sqrt(2779) / 397) * 180 / pi, 4), "21.64", "21.64"),
     (rounded_form(Rational(65, 100000), 3), r"6.50\times 10^{-4}", "6.50×10⁻⁴"),
+    (ex.Amount(Rational(3, 2), "1/s^2", Integer(1)), r"1.5\,\mathrm{s^{-2}}", "1.5 s^-2"),
+    (ex.Amount(Integer(5), "1/s", Integer(1)), r"5\,\mathrm{s^{-1}}", "5 s^-1"),
     (ex.Amount(Rational(3, 2), "kg m^2", Integer(1)), r"1.5\,\mathrm{kg\,m^{2}}", "1.5 kg m^2"),
 ]
 

@@ -83,6 +83,7 @@ from derive.render.notation.products import (
     side_by_side,
     sign_and_size,
     under_one_root,
+    unit_behind_number,
 )
 
 PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
@@ -396,7 +397,7 @@ class Notation:
         inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
         if unit.name in ex.IN_DEGREES:
             return row(inner, DEGREE_SIGN)
-        return row(inner, THIN_SPACE, Upright(unit.name)) if unit.name else inner
+        return row(inner, THIN_SPACE, unit_behind_number(unit.name)) if unit.name else inner
 
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),

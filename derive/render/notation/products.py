@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from decimal import Decimal
 from enum import IntEnum, auto
@@ -30,6 +31,7 @@ from derive.render.notation.layout import (
     Operator,
     Raised,
     Row,
+    Upright,
     begins_with_number,
     ends_in_differential,
     first_of,
@@ -50,6 +52,12 @@ def decimal(number: Rational) -> Layout:
     places = max(factorint(front.q).values(), default=0)
     digits = Digits(f"{Decimal(front.p) / front.q:.{places}f}")
     return row(*sign, digits, TIMES, times_ten_to(power)) if power else row(*sign, digits)
+
+
+def unit_behind_number(name: str) -> Layout:
+    """`s^-2` for 1/s^2, whose one would be taken for a factor."""
+    only_below = re.fullmatch(r"1/([A-Za-z]+)(?:\^(\d+))?", name)
+    return Upright(f"{only_below[1]}^-{only_below[2] or 1}" if only_below else name)
 
 
 def rounded_number(text: str) -> Layout:
