@@ -114,9 +114,9 @@ def test_each_room_says_what_it_is_for() -> None:
 
 
 def test_the_tests_stand_in_the_rooms() -> None:
-    """Beside the house itself, its pages and what is tried on everything: mutants, perturbations, printed lines."""
+    """Beside the house itself, its pages, its manual and what is tried on everything: mutants, perturbations, lines."""
     folders = {path.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").glob("*/**/test_*.py")}
-    assert folders - set(FLOOR) == {"printed", "tools"}
+    assert folders - set(FLOOR) == {"manual", "printed", "tools"}
 
 
 def test_every_module_has_tests_of_its_name() -> None:

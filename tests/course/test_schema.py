@@ -35,7 +35,7 @@ from derive.stock.keys.results import ResultKeys
 from tests.courses import ROOT
 
 DOCUMENTED = {
-    "README.md": (ProblemKeys, Question, AnswerForm, DrawingKeys, SetKeys),
+    "docs/problems.md": (ProblemKeys, Question, AnswerForm, DrawingKeys, SetKeys),
     "docs/references.md": (DocumentKeys, GroupKeys, EntryKeys, ErratumKeys),
     "docs/yaml-alone.md": (
         OwnKeys,

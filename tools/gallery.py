@@ -1,0 +1,75 @@
+"""Write docs/gallery.md; with `--pictures` take its pictures anew in a Chromium, of what `make library` has built.
+
+A picture is the beginning of the page that a build has written for a browser; below it are the lines of the problem.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCUMENT, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "gallery"
+WIDTH, HEIGHT = 860, 1060
+
+# What each is there to show.
+SHOWN = {
+    "turning_hoop": "A system on axes that turn: equilibria, and where each of them is stable",
+    "double_pendulum": "Two coordinates, each equation of motion by itself, then the normal modes",
+    "kepler": "A conserved momentum, an effective potential, a circular orbit and what happens near it",
+    "tennis_racket": "A rigid body without torque: Euler's equations and the stability of each axis",
+    "heavy_top": "A top in Euler's angles, its cyclic coordinates and its effective potential",
+    "loop": "A normal force by a multiplier, and the height from which the track holds",
+    "bullet": "A blow: what is conserved in it, and what is lost",
+    "torus": "A body by its integrals",
+}
+
+_BEGINNING = """\
+# Gallery
+
+Made by `tools/gallery.py`; do not edit it. Each picture is the beginning of a page that a build has written for a
+browser; below it stand the lines that made it. These problems are in YAML alone, as all of `problems/library` is:
+`make library` builds its 79 problems, `derive list` names them, and `derive new hw10/mine --like library/torus` begins
+one of yours with a copy.
+"""
+
+
+def document() -> str:
+    """The whole page."""
+    return "\n".join([_BEGINNING, *(_entry(name, shows) for name, shows in SHOWN.items())])
+
+
+def _entry(name: str, shows: str) -> str:
+    file = next((ROOT / "problems" / "library").rglob(f"{name}.yaml"))
+    text = file.read_text(encoding="utf-8")
+    title = re.search(r"^title: (.*)$", text, re.MULTILINE)
+    assert title is not None
+    lines = [f"## {title[1]}", "", f"{shows}.", "", f"![The beginning of the page](gallery/{name}.png)", ""]
+    return "\n".join([*lines, f"[`{file.name}`](../{file.relative_to(ROOT)})", "", "```yaml", _told(text), "```", ""])
+
+
+def _told(text: str) -> str:
+    """The problem without what a book states of it."""
+    return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
+
+
+def take_pictures() -> None:
+    from tests.browser import browser_page
+
+    PICTURES.mkdir(exist_ok=True)
+    for name in SHOWN:
+        with browser_page(WIDTH) as page:
+            page.goto((ROOT / "build" / "library" / f"{name}.html").as_uri())
+            beginning = {"x": 0, "y": 0, "width": WIDTH, "height": HEIGHT}
+            page.screenshot(path=PICTURES / f"{name}.png", full_page=True, clip=beginning)
+
+
+def main() -> None:
+    if "--pictures" in sys.argv:
+        take_pictures()
+    DOCUMENT.write_text(document(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
