@@ -293,7 +293,7 @@ class Bodies:
             rejected("unknown-key", message, written.places[size], "its size is in `limits`")
         if len(written.limits) not in MAPS:
             message = f"a body has one, two or three letters with limits, not {len(written.limits)}"
-            place = written.places.get("limits", written.places["position"])
+            place = written.places.get("limits", written.places[""])
             rejected("wrong-length", message, place, "write `limits: {r: [0, R], phi: [0, 2*pi]}`")
         if written.mass is None and written.density is None:
             rejected("missing-key", "a body needs `mass` or `density`", written.places[""])
