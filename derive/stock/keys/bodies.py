@@ -293,7 +293,7 @@ class Bodies:
             rejected("unknown-key", message, written.places[size], "its size is in `limits`")
         if len(written.limits) not in MAPS:
             message = f"a body has one, two or three letters with limits, not {len(written.limits)}"
-            place = written.places.get("limits", written.places[""])
+            place = written.places.get("limits", written.places["position"])
             rejected("wrong-length", message, place, "write `limits: {r: [0, R], phi: [0, 2*pi]}`")
         if written.mass is None and written.density is None:
             rejected("missing-key", "a body needs `mass` or `density`", written.places[""])
@@ -358,7 +358,7 @@ class WithVariables(InLetters):
 
 
 def _one_of_three(written: ShapeKeys, ways: set[str], what: str) -> None:
-    told = [name for name in ("shape", "position", "parts") if name in ways and name in written.values_at]
+    told = [name for name in ("shape", "position", "parts") if name in ways and getattr(written, name)]
     if not told:
         ways_told = " or ".join(f"`{name}`" for name in ("shape", "position", "parts") if name in ways)
         rejected("missing-key", f"{what} is told by {ways_told}", written.places[""])
