@@ -152,7 +152,7 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
         return _kept(cache, key), ()
     with calls_of(problem.id, cache) as memory:
         derivation, values, known, run = derived(problem, memory)
-    compared = comparisons(problem, known)
+        compared = comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
     if not failures:
