@@ -8,6 +8,7 @@ at any moment, since it writes nothing but what builds keep of their work.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import sys
@@ -24,8 +25,18 @@ def main(arguments: Sequence[str]) -> None:
     root = Path(arguments[0])
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a script prints is for the person at the terminal, and no answer
+    _settle(root)
     for question in sys.stdin:
         _tell(answers, answer(root, json.loads(question)))
+
+
+def _settle(root: Path) -> None:
+    """Load all that pages need, before it is first asked; what stays is not looked through for garbage again."""
+    from derive.building.loaded import load
+
+    load(root, draws=True)
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
 
 
 def answer(root: Path, question: dict[str, Any]) -> dict[str, Any]:
