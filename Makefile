@@ -58,6 +58,7 @@ check: .venv/.runtime
 
 bench: .venv/.runtime
 	@$(PYTHON) bench/ratios.py
+	@$(PYTHON) bench/pages.py
 	@$(PYTHON) bench/systems.py
 	@$(PYTHON) bench/equality.py
 	@$(PYTHON) bench/scale.py

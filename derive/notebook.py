@@ -12,7 +12,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from derive.building.solution import derived, rendered
+from derive.building.solution import derived, printed
+from derive.building.solved import Solved
 from derive.cli.asked import found_root, problem_id_of
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint, Misused, did_you_mean
@@ -23,7 +24,6 @@ from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 from derive.render.printing.chain_names import Page
 from derive.render.printing.contract import number_told
-from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Step
 
@@ -85,13 +85,13 @@ class Opened:
     @property
     def answers(self) -> tuple[str, ...]:
         """The keys of what its parts ask for."""
-        derivation, _ = self._derived
+        derivation = self._solved.derivation
         steps = [step for part in self._problem.parts for step in derivation.answering(part.answers)]
         return tuple(dict.fromkeys(step.key for step in steps))
 
     def answer(self, key: str) -> Answer:
         """What a part asks for, or any other step of the page, by its key."""
-        derivation, values = self._derived
+        derivation, values = self._solved.derivation, self._solved.values
         steps = {step.key: step for step in derivation.steps}
         if key not in steps:
             help_line = did_you_mean(key, steps) or "its answers are " + ", ".join(f"`{each}`" for each in self.answers)
@@ -118,19 +118,19 @@ class Opened:
         return Drawn(self._drawings[name].decode())
 
     @cached_property
-    def _derived(self) -> tuple[Derivation, dict[str, Step]]:
-        derivation, values, *_ = derived(self._problem)
-        return derivation, values
+    def _solved(self) -> Solved:
+        derivation, values, _, run = derived(self._problem)
+        return Solved(derivation, values, (), tuple(run.drawings))
 
     @cached_property
     def _drawings(self) -> dict[str, bytes]:
-        files = rendered(self._problem.root, self._problem.id, draws=True, only=()).files
+        files = printed(self._problem, self._solved, draws=True, only=()).files
         return {name: content for name, content in files if name.endswith(".svg")}
 
     @cached_property
     def _notation(self) -> Notation:
-        derivation, values = self._derived
-        return Notation(dimension_table(self._problem.dimensions, [*derivation.steps, *values.values()])[0])
+        every = [*self._solved.derivation.steps, *self._solved.values.values()]
+        return Notation(dimension_table(self._problem.dimensions, every)[0])
 
     def _formula(self, step: Step, numbers: list[tuple[str, Any]]) -> Layout:
         """`theta = arccos(...) ~ 21.64 deg`."""

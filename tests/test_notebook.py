@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from derive.building import solution
 from derive.errors import Misused
 from derive.notebook import Opened, open_problem
 from tests.courses import course_in
@@ -39,6 +40,15 @@ def test_an_answer_has_its_number(block: Opened) -> None:
 
 def test_a_drawing_is_shown_as_svg(block: Opened) -> None:
     assert block.drawing("vectors")._repr_svg_().startswith("<svg")
+
+
+def test_it_is_derived_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs: list[object] = []
+    run = solution.run_solve
+    monkeypatch.setattr(solution, "run_solve", lambda *of: (runs.append(of), run(*of))[1])
+    block = open_problem("hw9/block", course_in(tmp_path))
+    assert block.drawing("vectors") and block.drawing("axes") and block.answers
+    assert len(runs) == 1
 
 
 def test_what_it_does_not_have_is_told(block: Opened, tmp_path: Path) -> None:

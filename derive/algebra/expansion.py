@@ -76,6 +76,9 @@ class Expansion(ScalarNode):
 class Approach(Node):
     """Where a letter or a ratio goes to, S -> oo. Arguments: what goes, and where to."""
 
+    def _evaluated(self, what: Expr, to: Expr) -> Approach:
+        return Approach(what, to)
+
     def dimension(self, of: DimensionOf) -> Dimension | None:
         return of(self.args[0])
 

@@ -26,7 +26,7 @@ from derive.building.preamble import at_hand, beginning
 from derive.building.recipe import EVIDENCE, PAPERS, recipe_digest, recipe_of
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
-from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of
+from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
 from derive.course.names import INDEX, MORE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
@@ -234,11 +234,11 @@ class _Build:
         for outcome in self.crew.outcomes():
             self.then.pop(outcome.job)(outcome)
 
-    def _tick(self, running: list[str]) -> None:
+    def _tick(self, running: Mapping[str, float]) -> None:
         if self.edits and self.edits.edited():
             raise Superseded
-        done = f"{len(self.derived)} of {len(self.names)} derived"
-        self.tell(f"{self.set_id}: {done}; {', '.join(running)} ({(time.time_ns() - self.started) // 10**9} s)")
+        done = f"{len(self.derived)} of {len(self.names)} derived ({(time.time_ns() - self.started) // 10**9} s)"
+        self.tell(f"{self.set_id}: {done}; {under_way(running, self.set_id)}")
 
     def _put(self, job: Job, then: Callable[[Outcome], None]) -> None:
         self.then[job] = then

@@ -83,8 +83,24 @@ def rendered(
     """
     problem = load_problem(root, problem_id)
     _check_characters(problem)
-    words = phrases(template_folder(root))
+    phrases(template_folder(root))  # or what is wrong with them, before anything is derived
     solved, failures = _solved(problem, cache)
+    return printed(problem, solved, failures, detail, cache, draws, only, evidence, papers)
+
+
+def printed(
+    problem: Problem,
+    solved: Solved,
+    failures: tuple[Complaint, ...] = (),
+    detail: str | None = None,
+    cache: Cache = NO_CACHE,
+    draws: bool = False,
+    only: Collection[str] | None = None,
+    evidence: EvidenceShown = EvidenceShown.NONE,
+    papers: Collection[str] = (),
+) -> Rendered:
+    """The page of a problem that is derived, as `rendered` has it; the `failures` are told with its warnings."""
+    root, words = problem.root, phrases(template_folder(problem.root))
     derivation, values = solved.derivation, solved.values
     heading = problem_set(root, problem.set_id) if _refers_to_problems(problem) else None
     others = heading.numbers if heading else {}
@@ -97,6 +113,11 @@ def rendered(
         return document
 
     document = page_at(level, page_at(Level.STANDARD).numbers if level is Level.FULL else None)
+
+    @lru_cache(maxsize=1)
+    def full() -> Document:
+        return document if level is Level.FULL else page_at(Level.FULL, document.numbers)
+
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
     warnings = (*(w for w in document.warnings if w not in of_nobody), *failures)
@@ -112,14 +133,15 @@ def rendered(
     def page_of(paper: str) -> Document:
         if paper == HINTS:
             return with_hints(document, (s for p in problem.parts for s in derivation.answering(p.answers)), words)
-        return document if paper != KEY or level is Level.FULL else page_at(Level.FULL, document.numbers)
+        return full() if paper == KEY else document
 
-    folded = HTML in wanted and level is not Level.FULL
-    whole = with_details(document, page_at(Level.FULL, document.numbers)) if folded else document
-    page = problem_html(whole, words, notation, template_folder(root), files) if HTML in wanted else NO_HTML
+    page = NO_HTML
+    if HTML in wanted:
+        whole = document if level is Level.FULL else with_details(document, full())
+        page = problem_html(whole, words, notation, template_folder(root), files)
     fragments = problem_latex(document, words, notation, template_folder(root)) if typeset else NOT_TYPESET
     return Rendered(
-        id=problem_id,
+        id=problem.id,
         detail=level.value,
         title=inline_text(document.title, notation),
         points="" if problem.points is None else points_text(problem.points),
@@ -152,7 +174,7 @@ def _solved(problem: Problem, cache: Cache) -> tuple[Solved, tuple[Complaint, ..
         return _kept(cache, key), ()
     with calls_of(problem.id, cache) as memory:
         derivation, values, known, run = derived(problem, memory)
-    compared = comparisons(problem, known)
+        compared = comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
     if not failures:

@@ -21,7 +21,7 @@ import tempfile
 import threading
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkProcess
@@ -104,7 +104,8 @@ class _Worker:
 class Crew:
     """At most `size` workers at a time; leaving the `with` block kills whatever still runs, and what it left behind."""
 
-    def __init__(self, size: int, tick: Callable[[list[str]], None] | None = None):
+    def __init__(self, size: int, tick: Callable[[Mapping[str, float]], None] | None = None):
+        """`tick` is told again and again what runs, and for how many seconds it has."""
         self._size = max(1, size)
         self._tick = tick or (lambda _: None)
         self._waiting: list[tuple[float, int, Job]] = []  # a heap
@@ -138,7 +139,7 @@ class Crew:
         """Each job's outcome as it ends; more jobs may be put meanwhile."""
         while self._waiting or self._running:
             self.start()
-            self._tick([worker.job.name for worker in self._running])
+            self._tick({worker.job.name: worker.seconds for worker in self._running})
             wait([worker.pipe for worker in self._running], timeout=_TICK)
             for worker in list(self._running):
                 outcome = _outcome(worker)
@@ -163,6 +164,13 @@ class Crew:
         theirs.close()
         os.close(traced)
         return _Worker(job, child, ours, trace)
+
+
+def under_way(running: Mapping[str, float], set_id: str = "") -> str:
+    """`block 2 s, pages of top 1 s`: what has run longest stands first; of problems of that set, the names alone."""
+    longest = sorted(running.items(), key=lambda each: -each[1])
+    named = [(job.removeprefix("the ").replace(f"`{set_id}/", "`").replace("`", ""), s) for job, s in longest]
+    return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in named)
 
 
 def _pipe() -> tuple[int, int]:

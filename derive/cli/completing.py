@@ -1,15 +1,17 @@
-"""What a shell completes: names of sets, problems, topics and pages, by the names of their files alone.
+"""What a shell completes: names of sets, problems, topics and pages by the names of their files, and steps as built.
 
-A shell asks each time that somebody presses Tab, so that nothing is read here, and nothing loaded that derives.
+A shell asks each time that somebody presses Tab, so that nothing is loaded here that derives, and no more is read than
+the page of the problem whose steps are wanted.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from derive.cli.asked import found_root
+from derive.cli.asked import found_root, problem_id_of
 from derive.errors import DeriveError
 
 _NOT_PROBLEMS = ("set", "reference")
@@ -23,14 +25,25 @@ def offer(parser: argparse.ArgumentParser) -> None:
     autocomplete(parser, always_complete_options=False)
 
 
-def offered(names: str, prefix: str, root: str | None) -> list[str]:
-    """The names of a sort that begin so; none where there is no course."""
+def offered(names: str, prefix: str, root: str | None, problem: str = "") -> list[str]:
+    """The names of a sort that begin so; none where there is no course. Steps are those of a problem."""
     try:
         folder = found_root(root)
     except DeriveError:
         return []
-    found = _NAMES[names](folder) if folder else ()
+    if folder is None:
+        return []
+    found = _steps(folder, problem_id_of(problem)) if names == "steps" else _NAMES[names](folder)
     return sorted({name for name in found if name.startswith(prefix)})
+
+
+def _steps(root: Path, problem_id: str) -> list[str]:
+    """The keys of the steps that its page had when it was last built."""
+    try:
+        page = json.loads((root / "build" / f"{problem_id}.json").read_bytes())
+        return [str(step["key"]) for step in page["steps"]]
+    except (OSError, ValueError, LookupError, TypeError):  # it is not built, or not by us
+        return []
 
 
 def _sets(root: Path) -> list[str]:

@@ -113,7 +113,8 @@ def parser_of_commands() -> argparse.ArgumentParser:
     solve.add_argument("-o", dest="output", metavar="FILE", help="where to write; - is standard output")
     explain = command("explain", "why a line is there, and how it was checked", "ID [STEP]", "hw9/block torque")
     named(explain.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
-    explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list them)")
+    key = explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list them)")
+    named(key, "steps")
     explain.add_argument("--format", choices=("text", "json"), default="text", help="(default text)")
     diff = command("diff", "what an edit changed since the last build, or a revision", "ID", "hw9/block --rev HEAD")
     named(diff.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
@@ -156,7 +157,7 @@ def named(action: argparse.Action, names: str) -> None:
     def completer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> Iterable[str]:
         from derive.cli.completing import offered
 
-        return offered(names, prefix, parsed_args.root)
+        return offered(names, prefix, parsed_args.root, getattr(parsed_args, "id", None) or "")
 
     setattr(action, "completer", completer)  # noqa: B010  where argcomplete looks for it
 

@@ -35,9 +35,14 @@ def in_colour() -> bool:
 
 
 def tell(text: str) -> None:
-    """Show what is under way, over what was shown before; an empty text clears the line. Silent in a pipe."""
+    """Show what is under way, over what was shown before; an empty text clears the line. Silent in a pipe.
+
+    Of a list that is too long for the line its first items are shown whole.
+    """
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
+        if len(text) > width and ", " in text[: width - 3]:
+            text = text[: width - 3].rpartition(", ")[0] + ", ..."
         print(f"\r\x1b[K{text[:width]}", end="", file=sys.stderr, flush=True)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from derive.course.problem_set import SetKeys
 from derive.course.reference.keys import DocumentKeys, GroupKeys, OwnKeys
-from derive.course.schema import object_schema, schema_for_editors
+from derive.course.schema import LEFT_EMPTY, object_schema, schema_for_editors
 from derive.course.stock import stock_names, stock_script
 from derive.course.written import SCRIPT, ProblemKeys
 
@@ -16,8 +16,11 @@ def problem_schema() -> str:
     """Of a problem's file; what may stand under `given:` goes by the script of the engine that it names."""
     schema = object_schema(ProblemKeys)
     schema["properties"]["solve"] |= {"anyOf": [{"enum": list(stock_names())}, {"pattern": f"^{SCRIPT.pattern}$"}]}
-    schema["properties"]["reference"] |= object_schema(OwnKeys)
-    return schema_for_editors("A problem", {**schema, "allOf": [_given_of(name) for name in stock_names()]})
+    schema["properties"]["reference"] |= {**object_schema(OwnKeys), "type": ["object", LEFT_EMPTY]}
+    given = {"additionalProperties": schema["properties"]["given"].pop("additionalProperties")}
+    of_script = {"if": {"properties": {"solve": {"pattern": r"\.py$"}}}, "then": {"properties": {"given": given}}}
+    rules = [of_script, *(_given_of(name) for name in stock_names())]
+    return schema_for_editors("A problem", {**schema, "allOf": rules})
 
 
 def set_schema() -> str:

@@ -34,7 +34,7 @@ _STEP_KEY = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 _POINTS = re.compile(r"[0-9]{1,4}(\.[05])?")
 _FORM_IS = "a mapping with `unit` and `figures`"
 
-UNIT = {"type": "string", "examples": list(UNIT_NAMES)}
+UNIT = {"type": "string", "pattern": r"\S", "examples": list(UNIT_NAMES)}
 
 
 def _points(node: Tree, name: str, faults: Faults) -> Fraction | None:

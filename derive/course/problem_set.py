@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive.course.names import DOCUMENTS, INDEX, NAME, PAPERS, EvidenceShown
-from derive.course.schema import TEXT, Reader, Record, as_written, key, one_of, read_record, wrong_type
+from derive.course.schema import TEXT, Reader, Record, key, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
@@ -50,7 +50,6 @@ PAPERS_SCHEMA = {
         },
     ]
 }
-NAMES = {"type": "array", "items": {"type": "string"}, "minItems": 1}
 
 
 def _papers(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None:
@@ -88,7 +87,9 @@ class SetKeys(Record):
     papers: dict[Word, Word] = key(
         "the papers that are made, or the name of each one's files", Reader(PAPERS_SCHEMA, _papers, dict)
     )
-    problems: Tree | None = key("names of the problems in order", as_written(NAMES), required=True)
+    problems: tuple[Word, ...] = key(
+        "names of the problems in order", list_of(TEXT, "a list of names", each="a problem of the set"), required=True
+    )
 
 
 def problem_ids(root: Path) -> list[str]:
@@ -186,29 +187,22 @@ def mapping_in(root: Path, path: str, what: str) -> Mapping:
     return node
 
 
-def _listed(node: Tree | None, set_id: str, known: List[str], faults: Faults) -> tuple[str, ...]:
-    if node is None:
-        return ()
-    if not isinstance(node, Sequence) or not node.items:
-        wrong_type(faults, "`problems`", "a list of names", node)
-        return ()
+def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Faults) -> tuple[str, ...]:
     names = [full.partition("/")[2] for full in known if full.startswith(f"{set_id}/")]
     found: list[str] = []
-    for item in node.items:
-        if not isinstance(item, Scalar) or item.empty:
-            wrong_type(faults, "a problem of the set", "a name", item)
-        elif item.text in (*PAPERS, INDEX):
-            message = f"a problem cannot be called `{item.text}`, for a document of the set has that name"
+    for item in written:
+        if item in (*PAPERS, INDEX):
+            message = f"a problem cannot be called `{item}`, for a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
-        elif item.text not in names:
-            help_line = did_you_mean(item.text, names)
-            message = f"there is no problem `{item.text}` in this set"
-            if item.text in known and not item.text.startswith(f"{set_id}/"):
-                message = f"`{item.text}` is a problem of another set"
+        elif item not in names:
+            help_line = did_you_mean(item, names)
+            message = f"there is no problem `{item}` in this set"
+            if item in known and not item.startswith(f"{set_id}/"):
+                message = f"`{item}` is a problem of another set"
                 help_line = f"copy its files to `problems/{set_id}/` and list it by its name alone"
             faults.error("no-such-problem", message, item.place, help=help_line)
-        elif f"{set_id}/{item.text}" in found:
-            faults.error("duplicate-problem", f"`{item.text}` is listed twice", item.place)
+        elif f"{set_id}/{item}" in found:
+            faults.error("duplicate-problem", f"`{item}` is listed twice", item.place)
         else:
-            found.append(f"{set_id}/{item.text}")
+            found.append(f"{set_id}/{item}")
     return tuple(found)

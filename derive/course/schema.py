@@ -134,17 +134,46 @@ def _formula(node: Tree, name: str, faults: Faults) -> Formula | None:
 # Text needs no quotes where YAML itself would read a number: `title: 2015`.
 TEXT = Reader({"type": ["string", "number", "boolean"], "pattern": r"\S"}, _text)
 LEFT_EMPTY = "null"  # what editors find behind a `:` with nothing after it
-FORMULA = Reader({"type": ["string", "number"]}, _formula)
+FORMULA = Reader({"type": ["string", "number"], "pattern": r"\S"}, _formula)
 YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)
 FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _figures)
 
 
-def as_written(schema: dict[str, Any]) -> Reader[Tree]:
-    """What can be read only when more is known than the file says."""
-    return Reader(schema, lambda node, name, faults: node)
+def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
+    """What can be read only when more is known than the file says, if it is of the shape that is `wanted`."""
+
+    def read(node: Tree, name: str, faults: Faults) -> Tree | None:
+        odd = _misfit(node, schema)
+        if odd is None:
+            return node
+        wrong_type(faults, f"`{name}`" if odd is node else f"what is in `{name}`", wanted, odd)
+        return None
+
+    return Reader(schema, read)
 
 
-SCALAR = as_written({"type": ["string", "number"]})
+def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
+    """The first node that is empty, or a list, a mapping or text where none may stand; what text says is read later."""
+    odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
+    return None if None in odd else next((within for within in odd if within is not node), node)
+
+
+def _misfit_in_one(node: Tree, schema: dict[str, Any]) -> Tree | None:
+    written = schema.get("type", "string")
+    shapes = {written} if isinstance(written, str) else {*written}
+    if isinstance(node, Scalar):
+        allowed = {LEFT_EMPTY} if node.left_empty else {"string", "number", "integer"} if not node.empty else set()
+        return node if shapes.isdisjoint(allowed) else None
+    if isinstance(node, Sequence):
+        shape, inner, rule = "array", node.items, "items"
+    else:
+        shape, inner, rule = "object", tuple(value for _, value in node.pairs), "additionalProperties"
+    if shape not in shapes or not inner and "minItems" in schema:
+        return node
+    return next((odd for each in inner if (odd := _misfit(each, schema[rule])) is not None), None)
+
+
+SCALAR = as_written(FORMULA.schema, "an expression")
 
 
 def one_of(words: tuple[str, ...]) -> Reader[str]:
@@ -167,7 +196,7 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
         if isinstance(node, Mapping):
             found = ((name.word, values.read(value, name.text, faults)) for name, value in node.pairs)
             return {name: value for name, value in found if value is not None}
-        if wanted or not (isinstance(node, Scalar) and node.empty):
+        if wanted or not (isinstance(node, Scalar) and node.left_empty):
             wrong_type(faults, name if " " in name else f"`{name}`", wanted or "a mapping", node)
         return {}
 
@@ -179,7 +208,7 @@ def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
     """A mapping that can be read only when more is known than the file says; it may be left empty."""
 
     def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
-        if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.empty):
+        if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.left_empty):
             wrong_type(faults, f"`{name}`", "a mapping", node)
         return node if isinstance(node, Mapping) else None
 

@@ -103,10 +103,10 @@ class DrawingKeys(Record):
 
     at: Tree | None = key(
         "where it stands: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
-        as_written(TEXT.schema),
+        as_written(TEXT.schema, "statement, the letter of a part, a step, or hidden"),
     )
     caption: Prose | None = key("what it shows, in prose", PROSE_OR_NOTHING)
-    width: Tree | None = key("how wide it is without its labels, such as `5 cm`", as_written(TEXT.schema))
+    width: Tree | None = key("how wide it is without its labels, such as `5 cm`", as_written(TEXT.schema, "a length"))
     values: dict[Word, Tree] = key(
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )

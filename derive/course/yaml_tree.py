@@ -25,6 +25,7 @@ LARGEST_FILE = 256 * 1024
 DEEPEST_YAML = 20
 LONG_LINE = 160
 _LEFT_OUT = "... "
+NOTHING = ("~", "null", "Null", "NULL")  # as editors read YAML
 
 # Printable text, less the line separators that editors do not count and the marks that reorder text on the screen.
 _ODD = re.compile(
@@ -108,8 +109,13 @@ class Scalar:
 
     @property
     def empty(self) -> bool:
-        """Nothing was written after the `:` or `-`."""
+        """There is nothing to read in it."""
         return not self.text.strip()
+
+    @property
+    def left_empty(self) -> bool:
+        """Nothing was written after the `:` or `-`, or YAML's word for nothing; `""` is text."""
+        return self.style == "" and self.empty
 
     @property
     def place(self) -> Place:
@@ -224,7 +230,7 @@ def as_text(node: Tree | None) -> str:
 def shape_of(node: Tree) -> str:
     """What a node is, in words for a message."""
     if isinstance(node, Scalar):
-        return "empty" if node.empty and not node.quoted else f"`{abridged(node.text)}`"
+        return "empty" if node.empty else f"`{abridged(node.text)}`"
     return "a list" if isinstance(node, Sequence) else "a mapping"
 
 
@@ -304,7 +310,7 @@ class _Reader:
             # An alias or a tag that was refused leaves the rest of its line unreadable: that is one fault, not two.
             if complaint.place is None or complaint.place.line not in self.odd_lines:
                 self.faults.add(complaint)
-        if root is None or (isinstance(root, Scalar) and root.empty and not root.quoted):
+        if root is None or (isinstance(root, Scalar) and root.left_empty):
             if not self.faults:
                 self.faults.error("empty", "the file is empty", self.source.place(0))
             self.faults.stop()
@@ -326,7 +332,7 @@ class _Reader:
         if isinstance(event, yaml.SequenceStartEvent):
             items = []
             while not isinstance(event := next(self.events), yaml.SequenceEndEvent):
-                items.append(self.node(event, depth + 1))
+                items.append(_nothing_is_empty(self.node(event, depth + 1)))
             return Sequence(tuple(items), self.source.place(start))
         if isinstance(event, yaml.MappingStartEvent):
             return self.mapping(start, depth)
@@ -341,7 +347,7 @@ class _Reader:
         pairs: dict[str, tuple[Scalar, Tree]] = {}
         while not isinstance(event := next(self.events), yaml.MappingEndEvent):
             key = self.node(event, depth + 1)
-            value = self.node(next(self.events), depth + 1)
+            value = _nothing_is_empty(self.node(next(self.events), depth + 1))
             if not isinstance(key, Scalar):
                 self.refuse("key", "a key must be a word", event, 1)
             elif key.text == "<<" and not key.quoted:
@@ -365,6 +371,11 @@ class _Reader:
             self.refuse("anchor", f"`&{event.anchor}` is a YAML anchor", event, len(event.anchor) + 1, help_line)
         if event.tag is not None:
             self.refuse("tag", "tags are not used here", event, 1, "quote text that begins with `!`")
+
+
+def _nothing_is_empty(node: Tree) -> Tree:
+    """A value for which YAML has the word `null` or `~` is as one that was not written."""
+    return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
 
 
 def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:

@@ -27,7 +27,7 @@ class Shown:
 
 @dataclass
 class Warm:
-    """A worker, started when it is first asked."""
+    """A worker, started when it is first asked or before."""
 
     root: Path
     limit: float
@@ -36,7 +36,7 @@ class Warm:
     def page(self, problem_id: str, detail: str | None, idle: Any = lambda: False) -> Shown | None:
         """The answer to a question; nothing if it became `idle` while it was worked on."""
         started = time.monotonic()
-        process = self._running()
+        process = self.begun()
         assert process.stdin and process.stdout
         try:
             process.stdin.write(json.dumps({"problem": problem_id, "detail": detail}) + "\n")
@@ -59,7 +59,8 @@ class Warm:
         shown = tuple(each["shown"] for each in said.get("complaints", ()))
         return Shown(said.get("main", ""), shown, time.monotonic() - started)
 
-    def _running(self) -> subprocess.Popen[str]:
+    def begun(self) -> subprocess.Popen[str]:
+        """The process, which loads what it needs before it answers."""
         if self._process is None or self._process.poll() is not None:
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "derive.preview.worker", str(self.root)],

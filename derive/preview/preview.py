@@ -43,13 +43,15 @@ def preview(
             heading = problem_set(root, set_id)
         return live_page(root, heading, of, main)
 
-    with _serving(server(pages, whole, first, port)) as at:
-        try:
+    served = server(pages, whole, first, port)
+    try:
+        warm.begun()  # it loads while the browser is opened
+        with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
             for _ in _edits(root, set_id):
                 pages.edited()
-        finally:
-            warm.end()
+    finally:
+        warm.end()
 
 
 @contextmanager

@@ -8,15 +8,18 @@ at any moment, since it writes nothing but what builds keep of their work.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import sys
 import traceback
 from collections.abc import Sequence
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import IO, Any
 
+from derive.building.loaded import load
 from derive.errors import DeriveError
 
 
@@ -24,8 +27,18 @@ def main(arguments: Sequence[str]) -> None:
     root = Path(arguments[0])
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a script prints is for the person at the terminal, and no answer
+    load(root, draws=False)
     for question in sys.stdin:
         _tell(answers, answer(root, json.loads(question)))
+        _settle(root)
+
+
+@cache
+def _settle(root: Path) -> None:
+    """While the first page is read, load what draws; all that is loaded is not looked through for garbage again."""
+    load(root, draws=True)
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
 
 
 def answer(root: Path, question: dict[str, Any]) -> dict[str, Any]:
@@ -54,8 +67,8 @@ def main_part(root: Path, problem_id: str, detail: str | None) -> str:
 
     set_id = problem_id.partition("/")[0]
     heading = problem_set(root, set_id)
-    cache = Cache(set_folder(root, set_id) / CACHE)
-    solved = rendered(root, problem_id, detail, cache, draws=True, only=(HTML,))
+    kept = Cache(set_folder(root, set_id) / CACHE)
+    solved = rendered(root, problem_id, detail, kept, draws=True, only=(HTML,))
     return problem_main(root, solved, heading)
 
 

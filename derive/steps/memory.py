@@ -58,6 +58,10 @@ class Memory:
     objects: Objects = field(default_factory=Objects)
     made: set[str] = field(default_factory=set)
 
+    def of_another_run(self) -> Memory:
+        """With the same calls, and objects of its own."""
+        return Memory(self.store)
+
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
         """What a call gives, recalled or made now; a call within another is a part of that one."""
         if run.call is not None:

@@ -12,7 +12,7 @@ from sympy import Expr, Symbol
 from derive.algebra.expressions import scalar
 from derive.algebra.ranges import Range
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, Record, as_written, key, mapping_of
+from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
@@ -102,7 +102,7 @@ class SystemKeys(Record):
     at: Tree | None = key(
         "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
         "rest by its name, `rest_3`; without it all of them",
-        as_written({"anyOf": [{"type": "string"}, STATE.schema]}),
+        as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
     results: Mapping[Word, ResultKeys] = key("what is made of answers, by names of your own", RESULTS)
 

@@ -49,6 +49,13 @@ def page(course: Path, problem: str, cache: Cache) -> Any:
         return [str(complaint) for complaint in error.complaints]
 
 
+PINS_THE_SIDES = """\
+- problem: block
+  symbols: {a: length, M: mass, omega: angular speed}
+  given: {sides: [a, 2*a, 3*a], mass: M, axis: diagonal, rate: omega}
+  entries:
+    - {answer: kinetic_energy_about_axis, states: 7/24*M*a**2*omega**2}
+"""
 EDITS = [
     ("block", "[a, 2*a, 3*a]", "[a, 2*a, 4*a]"),
     ("block", "mass: M\n", "mass: 2 kg\n"),
@@ -89,6 +96,18 @@ def test_what_an_edit_does_not_touch_is_not_derived(tmp_path: Path, made: list[s
     change(course, "block.yaml", "axis: x", "axis: diagonal")
     derive(course, cache)
     assert not of_verbs(made), "an edit that is taken back finds all"
+
+
+def test_what_a_reference_pins_otherwise_is_recalled_too(tmp_path: Path, made: list[str]) -> None:
+    course, cache = course_in(tmp_path), Cache(tmp_path / "kept")
+    (course / "problems" / "hw9" / "reference.yaml").write_text(PINS_THE_SIDES)
+    change(course, "block.yaml", "[a, 2*a, 3*a]", "[a, 2*a, 4*a]")
+    rendered(course, "hw9/block", None, cache, only=())
+    assert made.count("torque") == 2, "of what is given, and of what is pinned"
+    made.clear()
+    change(course, "block.yaml", "[a, 2*a, 4*a]", "[a, 2*a, 5*a]")
+    assert rendered(course, "hw9/block", None, cache, only=()).compared == 1
+    assert made.count("torque") == 1
 
 
 def test_a_part_that_is_added_derives_itself_alone(tmp_path: Path, made: list[str]) -> None:

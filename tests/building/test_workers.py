@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from derive.building.workers import Bug, Crew, Job, done, job_of, memory_limit, verb_in
+from derive.building.workers import Bug, Crew, Job, done, job_of, memory_limit, under_way, verb_in
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from tests.courses import ROOT
 
@@ -137,6 +137,22 @@ def test_a_worker_returns_its_value_and_raises_its_complaint() -> None:
         done(Job("refusal", refuse))
     with pytest.raises(Bug, match="KeyError"):
         done(Job("bug", lambda: {}["x"]))
+
+
+def test_who_waits_is_told_for_how_long_each_job_has_run() -> None:
+    told: list[dict[str, float]] = []
+    with Crew(2, lambda running: told.append(dict(running))) as crew:
+        for name, seconds in (("long", 0.6), ("short", 0.2)):
+            crew.put(Job(name, lambda seconds=seconds: time.sleep(seconds)))
+        assert len(list(crew.outcomes())) == 2
+    assert told[0].keys() == {"long", "short"}
+    assert told[-1].keys() == {"long"} and told[-1]["long"] > 0.4
+
+
+def test_what_is_under_way_is_named_as_its_set_names_it_and_the_longest_first() -> None:
+    running = {"`hw9/top`": 0.6, "the pages of `hw9/block`": 12.3}
+    assert under_way(running, "hw9") == "pages of block 12 s, top 1 s"
+    assert under_way(running) == "pages of hw9/block 12 s, hw9/top 1 s"
 
 
 def test_what_waits_begins_by_its_rank_and_then_in_its_order() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -50,6 +51,21 @@ def test_each_argument_is_completed_by_names_of_its_sort(course: Course, line: s
     if "--topic" in line:
         (course.folder / "tops" / "fast.yaml").write_text("x")
     assert completed(course, line) == names
+
+
+@pytest.mark.parametrize(("line", "keys"), [("one ", ["spin", "torque"]), ("one t", ["torque"]), ("two ", [])])
+def test_steps_are_those_that_the_page_was_built_with(course: Course, line: str, keys: list[str]) -> None:
+    course.outputs.mkdir(parents=True)
+    page = {"steps": [{"key": "torque"}, {"key": "spin"}]}
+    (course.outputs / "one.json").write_text(json.dumps(page), encoding="utf-8")
+    assert completed(course, f"derive explain hw1/{line}") == keys
+
+
+@pytest.mark.parametrize("page", ["", "[]", "{}", '{"steps": 3}', '{"steps": [{}]}', "\xff"])
+def test_of_a_page_that_is_none_no_steps_are_offered(course: Course, page: str) -> None:
+    course.outputs.mkdir(parents=True)
+    (course.outputs / "one.json").write_text(page, encoding="latin-1")
+    assert offered("steps", "", str(course.root), "hw1/one") == []
 
 
 def test_a_folder_that_is_named_is_looked_in(course: Course, tmp_path: Path) -> None:

@@ -60,6 +60,22 @@ def test_progress_is_one_line_that_fits(monkeypatch: pytest.MonkeyPatch) -> None
     assert terminal.getvalue() == "\r\x1b[K" + "x" * 19 + "\r\x1b[K"
 
 
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("block 2 s, top 1 s", "block 2 s, top 1 s"),
+        ("block 2 s, top 1 s, a", "block 2 s, ..."),
+        ("block 2 s, a, top 1 s", "block 2 s, a, ..."),
+    ],
+)
+def test_a_list_that_is_too_long_for_the_line_ends_behind_an_item(
+    monkeypatch: pytest.MonkeyPatch, text: str, shown: str
+) -> None:
+    terminal = on_a_terminal(monkeypatch)
+    tell(text)
+    assert terminal.getvalue() == f"\r\x1b[K{shown}"
+
+
 def test_what_is_done_stays_over_what_is_under_way_with_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = on_a_terminal(monkeypatch)
     monkeypatch.setenv("NO_COLOR", "1")

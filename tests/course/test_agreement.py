@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Callable, Iterator
 from functools import cache
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,10 @@ from jsonschema import Draft7Validator
 from jsonschema.exceptions import ValidationError
 
 from derive.course.editors import problem_schema, reference_schema, set_schema
+from derive.course.problem import load_problem
 from derive.course.problem_set import SetKeys
 from derive.course.schema import Record, keys_of, read_record
+from derive.course.stock import stock_names, stock_script
 from derive.course.written import ProblemKeys
 from derive.course.yaml_tree import Mapping, Source, yaml_tree
 from derive.errors import Faults, Rejected
@@ -41,7 +44,7 @@ class Editor(yaml.SafeLoader):
 
 for sort, pattern, first in (
     ("bool", r"true|false", "tf"),
-    ("null", r"~|null|", ["~", "n", ""]),
+    ("null", r"~|null|Null|NULL|", ["~", "n", "N", ""]),
     ("int", r"[-+]?[0-9]+", "-+0123456789"),
     ("float", r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?", "-+.0123456789"),
 ):
@@ -134,8 +137,10 @@ PROBLEM = {"title": "A block", "solve": "block.py", "statement": "It turns.", "p
 SET = {"course": "Physics", "title": "Homework", "problems": "[block]"}
 WRITTEN = ("abc", "3", "2.5", "-1", "true", "yes", "[]", "{}", "", "[1]", "[a]", "[[a]]", "[{}]", "[{a: b}]")
 WRITTEN += ("{a: b}", "{a: 3}", "{a: [b]}", "{a: {b: c}}", "2015-01-01")
+NOTHING = ("", "null", "~", "NULL", '""', "' '", "[]", "{}")
+NOTHING += tuple(within % (nothing or "~") for within in ("[%s]", "{a: %s}") for nothing in NOTHING)
 # Read when more is known than the file says: which scripts there are, and problems; what goes to a script; a reference.
-LATER = {"solve", "reference", "given", "values", "problems"}
+LATER = {"solve", "reference", "given", "values"}
 
 
 def loaded(record: type[Record], text: str) -> list[str]:
@@ -160,10 +165,47 @@ def test_loader_and_schema_take_the_same_under_each_key(
     record: type[Record], made: Callable[[], str], key: str
 ) -> None:
     base = PROBLEM if record is ProblemKeys else SET
-    for written in WRITTEN:
+    for written in (*WRITTEN, *NOTHING):
         text = "".join(f"{name}: {value}\n" for name, value in {**base, key: written}.items())
         told, errors = loaded(record, text), [error.message for error in refused(text, made)]
         assert bool(told) == bool(errors), (written, told, errors)
+
+
+def records(of: type[Record] = Record) -> Iterator[type[Record]]:
+    """Those of every file, and those of what a script of the engine describes."""
+    assert all(stock_script(name).keys for name in stock_names())  # which has them imported
+    for record in of.__subclasses__():
+        yield from records(record)
+        if record.__module__.startswith("derive."):
+            yield record
+
+
+@pytest.mark.parametrize("record", sorted(records(), key=str), ids=lambda record: record.__name__)
+def test_nothing_is_taken_by_both_or_by_none_under_each_key(record: type[Record]) -> None:
+    for (key, known), written in product(keys_of(record).items(), NOTHING):
+        if key == "given" and ":" in written:
+            continue  # the script knows what that stands for
+        text, faults = f"{key}: {written}\n", Faults()
+        node = yaml_tree(Source("x.yaml", text))
+        known.reader.read(node.get(key), key, faults)  # type: ignore[arg-type,union-attr]
+        (value,) = yaml.load(text, Editor).values()
+        assert bool(faults) != Draft7Validator(known.reader.schema).is_valid(value), (key, written)
+
+
+@pytest.mark.parametrize("key", ["bodies", "springs", "at", "conserved", "potential"])
+def test_nothing_is_taken_by_both_or_by_none_in_a_description(tmp_path: Path, key: str) -> None:
+    whole = (ROOT / "problems/library/constraints/atwood.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "problems" / "one" / "atwood.yaml"
+    file.parent.mkdir(parents=True)
+    for nothing in NOTHING[:8]:
+        text = whole.replace("  gravity: g\n", f"  gravity: g\n  {key}: {nothing}\n")
+        file.write_text(text, encoding="utf-8")
+        told = ""
+        try:
+            load_problem(tmp_path, "one/atwood")
+        except Rejected as error:
+            told = str(error)
+        assert bool(told) == bool(refused(text, problem_schema)), (nothing, told)
 
 
 PART_KEYS = ("ask", "answer", "points", "extra", "form", "cases")

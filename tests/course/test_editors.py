@@ -27,7 +27,9 @@ def test_the_schema_knows_every_key_and_what_is_required() -> None:
 
 
 def test_what_may_be_described_goes_by_the_script_of_the_engine() -> None:
-    rules = {rule["if"]["properties"]["solve"]["const"]: rule["then"] for rule in json.loads(problem_schema())["allOf"]}
+    of_script, *others = json.loads(problem_schema())["allOf"]
+    assert set(of_script["then"]["properties"]["given"]) == {"additionalProperties"}
+    rules = {rule["if"]["properties"]["solve"]["const"]: rule["then"] for rule in others}
     assert set(rules) == set(stock_names())
     for name, rule in rules.items():
         assert set(rule["properties"]["given"]["properties"]) == set(keys_of(stock_script(name).keys))

@@ -37,13 +37,16 @@ def test_a_place_is_the_statement_a_part_a_step_or_nowhere(at: str, tmp_path: Pa
     assert placed(tmp_path, f"at: {at}").at == at
 
 
-@pytest.mark.parametrize(
-    ("at", "help_line"), [("d", None), ("A", None), ("statment", "did you mean `statement`?"), ("[a, b]", None)]
-)
+@pytest.mark.parametrize(("at", "help_line"), [("d", None), ("A", None), ("statment", "did you mean `statement`?")])
 def test_what_is_no_place_is_told_with_those_that_are(at: str, help_line: str | None, tmp_path: Path) -> None:
     (fault,) = refused(tmp_path, f"at: {at}")
     assert fault.message.startswith("`at` must be statement, part a to c, or hidden")
     assert fault.help == help_line
+
+
+def test_a_list_is_no_place(tmp_path: Path) -> None:
+    (fault,) = refused(tmp_path, "at: [a, b]")
+    assert fault.message == "`at` must be statement, the letter of a part, a step, or hidden, but it is a list"
 
 
 @pytest.mark.parametrize(("width", "cm"), [("1 cm", 1.0), ("15 cm", 15.0), ("0.02 m", 2.0), ("40 mm", 4.0)])

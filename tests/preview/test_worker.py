@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from derive.preview.worker import answer
+from derive.steps import establish
 from tests.courses import course_in
 
 ASKED = {"problem": "hw9/block", "detail": None}
@@ -21,6 +24,29 @@ def test_an_edit_of_words_is_in_the_next_answer(tmp_path: Path) -> None:
     file = root / "problems" / "hw9" / "block.yaml"
     file.write_text(file.read_text().replace("A uniform block", "A homogeneous brick"))
     assert "A homogeneous brick" in answer(root, ASKED)["main"]
+
+
+def test_an_edit_of_a_given_or_of_the_script_derives_only_what_it_touches(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    keys: list[str] = []
+    add = establish.record.add
+    monkeypatch.setattr(establish.record, "add", lambda q, case: (keys.append(q.key), add(q, case))[1])
+
+    def derived_for(name: str, old: str, new: str) -> set[str]:
+        file = root / "problems" / "hw9" / name
+        file.write_text(file.read_text().replace(old, new))
+        keys.clear()
+        assert answer(root, ASKED)["main"]
+        return set(keys)
+
+    root = course_in(tmp_path)
+    whole = derived_for("block.yaml", "A uniform block", "A homogeneous brick")
+    assert {"inertia_tensor", "spin", "torque"} <= whole
+    touched = derived_for("block.yaml", "axis: diagonal", "axis: [1, 1, 0]")
+    assert "inertia_tensor" not in touched and {"spin", "torque"} <= touched
+    touched = derived_for("block.py", "    return I,", '    size = magnitude(L, key="size")\n    return size, I,')
+    assert "size" in touched and touched.isdisjoint({"inertia_tensor", "spin", "torque"})
 
 
 def test_a_fault_is_told_with_its_place_and_not_raised(tmp_path: Path) -> None:

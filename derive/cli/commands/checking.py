@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
+from collections.abc import Mapping
 from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING
@@ -25,7 +26,7 @@ def check(arguments: argparse.Namespace) -> int:
     from derive.building.loaded import load
     from derive.building.named import set_names
     from derive.building.solution import rendered
-    from derive.building.workers import Crew, job_of
+    from derive.building.workers import Crew, job_of, under_way
     from derive.course.problem_set import ids_in_order
 
     root = root_of(arguments)
@@ -41,12 +42,12 @@ def check(arguments: argparse.Namespace) -> int:
     outcomes: dict[str, Outcome] = {}
     started = time.monotonic()
 
-    def under_way(running: list[str]) -> None:
+    def tick(running: Mapping[str, float]) -> None:
         if not arguments.quiet:
-            done = f"{len(outcomes)} of {len(jobs)} checked"
-            tell(f"{done}; {', '.join(running)} ({time.monotonic() - started:.0f} s)")
+            done = f"{len(outcomes)} of {len(jobs)} checked ({time.monotonic() - started:.0f} s)"
+            tell(f"{done}; {under_way(running)}")
 
-    with Crew(arguments.jobs or os.cpu_count() or 1, under_way) as crew:
+    with Crew(arguments.jobs or os.cpu_count() or 1, tick) as crew:
         for job in jobs:
             crew.put(job)
         for outcome in crew.outcomes():

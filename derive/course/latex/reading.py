@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TypeAlias
 
 from sympy import Expr
@@ -51,6 +52,12 @@ def read_latex(scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: 
 
     `homogeneous=False` is for a formula with numbers put in for letters, and for one that is known to be wrong.
     """
+    return _read(scalar, tuple(letters.items()), homogeneous)
+
+
+@lru_cache(maxsize=1024)  # for a process that is asked again
+def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool) -> ReadMath:
+    letters = dict(declared)
     plus = Formula(scalar, Letters(letters), homogeneous)
     tokens = tokens_of(plus)
     sides, marks = _chain(plus, tokens)

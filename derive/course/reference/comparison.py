@@ -30,6 +30,8 @@ from derive.course.reference.quotes import Remark
 from derive.course.reference.statements import Entry, Statement, stated_groups
 from derive.errors import Complaint, DeriveError, Place, did_you_mean
 from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.memory import Memory
+from derive.steps.record import Run
 from derive.steps.step import Quantity
 
 
@@ -82,20 +84,21 @@ class Comparison:
 Steps = Table[str, Quantity]
 
 
-def comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
-    """Every entry about this problem, compared; `known` are its steps for what its own file gives."""
+def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
+    """Every entry about this problem, compared; `known` are its steps for what its own file gives. What a group pins
+    otherwise is derived for it, with the calls of the `memory`."""
     with within(problem.ranges):
-        return _comparisons(problem, known)
+        return _comparisons(problem, known, memory)
 
 
-def _comparisons(problem: Problem, known: Steps) -> tuple[Comparison, ...]:
+def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple[Comparison, ...]:
     derived: list[tuple[object, Steps]] = [(_what_is_given(problem), known)]
     found = []
     for pinned, entries in stated_groups(problem):
         given = _what_is_given(pinned)
         steps = next((steps for other, steps in derived if other == given), None)
         if steps is None:
-            steps = _derived_again(pinned)
+            steps = _derived_again(pinned, memory)
             derived.append((given, steps))
         here = given == _what_is_given(problem)
         compared = (_comparison(one, steps, pinned) for entry in entries for one in _one_by_one(entry, steps))
@@ -108,9 +111,10 @@ def _what_is_given(problem: Problem) -> object:
     return problem.described or given_values(problem)
 
 
-def _derived_again(pinned: Problem) -> Steps:
+def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
     try:
-        return with_ancestors(returned_quantities(run_solve(pinned), pinned.script.returns), pinned.script.returns)
+        returned = run_solve(pinned, Run(memory=memory and memory.of_another_run()))
+        return with_ancestors(returned_quantities(returned, pinned.script.returns), pinned.script.returns)
     except DeriveError as error:
         place = pinned.place_of("given")
         note = f"this is for what is given at {place.path}:{place.line}"

@@ -8,6 +8,7 @@ from derive.course.parts import UNIT
 from derive.course.reference.quotes import LINE, QUOTATION
 from derive.course.schema import (
     FIGURES,
+    MAX_FIGURES,
     SCALAR,
     TEXT,
     Reader,
@@ -23,7 +24,12 @@ from derive.course.written import GIVEN, SYMBOLS, VALUES, SortOfLetter
 from derive.course.yaml_tree import Mapping, Tree, Word
 
 SCALAR_TEXT = Reader(SCALAR.schema, TEXT.read)
-_ANY_VALUE = as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 3, "maxItems": 3}]})
+_ENTRY_OR_ROW = {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]}
+_ANY_VALUE = as_written(
+    {"anyOf": [SCALAR.schema, {"type": "array", "items": _ENTRY_OR_ROW, "minItems": 3, "maxItems": 3}]},
+    "an expression, a list of 3, or 3 rows of 3",
+)
+_OUR_LETTERS = mapping_of(as_written(TEXT.schema, "one of our letters"), "a mapping such as `I_1: I_xx`")
 
 
 @dataclass(frozen=True)
@@ -43,16 +49,17 @@ class EntryKeys(Record):
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, 3 of them, or 3 rows of 3", _ANY_VALUE)
     latex: Tree | None = key(
-        "the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared", SCALAR
+        "the value as the document prints it, in LaTeX; of a chain `a = b` every side is compared",
+        as_written(SCALAR.schema, "a formula in LaTeX"),
     )
     to: Tree | None = key(
         "decimals agree to so many figures; a list has one number for each entry, or for each of two branches",
-        as_written(one_or_more(FIGURES.schema)),
+        as_written(one_or_more(FIGURES.schema), f"a whole number from 1 to {MAX_FIGURES}, or a list of them"),
     )
     unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
     put_in: Tree | None = key(
         "letters for which the document has put in numbers; those of `values` are put in on both sides",
-        as_written(one_or_more(TEXT.schema)),
+        as_written(one_or_more(TEXT.schema), "letters that have numbers"),
         called="with",
     )
     times: Tree | None = key("the document's equation is the derived one multiplied by this", SCALAR)
@@ -79,7 +86,7 @@ class GroupKeys(Record):
     given: Mapping | None = key("what the document starts from, as in the problem's file", GIVEN, required=True)
     letters: dict[Word, Tree] = key(
         "letters of the document that are called otherwise here: `I_1: I_xx`",
-        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
+        _OUR_LETTERS,
     )
     values: dict[Word, Tree] = key("numbers for letters, put in where a stated value lacks the letter", VALUES)
     entries: tuple[EntryKeys, ...] = key(
@@ -102,6 +109,6 @@ class OwnKeys(Record):
     symbols: dict[Word, SortOfLetter] = key("letters that steps bring in, and their kinds", SYMBOLS)
     letters: dict[Word, Tree] = key(
         "letters of the source that are called otherwise here: `I_1: I_xx`",
-        mapping_of(as_written(TEXT.schema), "a mapping such as `I_1: I_xx`"),
+        _OUR_LETTERS,
     )
     entries: tuple[EntryKeys, ...] = key("the values that the source states", list_of(_ENTRY, "a list of entries"))

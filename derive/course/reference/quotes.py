@@ -58,4 +58,4 @@ def unquotable(text: str) -> str | None:
 
 
 LINE = Reader({"type": "integer", "minimum": 1, "maximum": LAST_LINE}, _line)
-QUOTATION = Reader({"type": "string"}, _quotation)
+QUOTATION = Reader({"type": "string", "pattern": r"\S"}, _quotation)

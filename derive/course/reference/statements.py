@@ -287,7 +287,7 @@ class _EntryReader:
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])
         elif plain is None and printed is None and entry.remark is None:
-            if entry.values_at.keys() <= keys.keys():  # a mistyped key is one fault, not two
+            if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:  # a fault of a key is not told twice
                 message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
                 self.faults.error("missing-key", message, entry.places[""])
         elif printed is not None:

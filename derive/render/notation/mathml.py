@@ -10,7 +10,7 @@ from html import unescape
 
 from math_core import LatexToMathML
 
-from derive.render.notation.latex import latex
+from derive.render.notation.latex import COLUMN_STRUT, latex
 from derive.render.notation.layout import Layout
 from derive.render.rendered import Html
 
@@ -22,8 +22,11 @@ def mathml(layout: Layout, *, inline: bool = False) -> Html:
 
 @cache
 def of_latex(formula: str, inline: bool = False) -> Html:
-    """A formula that is LaTeX of ours; one that `latex` writes can always be read."""
-    converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
+    """A formula that is LaTeX of ours; one that `latex` writes can always be read.
+
+    What keeps the rows of a column apart is for TeX; a browser's rows are as high as what stands in them.
+    """
+    converted = _converter().convert_with_local_state(formula.replace(COLUMN_STRUT, ""), displaystyle=not inline)
     # A block is what its row is; a formula by itself stands within one.
     converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
     return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML has no name for that character

@@ -358,7 +358,7 @@ class WithVariables(InLetters):
 
 
 def _one_of_three(written: ShapeKeys, ways: set[str], what: str) -> None:
-    told = [name for name in ("shape", "position", "parts") if name in ways and name in written.values_at]
+    told = [name for name in ("shape", "position", "parts") if name in ways and getattr(written, name)]
     if not told:
         ways_told = " or ".join(f"`{name}`" for name in ("shape", "position", "parts") if name in ways)
         rejected("missing-key", f"{what} is told by {ways_told}", written.places[""])

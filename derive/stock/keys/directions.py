@@ -13,7 +13,7 @@ from derive.algebra.direction import Direction
 from derive.algebra.kinds import named
 from derive.course.expression import read_expression
 from derive.course.given import DIRECTION_NAMES
-from derive.course.schema import as_written
+from derive.course.schema import SCALAR, as_written
 from derive.course.stock import InLetters, each
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
@@ -22,9 +22,10 @@ DIRECTION = as_written(
     {
         "anyOf": [
             {"enum": list(DIRECTION_NAMES)},
-            {"type": "array", "items": {"type": ["string", "number"]}, "minItems": 3, "maxItems": 3},
+            {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3},
         ]
-    }
+    },
+    "a direction or three components",
 )
 
 

@@ -11,15 +11,26 @@ from sympy import Dummy, Integer
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, object_schema, record_of
+from derive.course.schema import (
+    SCALAR,
+    TEXT,
+    Reader,
+    Record,
+    as_written,
+    key,
+    list_of,
+    mapping_of,
+    object_schema,
+    record_of,
+)
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, rejected
 from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, potential, spring
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 
-ONE_OR_MORE_COMPONENTS = Reader(
-    {"anyOf": [SCALAR.schema, COMPONENTS.schema]}, lambda node, name, faults: node if node else None
+ONE_OR_MORE_COMPONENTS = as_written(
+    {"anyOf": [SCALAR.schema, COMPONENTS.schema]}, "an expression, or a list of components"
 )
 MAKERS: Mapping[str, Callable[..., Any]] = {
     "particle": Particle,

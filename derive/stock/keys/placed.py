@@ -19,7 +19,10 @@ from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, Described
 from derive.stock.keys.parts import Part, force_letter, list_of_parts
 from derive.stock.keys.places import PLACE, Places, WrittenPlace
 
-POINT = as_written({"anyOf": [{"type": "string"}, {"type": "array", "items": SCALAR.schema, "minItems": 3}]})
+POINT = as_written(
+    {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3}]},
+    "a point of the body, by name or by components",
+)
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,10 @@ class MovingBodyKeys(BodyKeys):
     moments: Tree | None = key(
         "in place of a shape its principal moments of inertia, or in a plane the one across it, about the centre of "
         "mass, or about the point at which it is held",
-        as_written({"anyOf": [SCALAR.schema, {"type": "array", "minItems": 3, "maxItems": 3}]}),
+        as_written(
+            {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]},
+            "one moment or three",
+        ),
     )
     middle: tuple[Tree, ...] = key(
         "with `moments`, where its centre of mass is, along its own axes", list_of(SCALAR, "components", length=3)

@@ -81,7 +81,7 @@ def _place(node: Tree, name: str, faults: Faults) -> WrittenPlace | None:
 
 _PLACE_SCHEMA = {
     "anyOf": [
-        {"type": "string"},
+        TEXT.schema,
         {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 3},
         object_schema(WayKeys),
     ]

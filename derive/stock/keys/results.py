@@ -43,11 +43,12 @@ from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
+from derive.stock.keys.bodies import ENDS
 from derive.stock.keys.formulas import Formula, formula
 from derive.stock.keys.starts import from_start
 
-NAMES = as_written(one_or_more(TEXT.schema))
-EXPRESSIONS = as_written(one_or_more(SCALAR.schema))
+NAMES = as_written(one_or_more(TEXT.schema), "the name of an answer, or a list of names")
+EXPRESSIONS = as_written(one_or_more(SCALAR.schema), "an expression, or a list of them")
 INFINITE = {"infinity": oo, "-infinity": -oo}
 VERBS = (
     "solve", "put_in", "roots", "limit", "where", "maximum", "minimum", "leaves", "solution", "amplitude", "speed",
@@ -100,7 +101,7 @@ class ResultKeys(Record):
     )
     bracket: Tree | None = key(
         "two answers, or formulas of coordinates and their momenta `p_x`, whose Poisson bracket is wanted",
-        as_written({"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}),
+        as_written({"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}, "a list of two functions"),
     )
     noether: Tree | None = key(
         "a Lagrangian, for what is conserved because the shift of coordinates by `values` leaves it as it is: "
@@ -112,14 +113,13 @@ class ResultKeys(Record):
     results: Tree | None = key("answers that are put in", NAMES)
     values: Mapping[Word, Tree] = key("values of letters and coordinates that are put in", mapping_of(SCALAR))
     to: Tree | None = key("where the letter goes: 0, `infinity`, or a value", SCALAR)
-    order: Word | None = key("to which order", SCALAR_TEXT := Reader(SCALAR.schema, TEXT.read))
+    order: Word | None = key("to which order", Reader(SCALAR.schema, TEXT.read))
     relation: Word | None = key("`>`, `>=`, `<`, `<=`, `=` or `!=`", TEXT, called="is")
     bound: Tree | None = key("what it is compared with; without it zero", SCALAR)
     start: Tree | None = key("the value at the start", SCALAR)
     start_rate: Tree | None = key("the rate at the start; without it zero", SCALAR)
-    within: Tree | None = key("between which values it is sought, such as `[0, pi/2]`", as_written({"type": "array"}))
+    within: tuple[Tree, ...] = key("between which values it is sought, such as `[0, pi/2]`", ENDS)
     case: Word | None = key("`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open", TEXT)
-
     symbol: Tree | None = key("the letter of what is found, or one for each of several", NAMES)
 
     def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
@@ -146,7 +146,7 @@ class ResultKeys(Record):
                 bound=_end(self.bound, letters) if self.bound else None,
                 start=_end(self.start, letters) if self.start else None,
                 start_rate=_end(self.start_rate, letters) if self.start_rate else None,
-                within=tuple(_end(node, letters) for node in _nodes(self.within)),
+                within=tuple(_end(node, letters) for node in self.within),
                 case=str(self.case) if self.case else None,
                 symbols=names(self.symbol),
                 place=name.place,

@@ -15,6 +15,7 @@ from derive.course.problem import Problem, load_problem, run_solve
 from derive.course.reference.comparison import comparisons
 from derive.errors import Unverified
 from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.record import Run
 from tests.course.reference.stated import HEAD, Compared, one
 from tests.courses import ROOT, course_in, rendered_once
 
@@ -120,9 +121,9 @@ def test_an_unknown_step_is_a_failure_that_names_the_nearest(compared: Compared)
 def test_other_given_is_derived_again_and_once(compared: Compared, monkeypatch: pytest.MonkeyPatch) -> None:
     runs: list[str] = []
 
-    def counted(problem: Problem) -> object:
+    def counted(problem: Problem, record: Run) -> object:
         runs.append(str(problem.givens[0].value))
-        return run_solve(problem)
+        return run_solve(problem, record)
 
     monkeypatch.setattr("derive.course.reference.comparison.run_solve", counted)
     cube = HEAD.replace("[a, 2*a, 3*a]", "[a, a, a]")

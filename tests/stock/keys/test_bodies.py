@@ -140,6 +140,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "5: a tube of the inner radius R and the outer radius R has nothing between them",
         ),
         ("{mass: M}", "5: a body is told by `shape` or `position` or `parts`"),
+        ("{mass: M, parts: {}}", "5: a body is told by `shape` or `position` or `parts`"),
         (
             "{shape: disc, radius: R, mass: M, position: [R, 0]}",
             "5: a body is told by `shape` or by `position`, not by both",

@@ -1,0 +1,153 @@
+"""How long pages for a browser take. Run by `make bench`.
+
+    edit of a word, previewed    from the file's change until `derive preview` tells the page          aim 0.3 s
+    edit of a given, previewed   the same, less what deriving the problem alone takes, nothing kept    aim 0.3 s
+    HTML of a set                over its PDFs, the derivations kept from before                       aim 0.5
+    HTML of a set, cold          the same, with all of it derived and drawn                            aim 0.5
+
+Each edit says something that was never said before; the derivation alone is of the same edit, just after it, in a
+process that has derived before, as the preview has. The pages of the set are those that a build makes, one after
+another in a process that has loaded what it needs. Medians of several, but cold once.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from http.client import HTTPConnection
+from pathlib import Path
+from typing import Any
+
+from ratios import PROBLEM, ROUNDS, SET, Edited, copied_tree, seconds
+
+from derive.building.cache import Cache, Kept, digest
+from derive.building.loaded import load
+from derive.building.set_document import index_page, problem_document, problem_page, the_document
+from derive.building.solution import derived, rendered
+from derive.building.tex import chosen_engine, typeset
+from derive.building.workers import Job, done
+from derive.course.names import SOLUTIONS
+from derive.course.problem import load_problem
+from derive.course.problem_set import problem_set
+from derive.render.formats import HTML, TYPESET
+from derive.render.rendered import Rendered
+
+LIMIT = 1000.0  # seconds that one stage may take
+
+# --- a page that is edited -------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def previewed(tree: Path) -> Iterator[Callable[[], str]]:
+    """`derive preview` at work, and a function that waits until its page is another, and says which."""
+    command = [sys.executable, "-m", "derive", "preview", f"{SET}/{PROBLEM}", "--port", "0"]
+    with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout
+        host = process.stdout.readline().split("/")[2]
+        asked = HTTPConnection(host, timeout=LIMIT)
+        asked.request("GET", f"/{PROBLEM}/events")
+        events, shown = asked.getresponse(), ""
+
+        def another() -> str:
+            nonlocal shown
+            before = shown
+            while shown in ("", before):
+                line = events.readline()
+                shown = json.loads(line[5:])["main"] if line.startswith(b"data:") else shown
+            return shown
+
+        try:
+            another()
+            yield another
+        finally:
+            asked.close()
+            process.send_signal(signal.SIGINT)
+
+
+def edits(tree: Path) -> dict[str, float]:
+    """The seconds until a page is told, for a word and for a given, and those of the derivation of that given."""
+    edited = Edited(tree / "problems" / SET / f"{PROBLEM}.yaml")
+    alone: Callable[[], Any] = lambda: derived(load_problem(tree, f"{SET}/{PROBLEM}"))  # noqa: E731
+    alone()
+    with previewed(tree) as another:
+        edited.given()
+        another()  # by which all that draws is loaded
+        words = [_until(edited.word, another) for _ in range(2 * ROUNDS)]
+        givens = [(_until(edited.given, another), seconds(alone, rounds=1)) for _ in range(ROUNDS)]
+    more = [whole - derivation for whole, derivation in givens]
+    columns = [*zip(*givens, strict=True), more, words]
+    return dict(zip(("given", "derivation", "more", "word"), map(statistics.median, columns), strict=True))
+
+
+def _until(edit: Callable[[], None], another: Callable[[], str]) -> float:
+    started = time.perf_counter()
+    edit()
+    another()
+    return time.perf_counter() - started
+
+
+# --- the pages of a set ----------------------------------------------------------------------------------------------
+
+
+def pages(root: Path, cache: Cache, formats: tuple[str, ...]) -> list[Rendered]:
+    ids = problem_set(root, SET).problems
+    return [rendered(root, problem, None, cache, draws=True, only=formats) for problem in ids]
+
+
+def html(root: Path, cache: Cache) -> None:
+    heading, problems = problem_set(root, SET), pages(root, cache, (HTML,))
+    for problem in problems:
+        problem_page(root, problem, heading)
+    index_page(root, heading, problems)
+
+
+def pdf(root: Path, cache: Cache) -> None:
+    heading, problems, engine = problem_set(root, SET), pages(root, cache, TYPESET), chosen_engine(None)
+    documents = {each.id.rpartition("/")[2]: (problem_document(root, each, heading), None) for each in problems}
+    for paper, _ in heading.papers:
+        numbers = Kept(cache, digest("numbers", paper)) if paper == SOLUTIONS else None
+        documents[paper] = the_document(paper)(root, heading, problems), numbers
+    files = [file for each in problems for file in each.files if file[0].endswith(".pdf")]
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (tex, numbers) in documents.items():
+            typeset(tex, Path(folder) / f"{name}.pdf", engine, numbers=numbers, beside=files, formats=cache)
+
+
+def in_a_worker(work: Callable[[], None]) -> Callable[[], None]:
+    """In a process that has made no page before."""
+    return lambda: done(Job("pages", work, LIMIT))
+
+
+def sets(tree: Path, folder: Path) -> dict[str, tuple[float, float]]:
+    """The seconds of HTML and of PDF, with what they rest on kept and without."""
+    load(tree, draws=True)
+    caches = Cache(folder / "html"), Cache(folder / "pdf")
+    works = [in_a_worker(partial(make, tree, cache)) for make, cache in zip((html, pdf), caches, strict=True)]
+    cold = [seconds(work, rounds=1) for work in works]
+    times = zip(*([seconds(work, rounds=1) for work in works] for _ in range(ROUNDS)), strict=True)
+    return {"": tuple(map(statistics.median, times)), ", cold": tuple(cold)}
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        tree = copied_tree(Path(folder))
+        os.chdir(tree)
+        took = edits(tree)
+        print(f"{'edit of a word, previewed':28}{took['word']:6.2f} s{'':36} aim 0.3 s")
+        told = f"{took['derivation']:.2f} s of derivation"
+        print(f"{'edit of a given, previewed':28}{took['given']:6.2f} s {took['more']:6.2f} s over {told:22} aim 0.3 s")
+        for how, (web, paper) in sets(tree, Path(folder)).items():
+            print(f"{f'HTML of {SET}{how}':28}{web:6.2f} s {web / paper:6.2f} x its PDFs{'':18} aim 0.5")
+
+
+if __name__ == "__main__":
+    main()
