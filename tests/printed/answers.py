@@ -15,7 +15,7 @@ _LAYOUT = re.compile(
     r"\\(?:begin|end)\{aligned\}|\\(?:left|right|Bigl|Bigr|qquad|quad|thinspace|negthinspace|thickspace)(?![a-z])"
     r"|\\approx|\\[,! ]|\\\\(?:\[\w+\])?|[&=\s]"
 )
-_SAME = {r"\boldsymbol": r"\bm", r"\cr ": r"\\ ", r"\lt ": "<", r"\gt ": ">", r"\lbrace ": r"\{", r"\rbrace ": r"\}"}
+_SAME = {r"\boldsymbol": r"\bm", r"\cr": r"\\", r"\lt ": "<", r"\gt ": ">", r"\lbrace ": r"\{", r"\rbrace ": r"\}"}
 _BESIDE = "⎡⎢⎣⎧⎨⎩⎛⎜⎝"
 
 

@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from derive.render.rendered import Rendered
-from tests.courses import course_in, rendered_once
+from tests.courses import ROOT, course_in, rendered_once
 from tests.printed.answers import (
     bare,
     boxed,
@@ -23,11 +23,13 @@ from tests.printed.answers import (
     of_notebook,
     shown_in_html,
 )
+from tests.printed.test_levels import PROBLEMS
 from tests.test_transcripts import PAGES
 
 FORMATS = {"json", "text", "latex", "html", "markdown", "notebook", "fragment"}
 # page -> how many answers it has
 ANSWERS = {"block": 6, "block-numbers": 6, "cone": 5, "slab": 5, "top": 5, "euler": 2}
+WITHOUT_GROUPS = str.maketrans("", "", "{}")  # which lines that are broken have besides
 LISTED = {"principal_moments", "principal_directions", "agreement"}  # entry by entry, or on full pages alone
 
 
@@ -84,3 +86,13 @@ def test_a_changed_digit_is_seen(format: str) -> None:
     found = page("block").texts[format]
     assert r"\frac{7}{24}" in found
     assert bare(boxed(found.replace(r"\frac{7}{24}", r"\frac{7}{25}"))) != bare(boxed(found))
+
+
+@pytest.mark.parametrize("problem_id", [each for each in PROBLEMS if each.startswith("library/")])
+def test_a_page_of_the_library_has_the_same_answers_on_paper_and_in_a_browser(problem_id: str) -> None:
+    found = rendered_once(ROOT, problem_id, only={"latex", "html", "markdown"})
+    on_paper, in_browser, in_markdown = framed(found.latex), of_html(found.html), boxed(found.texts["markdown"])
+    wanted = bare(on_paper).translate(WITHOUT_GROUPS)
+    assert wanted
+    assert bare(in_browser).translate(WITHOUT_GROUPS) == wanted
+    assert bare(in_markdown).translate(WITHOUT_GROUPS) == wanted
