@@ -76,7 +76,7 @@ class Expansion(ScalarNode):
 class Approach(Node):
     """Where a letter or a ratio goes to, S -> oo. Arguments: what goes, and where to."""
 
-    def _evaluated(self, what: Expr, to: Expr) -> Approach:
+    def _evaluated(self, what: Expr, to: Expr) -> Expr:
         return Approach(what, to)
 
     def dimension(self, of: DimensionOf) -> Dimension | None:

@@ -33,7 +33,6 @@ from derive.errors import Complaint, Faults, Rejected, did_you_mean
 from derive.page.document import document_of
 from derive.page.folding import with_details
 from derive.page.hints import with_hints
-from derive.page.numbering import Number
 from derive.page.rubric import credits_of, faults_of_rubric
 from derive.page.template import template_folder
 from derive.page.theorems import alone
@@ -107,16 +106,16 @@ def printed(
     level = Level(detail or "standard")
     known = problem, derivation, values, words
 
-    def page_at(level: Level, like: Mapping[str, Number] | None = None) -> Document:
+    def page_at(level: Level, like: Document | None = None) -> Document:
         document, faults = document_of(*known, level, solved.compared, others, solved.drawings, evidence, like)
         Faults(faults).stop()
         return document
 
-    document = page_at(level, page_at(Level.STANDARD).numbers if level is Level.FULL else None)
+    document = page_at(level, page_at(Level.STANDARD) if level is Level.FULL else None)
 
     @lru_cache(maxsize=1)
     def full() -> Document:
-        return document if level is Level.FULL else page_at(Level.FULL, document.numbers)
+        return document if level is Level.FULL else page_at(Level.FULL, document)
 
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)

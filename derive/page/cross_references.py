@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from derive.course.prose import FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, did_you_mean
 from derive.page.numbering import Number
-from derive.page.wording import Inline, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
+from derive.page.wording import FigureRef, Inline, Phrases, ProblemRef, Ref, filled, joined, name_of
 from derive.steps.step import Step
 
 
@@ -67,7 +67,7 @@ class References:
 
     def _figure(self, mention: Mention) -> Inline | None:
         if mention.name in self.figures:
-            return Text(f"{self.words.labels['figure']}\u00a0{self.figures[mention.name]}")
+            return FigureRef(f"{self.words.labels['figure']}\u00a0{self.figures[mention.name]}", mention.name)
         message = f"no drawing with a caption is called `{mention.name}`"
         help_line = did_you_mean(mention.name, self.figures) or "give the drawing a `caption:` under `drawings:`"
         self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))

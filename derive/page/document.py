@@ -11,6 +11,7 @@ from typing import Any
 
 from sympy import preorder_traversal
 
+from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import Compared
 from derive.algebra.expressions import Amount, rate
 from derive.course.names import EvidenceShown
@@ -30,7 +31,7 @@ from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
-from derive.page.numbering import Number, Numbering
+from derive.page.numbering import Numbering
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection, needs_no_words
@@ -69,12 +70,12 @@ def document_of(
     others: Mapping[str, int] | None = None,
     drawings: Sequence[Recorded] = (),
     evidence: EvidenceShown = EvidenceShown.NONE,
-    like: Mapping[str, Number] | None = None,
+    like: Document | None = None,
 ) -> tuple[Document, list[Complaint]]:
     """The page, and every fault found on the way: names that nothing established, lines that are not homogeneous.
 
     others   the numbers of the set's problems, to which prose may refer
-    like     the numbers of the equations on a page of less detail, which they have here too
+    like     a page of less detail, with the numbers that its equations have here too
     """
     needed = NOTHING_NEEDED
     while True:
@@ -99,21 +100,18 @@ class _Writer:
         others: Mapping[str, int],
         drawings: Sequence[Recorded],
         needed: Needed,
-        like: Mapping[str, Number] | None,
+        like: Document | None,
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
         self.theorems = Theorems(words, level, derivation.steps)
-        self.numbers = Numbering(like)
+        self.numbers = Numbering(like.numbers if like else None)
         self.shown_in: dict[str, str] = {}
-        every = [*derivation.steps, *values.values()]
-        self.dimensions, unlike = dimension_table(problem.dimensions, every)
-        # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
-        self.faults = [replace(fault, place=problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
+        self.faults: list[Complaint] = []
+        self.dimensions = dict(like.dimensions) if like else self._dimensions()
         self.references = References(
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
-        self.dimensions.update({a: problem.dimensions.get(letter) for letter, a in problem.every_amount})
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step that was shown, on which the words of the next may depend
         self.rest: list[Step] = []  # those of the part that are shown after this one
@@ -126,6 +124,12 @@ class _Writer:
         self.selection = Selection(derivation, level, self.asked, problem.show, problem.wording, needed, values)
         self.clauses = Clauses(words)
         self.lines = ChainWriter(derivation, values, words, self.page_names, self.numbers)
+
+    def _dimensions(self) -> dict[Any, Dimension | None]:
+        table, unlike = dimension_table(self.problem.dimensions, [*self.derivation.steps, *self.values.values()])
+        # What follows from a line that is wrong is wrong too: the first fault is the one to mend.
+        self.faults += [replace(fault, place=self.problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
+        return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
     def document(self, compared: Sequence[Told], evidence: EvidenceShown) -> Document:
         problem = self.problem

@@ -28,17 +28,17 @@ class Numbering(dict[str, Number]):
     def __init__(self, like: Mapping[str, Number] | None = None):
         super().__init__()
         self._like = like
-        self._last = Number(0)
 
     def add(self, key: str) -> None:
-        """The next number."""
-        self._last = self[key] = self._next(key)
+        """The next number; one that was given up for that of another equation is free."""
+        last = max(self.values(), default=Number(0))
+        self[key] = self._next(key, last)
 
-    def _next(self, key: str) -> Number:
+    def _next(self, key: str, last: Number) -> Number:
         if self._like is None:
-            return Number(self._last.whole + 1)
+            return Number(last.whole + 1)
         known = self._like.get(key)
-        return known if known and known > self._last else Number(self._last.whole, self._last.behind + 1)
+        return known if known and known > last else Number(last.whole, last.behind + 1)
 
 
 def _letters(count: int) -> str:

@@ -42,6 +42,13 @@ class Text:
 
 
 @dataclass(frozen=True)
+class FigureRef(Text):
+    """A drawing of the page, in words: Figure 1. A document of somebody else has a number of its own for it."""
+
+    key: str
+
+
+@dataclass(frozen=True)
 class Math:
     """An expression in running text."""
 

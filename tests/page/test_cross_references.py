@@ -11,7 +11,7 @@ from derive.algebra.expressions import scalar
 from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, Place
 from derive.page.cross_references import References, found_before
-from derive.page.wording import Math, Phrases, ProblemRef, Ref, Text, phrases
+from derive.page.wording import FigureRef, Math, Phrases, ProblemRef, Ref, phrases
 from tests.courses import ROOT
 
 HERE = Place("problems/hw9/block.yaml", 7, 3, "<<eq torque>>")
@@ -38,7 +38,7 @@ def mention(of: str, name: str) -> Mention:
 
 def test_each_sort_of_reference_has_its_number(references: References, faults: list[Complaint]) -> None:
     assert references.node(mention(PROBLEM, "top")) == ProblemRef("hw9/top", "Problem 3")
-    assert references.node(mention(FIGURE, "axes")) == Text("Figure\u00a02")
+    assert references.node(mention(FIGURE, "axes")) == FigureRef("Figure\u00a02", "axes")
     assert references.node(mention(EQUATION, "torque")) == Ref("torque")
     references.check({"torque": 4}, ["torque"])
     assert faults == []

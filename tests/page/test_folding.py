@@ -19,7 +19,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory, name: str) -> tuple[Document
     problem, solved = solved_once(course_in(tmp_path_factory.mktemp(name), problem=name), f"hw9/{name}")
     known = problem, solved.derivation, solved.values, phrases(ROOT / "templates")
     standard, _ = document_of(*known, Level.STANDARD)
-    full, _ = document_of(*known, Level.FULL, like=standard.numbers)
+    full, _ = document_of(*known, Level.FULL, like=standard)
     return standard, full
 
 

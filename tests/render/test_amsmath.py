@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Add, Symbol
+from sympy import Add, ImmutableMatrix, Symbol
 
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.numbering import Number
@@ -18,7 +18,12 @@ def display(*lines: ChainLine, framed: int = 0) -> Display:
 
 
 def test_one_row_is_a_formula_without_alignment() -> None:
-    assert display_latex(display(ChainLine(a, "equals", b)), Notation()) == "a =b.".replace("=b", "= b")
+    assert display_latex(display(ChainLine(a, "equals", b)), Notation()) == "a = b."
+
+
+def test_a_matrix_before_the_relation_of_one_row_stays_a_matrix() -> None:
+    shown = display_latex(display(ChainLine(ImmutableMatrix([[a, b], [b, a]]), "equals", c)), Notation())
+    assert shown == r"{\begin{pmatrix} a & b \\ b & a \end{pmatrix}} = c."
 
 
 def test_several_rows_are_aligned_at_their_relations() -> None:

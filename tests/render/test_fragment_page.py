@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from pypdf import PdfReader
 
 from derive.building.tex import chosen_engine, typeset
 from derive.page.tree import Paragraph
-from derive.page.wording import Text
+from derive.page.wording import FigureRef, Text
 from derive.render.printing.fragment_page import fragment
 from tests.courses import ROOT, rendered_once
-from tests.render.pages import NOTATION, WHOLE, WORDS, page
+from tests.render.pages import AXES, NOTATION, VECTORS, WHOLE, WORDS, page
 
 FOLDER = ROOT / "templates"
-TEXT = fragment(WHOLE, WORDS, NOTATION, FOLDER)
+ALONG = WORDS, NOTATION, FOLDER
+TEXT = fragment(WHOLE, *ALONG)
 
 
 def needed(text: str) -> list[str]:
@@ -29,9 +32,14 @@ def test_it_lists_the_packages_and_the_drawings_that_it_needs() -> None:
     assert needed(plain) == [r"\usepackage[T1]{fontenc}", r"\usepackage{amsmath}"]
 
 
-def test_equations_have_labels_and_the_numbers_of_the_document() -> None:
-    assert re.findall(r"\\label\{(.*?)\}", TEXT) == ["hw9/one:mass", "hw9/one:energy"]
-    assert re.findall(r"^%   (hw9/one:\S+)$", TEXT, re.MULTILINE) == ["hw9/one:mass", "hw9/one:energy"]
+def test_equations_and_figures_have_labels_and_the_numbers_of_the_document() -> None:
+    labels = ["hw9/one:mass", "hw9/one:energy", "hw9/one:figure:vectors"]
+    whole = fragment(replace(WHOLE, illustrations=(AXES, VECTORS), note=(FigureRef("Figure 1", "vectors"),)), *ALONG)
+    assert re.findall(r"\\label\{(.*?)\}", whole) == labels
+    assert re.findall(r"^%   (hw9/one:\S+)$", whole, re.MULTILINE) == labels
+    assert r"\textbf{Figure~\thefigure.} Both {\&} true." in whole
+    assert r"Figure~\ref{hw9/one:figure:vectors}" in whole
+    assert not re.search(r"Figure.?\d", whole)
     assert r"\eqref{hw9/one:mass}" in TEXT
     assert "\\tag" not in TEXT
 
@@ -42,7 +50,9 @@ def test_a_plain_article_with_these_packages_typesets_it(tmp_path: Path, name: s
     found = rendered_once(ROOT, f"hw9/{name}", draws=True, only={"fragment"})
     text = found.texts["fragment"]
     packages = [r"\usepackage{lmodern}", *needed(text)]
-    document = ["\\documentclass{article}", *packages, "\\begin{document}", "\\section{Mine}", text, "\\end{document}"]
+    mine = r"\begin{figure}\caption{Mine.}\end{figure}"
+    document = ["\\documentclass{article}", *packages, "\\begin{document}", mine, text, "\\end{document}"]
     target, log = tmp_path / "mine.pdf", tmp_path / "log"
     typeset("\n".join(document), target, chosen_engine(None), beside=found.files, log=log)
-    assert target.read_bytes().startswith(b"%PDF")
+    said = " ".join(page.extract_text() for page in PdfReader(target).pages)
+    assert said.count("Figure 1") == 1 and "??" not in said

@@ -9,6 +9,7 @@ from pylatexenc.latexencode import UnicodeToLatexEncoder
 
 from derive.algebra.dimensions import Dimension
 from derive.errors import Complaint, Rejected
+from derive.render.notation.breaking import terms_of
 from derive.render.notation.layout import (
     DEGREE_SIGN,
     GREEK_LETTERS,
@@ -80,12 +81,18 @@ BETWEEN_TERMS = {
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
 BLANK = "?"  # what is sought
-COLUMN_STRUT = r"\rule[-.95em]{0pt}{2.45em}"  # keeps fractions below one another apart
+# What keeps fractions below one another apart: the one within a row, the other between rows.
+SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
     """The LaTeX of a layout; inline, fractions are small, or have a stroke where that cannot be misread."""
     return _Printer(inline).show(_with_strokes(layout) if inline else layout)
+
+
+def latex_of_terms(layout: Layout, *, inline: bool = False) -> list[str]:
+    """The same, each term of a sum by itself, with its sign."""
+    return [_Printer(inline).show(term) for term in terms_of(_with_strokes(layout) if inline else layout)]
 
 
 def _with_strokes(layout: Layout) -> Layout:
@@ -201,7 +208,7 @@ class _Printer:
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
         """Fractions are small in a matrix and have their full size in a column."""
         if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
-            return r" \\[3pt] ".join(
+            return rf" \\{ROW_GAP} ".join(
                 rf"{COLUMN_STRUT if _is_tall(entry, inline=False) else ''}\displaystyle {self.show(entry)}"
                 for (entry,) in rows
             )

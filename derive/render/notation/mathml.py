@@ -10,8 +10,9 @@ from html import unescape
 
 from math_core import LatexToMathML
 
-from derive.render.notation.latex import COLUMN_STRUT, latex
-from derive.render.notation.layout import Layout
+from derive.render.notation.breaking import terms_of
+from derive.render.notation.latex import SPACING, latex, latex_of_terms
+from derive.render.notation.layout import Layout, width
 from derive.render.rendered import Html
 
 
@@ -20,13 +21,30 @@ def mathml(layout: Layout, *, inline: bool = False) -> Html:
     return of_latex(latex(layout, inline=inline), inline=inline)
 
 
+def in_pieces(layout: Layout, *, inline: bool = False, sign: str = "") -> list[tuple[float, Html]]:
+    """The terms of a sum as formulas of their own, between which a line may end, each with its width in characters.
+
+    A relation stands before the first.
+    """
+    first, *others = latex_of_terms(layout, inline=inline)
+    formulas = [of_latex(f"{sign} {first}".strip(), inline=inline), *(_going_on(other, inline) for other in others)]
+    return list(zip(map(width, terms_of(layout)), formulas, strict=True))
+
+
+def _going_on(formula: str, inline: bool) -> Html:
+    """What begins with a sign that stands between it and the formula before it."""
+    return Html(of_latex(f"{{}}{formula}", inline=inline).replace("<mrow></mrow><mo", '<mo form="infix"', 1))
+
+
 @cache
 def of_latex(formula: str, inline: bool = False) -> Html:
     """A formula that is LaTeX of ours; one that `latex` writes can always be read.
 
-    What keeps the rows of a column apart is for TeX; a browser's rows are as high as what stands in them.
+    What keeps the rows of a column apart is for TeX: a browser's rows are as high as what stands in them.
     """
-    converted = _converter().convert_with_local_state(formula.replace(COLUMN_STRUT, ""), displaystyle=not inline)
+    for spacing in SPACING:
+        formula = formula.replace(spacing, "")
+    converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
     # A block is what its row is; a formula by itself stands within one.
     converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
     return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML has no name for that character

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from derive.page.chain_lines import ChainLine
 from derive.page.tree import Display
@@ -12,6 +13,17 @@ from derive.render.notation.notation import Notation
 from derive.render.printing.lines import LINE_WIDTH, Printed, framed_together, printed_lines
 
 
+@dataclass(frozen=True)
+class Row:
+    """What stands before the place where rows are aligned, and behind it; a matrix may be in both."""
+
+    left: str
+    right: str
+
+    def __str__(self) -> str:
+        return f"{self.left} &{self.right}".lstrip()
+
+
 def display_latex(display: Display, notation: Notation, numbered: bool = False) -> str:
     """The rows below each other, their relations aligned; what answers a question is boxed."""
     return aligned(display_rows(display, notation, ending=_number if numbered else None))
@@ -19,8 +31,8 @@ def display_latex(display: Display, notation: Notation, numbered: bool = False) 
 
 def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
-) -> list[str]:
-    """Each row with its punctuation, and behind that what its `ending` is; `&` stands where rows are aligned."""
+) -> list[Row]:
+    """Each row with its punctuation, and behind that what its `ending` is."""
     return [
         _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)
@@ -35,33 +47,33 @@ def equation_latex(line: ChainLine, notation: Notation) -> str:
     return f"{left} {TEX_OPERATORS[line.relation]} {latex(notation.result(line.right), inline=True)}".strip()
 
 
-def aligned(rows: Sequence[str]) -> str:
+def aligned(rows: Sequence[Row]) -> str:
     """Rows in one piece; one alone is aligned with nothing."""
     if len(rows) == 1:
-        return rows[0].replace("&", "", 1)
-    return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+        return _spaced(rows[0].left, rows[0].right)
+    return "\\begin{aligned}\n" + " \\\\\n".join(map(str, rows)) + "\n\\end{aligned}"
 
 
 def _number(line: Printed) -> str:
     return "" if line.number is None else rf"\qquad({line.number})"
 
 
-def _row(lines: Sequence[Printed], end: str) -> str:
+def _row(lines: Sequence[Printed], end: str) -> Row:
     """A line, or all lines that are in one frame, which begins behind the relation where they go on from another."""
     first, *others = lines
     left = latex(first.left) if first.left else ""
     if not others:
         body = _boxed(f"{left} {_sides(first.sides)}".strip()) if first.frames_all else _with_box(first)
     elif first.frames_all:
-        body = _boxed(aligned([f"{left} &{_sides(first.sides)}", *_going_on(others)]))
+        body = _boxed(aligned([Row(left, _sides(first.sides)), *_going_on(others)]))
     else:
         ((relation, begun),) = first.sides
-        body = f"{_sign(relation)} " + _boxed(aligned([f"&{latex(begun)}", *_going_on(others)]))
-    return f"&{body}{end}" if first.frames_all else f"{left} &{body}{end}".lstrip()
+        body = f"{_sign(relation)} " + _boxed(aligned([Row("", latex(begun)), *_going_on(others)]))
+    return Row("" if first.frames_all else left, f"{body}{end}")
 
 
-def _going_on(lines: Sequence[Printed]) -> list[str]:
-    return [f"&{_sides(line.sides)}" for line in lines]
+def _going_on(lines: Sequence[Printed]) -> list[Row]:
+    return [Row("", _sides(line.sides)) for line in lines]
 
 
 def _with_box(line: Printed) -> str:

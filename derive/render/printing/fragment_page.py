@@ -1,4 +1,7 @@
-"""A page as LaTeX for a document of somebody else: amsmath, that document's own numbers, and labels to refer to."""
+"""A page as LaTeX for a document of somebody else: amsmath, that document's own numbers, and labels to refer to.
+
+A drawing stands where it is put, so that it is no float; its number is one of those of figures all the same.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from pathlib import Path
 
 from derive.page.numbering import Number
 from derive.page.tree import Display, Document, Illustration
-from derive.page.wording import Inline, Phrases, ProblemRef
+from derive.page.wording import FigureRef, Inline, Phrases, ProblemRef
 from derive.render.notation.latex import escaped
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_rows
@@ -53,25 +56,31 @@ class FragmentPage(LatexPage):
         return [Tex(f"{drawing.stem}.pdf") for drawing in self.document.illustrations]
 
     def labels(self) -> Sequence[Tex]:
-        return [Tex(self._label(number)) for number in self._keys if number in self._labelled]
+        """Of equations, and of drawings with a caption."""
+        equations = [self._label(number) for number in self._keys if number in self._labelled]
+        figures = [drawing.key for drawing in self.document.illustrations if drawing.number is not None]
+        return [Tex(label) for label in (*equations, *map(self._figure, figures))]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """The file, and its caption below."""
+        """The file, and its caption below, with the number that comes next in the document that it stands in."""
         shown = rf"\includegraphics{{{drawing.stem}.pdf}}"
         if drawing.number is None:
             return Tex(shown)
-        label = escaped(f"{self.words.labels['figure']} {drawing.number}.")
-        return Tex(rf"{shown}\par\smallskip{{\small\textbf{{{label}}} {self.inline(drawing.caption)}}}")
+        number = rf"\refstepcounter{{figure}}\label{{{self._figure(drawing.key)}}}"
+        label = rf"\textbf{{{escaped(self.words.labels['figure'])}~\thefigure.}}"
+        return Tex(rf"{shown}\par\smallskip{number}{{\small{label} {self.inline(drawing.caption)}}}")
 
     def display(self, display: Display) -> Tex:
         """Each numbered line with the number that comes next in the document that it stands in."""
         *rows, last = display_rows(display, self.notation, WIDTH, self._ending)
-        return Tex("".join(f"{row} \\\\\n" for row in rows) + last)
+        return Tex("".join(f"{row} \\\\\n" for row in rows) + str(last))
 
     def _node(self, node: Inline) -> str:
         match node:
             case ProblemRef(text=text):
                 return escaped(text)
+            case FigureRef(key=key):
+                return rf"{escaped(self.words.labels['figure'])}~\ref{{{self._figure(key)}}}"
         return super()._node(node)
 
     def _reference(self, key: str) -> str:
@@ -83,6 +92,9 @@ class FragmentPage(LatexPage):
             return rf"{reason}\notag"
         self._labelled.add(line.number)
         return rf"{reason}\label{{{self._label(line.number)}}}"
+
+    def _figure(self, key: str) -> str:
+        return f"{self.document.id}:figure:{key}"
 
     def _label(self, number: Number) -> str:
         return f"{self.document.id}:{self._keys[number]}"

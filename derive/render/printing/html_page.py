@@ -21,9 +21,9 @@ from derive.page.tree import Block, Display, Document, Folded, Illustration, Par
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
-from derive.render.notation.mathml import mathml, of_latex
+from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
-from derive.render.printing.amsmath import display_latex, equation_latex
+from derive.render.printing.amsmath import display_latex
 from derive.render.printing.lines import Printed, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
@@ -82,8 +82,12 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        formula = equation_latex(credit.result, self.notation)
-        return of_latex(formula, inline=True)
+        """Its sides, between which and within which a line may end."""
+        line = credit.result
+        sides = [("start", self.notation.side(line.left))] if line.left is not None else []
+        sides.append((line.relation, self.notation.result(line.right)))
+        shown = (in_pieces(side, inline=True, sign=TEX_OPERATORS[relation]) for relation, side in sides)
+        return Html("<wbr> ".join(_scrolling_pieces(pieces) for pieces in shown))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"
@@ -111,8 +115,9 @@ class HtmlPage:
                 return escape(text)
             case Math(expr):
                 layout = self.notation.result(expr)
-                formula = mathml(layout, inline=True)
-                return _scrolling(formula, self.plain([node])) if width(layout) > WIDE else formula
+                if width(layout) <= WIDE:
+                    return mathml(layout, inline=True)
+                return _scrolling_pieces(in_pieces(layout, inline=True), self.plain([node]))
             case DimensionMark(dimension):
                 return of_latex(dimension_latex(dimension), inline=True)
             case UnitMark(text):
@@ -144,14 +149,15 @@ class HtmlPage:
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str) -> str:
-        left = "" if line.left is None else _scrolling_if_wide(line.left, mathml(line.left))
+        left = "" if line.left is None else _side("start", line.left)
         cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
         if line.frames_all:
             cells = ['<span class="answer">', *cells, "</span>"]
         why = f'<span class="why">{self.inline(line.reason)}</span>' if line.reason else ""
         number = "" if line.number is None else f'<span class="number">({line.number})</span>'
+        beside = f'<span class="beside">{why}{number}</span>' if why or number else ""
         anchor = "" if line.number is None or not self._is_first(line.number) else f' id="{_anchor(line.number)}"'
-        return f'<div class="row"{anchor}>{"".join(cells)}{why}{number}</div>'
+        return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
         """Lines that are folded below an equation have its number again, but not its place."""
@@ -178,28 +184,41 @@ class HtmlPage:
 
 def _sides(line: Printed, stop: str) -> str:
     """Relations and right sides, each of which may begin a line of its own; those that are the result have a frame."""
+    end = f'<span class="stop">{escape(stop)}</span>' if stop else ""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
-    shown = [_side(relation, side) for relation, side in line.sides[:at]]
-    if at < len(line.sides):
-        (relation, first), *others = line.sides[at:]
-        framed = "".join([_scrolling_if_wide(first, mathml(first)), *(_side(*other) for other in others)])
-        sign = TEX_OPERATORS[relation].strip()
-        shown += [of_latex(sign) if sign else "", f'<span class="answer">{framed}</span>']
-    return "".join(shown) + (f'<span class="stop">{escape(stop)}</span>' if stop else "")
+    shown = [_side(*side) for side in line.sides[:at]]
+    if at == len(line.sides):
+        return _ending(shown, end)
+    (relation, first), *others = line.sides[at:]
+    sign = TEX_OPERATORS[relation].strip()
+    framed = "".join([_side("start", first), *(_side(*other) for other in others)])
+    begun = of_latex(sign) if sign else ""
+    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span>{end}</span>'])
+
+
+def _ending(sides: Sequence[str], end: str) -> str:
+    """The sides with their punctuation, which never begins a line."""
+    return "".join([*sides[:-1], sides[-1].removesuffix(CLOSED) + end + CLOSED])
+
+
+CLOSED = "</span>"
 
 
 def _side(relation: str, side: Layout) -> str:
-    return _scrolling_if_wide(side, of_latex(f"{TEX_OPERATORS[relation]} {latex(side)}"))
+    """A side of an equation; where it is wide, a line may end before each of its terms."""
+    sign = TEX_OPERATORS[relation]
+    if width(side) <= WIDE:
+        return f'<span class="side">{of_latex(f"{sign} {latex(side)}")}</span>'
+    return f'<span class="side">{_scrolling_pieces(in_pieces(side, sign=sign))}</span>'
 
 
-def _scrolling_if_wide(layout: Layout, formula: Html) -> str:
-    return _scrolling(formula, "") if width(layout) > WIDE else f'<span class="side">{formula}</span>'
-
-
-def _scrolling(formula: str, said: str) -> str:
-    """Reached by the keyboard, so that who has no mouse can scroll it."""
+def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "") -> str:
+    """One behind the other as far as there is room; one that is too wide alone can be scrolled by the keyboard too."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
-    return f'<span class="wide" tabindex="0"{label}>{formula}</span>'
+    return "<wbr>".join(
+        f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > WIDE else formula
+        for characters, formula in pieces
+    )
 
 
 def _anchor(number: Any) -> str:
