@@ -83,10 +83,13 @@ class Sections:
         if sort == "array":
             exactly = schema.get("maxItems") if schema.get("minItems") == schema.get("maxItems") else None
             count = f"{exactly} times " if exactly else ""
-            return f"list: {count}{self._holds(schema['items'], name)}" if "items" in schema else "list"
+            if "items" not in schema:
+                return "list"
+            each = self._holds(schema["items"], name)
+            return f"list: {count}({each})" if " or " in each and count else f"list: {count}{each}"
         if sort == "object" or isinstance(sort, list) and "object" in sort:
             each = schema.get("additionalProperties")
-            return f"names, each with {self._holds(each, name)}" if each else "keys"
+            return f"names, each with {self._holds(each, name)}" if each else "what `solve` asks for"
         return _plain(schema)
 
     def _link(self, schema: Schema, name: str) -> str:
@@ -106,9 +109,9 @@ def _anchor(title: str) -> str:
 def _given(schema: Schema) -> Iterator[tuple[str, Schema]]:
     """What `given:` holds for each script of the engine."""
     for case in schema.get("allOf", []):
-        given = case["then"]["properties"].get("given")
-        if given:
-            yield case["if"]["properties"]["solve"]["const"], given
+        name = case["if"]["properties"]["solve"].get("const")
+        if name:
+            yield name, case["then"]["properties"]["given"]
 
 
 def _plain(schema: Schema) -> str:

@@ -151,7 +151,7 @@ def test_clean_empties_build_and_keeps_the_folder(built: Tree) -> None:
 def test_check_and_bench_run_in_the_environment(tree: Tree) -> None:
     tree.make("check")
     tree.make("bench")
-    benches = ["bench/equality.py", "bench/ratios.py", "bench/scale.py", "bench/systems.py"]
+    benches = ["bench/equality.py", "bench/pages.py", "bench/ratios.py", "bench/scale.py", "bench/systems.py"]
     assert tree.calls() == ["-m derive check", *benches]
 
 
