@@ -22,7 +22,8 @@ Blocks = Sequence[Mapping[str, Any]]
 class Change:
     """One difference.
 
-    of       of what sort: given, points, asked, part, answer, step, sentence, drawing, number, reference, warning
+    of       of what sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
+             number, reference, warning
     where    which of them: a key, the label of a part, a place of the page
     before   what it was, as text; empty if it was not there
     after    what it is; empty if it is no more

@@ -36,15 +36,14 @@ class Compared:
 def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -> Compared:
     """What has changed since the last build, at the level of detail of that build."""
     path_of(root, problem_id)
-    set_id, _, name = problem_id.partition("/")
-    before = _built(set_folder(root, set_id) / f"{name}.json", problem_id)
+    before = built_page(root, problem_id)
     if detail and detail != before["detail"]:
         message = f"the last build of `{problem_id}` shows its steps in detail `{before['detail']}`, not `{detail}`"
         raise Misused(
             Complaint("other-detail", message, help=f"`derive build {problem_id} --detail {detail}` makes one")
         )
     after = done(_job(root, root, problem_id, before["detail"], limit))
-    recorded = Manifest.read(set_folder(root, set_id)).engine
+    recorded = Manifest.read(set_folder(root, problem_id.partition("/")[0])).engine
     warnings = [_other_engine()] if recorded and recorded != engine_digest(*PACKAGES) else []
     return Compared("the last build", tuple(changes(before, after)), tuple(warnings))
 
@@ -62,8 +61,10 @@ def since_revision(root: Path, problem_id: str, revision: str, detail: str | Non
     return Compared(f"`{revision}`", tuple(changes(before, after)), warnings)
 
 
-def _built(file: Path, problem_id: str) -> Page:
+def built_page(root: Path, problem_id: str) -> Page:
     """What the last build wrote."""
+    set_id, _, name = problem_id.partition("/")
+    file = set_folder(root, set_id) / f"{name}.json"
     mend = f"`derive build {problem_id}` builds it; `--rev HEAD` compares with what git has"
     try:
         page = json.loads(file.read_text(encoding="utf-8"))

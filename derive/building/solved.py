@@ -1,7 +1,7 @@
 """A derivation as it is kept from one build to the next, so that a reworded page is not derived again.
 
-It depends on derive's own modules and SymPy, the script, what is given, which steps answer the parts and in what form,
-and the reference; not on words, points and templates.
+It depends on derive's own modules and SymPy, the script and what it imports beside it, what is given, which steps
+answer the parts and in what form, and the reference; not on words, points and templates.
 """
 
 from __future__ import annotations
@@ -61,7 +61,8 @@ class Solved:
 
 def steps_key(problem: Problem) -> str:
     """A digest of everything that the steps depend on."""
-    files = [problem.root / problem.script_path, problem.root / reference_path(problem)]
+    _, *scripts = problem.inputs
+    files = [problem.root / path for path in (*scripts, reference_path(problem))]
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]

@@ -7,21 +7,24 @@ import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from itertools import groupby
+from typing import Any
 
 from derive.building.changes import ADDED, CHANGED, EQUAL, REMOVED, Change
 from derive.building.compared import Compared
+from derive.building.compared_sets import ComparedSet
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
 # Each sort with its heading, and what one and several of it are called.
 _SORTS = {
     "given": ("given", "given value", "given values"),
+    "problem": ("problems", "problem", "problems"),
     "points": ("points", "number of points", "numbers of points"),
     "part": ("parts", "part", "parts"),
     "asked": ("asked for", "question's answers", "questions' answers"),
     "answer": ("answers", "answer", "answers"),
     "step": ("steps", "step", "steps"),
-    "order": ("order", "order of steps", "orders"),
+    "order": ("order", "other order", "other orders"),
     "sentence": ("sentences", "sentence", "sentences"),
     "drawing": ("drawings", "drawing", "drawings"),
     "number": ("numbers of equations", "number of an equation", "numbers of equations"),
@@ -55,10 +58,29 @@ def told(problem_id: str, compared: Compared, coloured: bool) -> str:
     return "\n".join([head, *(line for sort, group in sorts for line in ["", _SORTS[sort][0], *shown.sort(group)])])
 
 
+def told_of_set(set_id: str, compared: ComparedSet, coloured: bool) -> str:
+    """The set itself, and each problem that has changed."""
+    each = {set_id: compared.own, **compared.problems}
+    changed = [told(name, one, coloured) for name, one in each.items() if one.changes]
+    return "\n\n".join(changed) or told(set_id, compared.own, coloured)
+
+
 def as_json(problem_id: str, compared: Compared) -> str:
     """The same for programs."""
+    return _json(_data("problem", problem_id, compared))
+
+
+def set_as_json(set_id: str, compared: ComparedSet) -> str:
+    problems = [_data("problem", name, one) for name, one in compared.problems.items()]
+    return _json({**_data("set", set_id, compared.own), "changed": compared.changed, "problems": problems})
+
+
+def _data(sort: str, name: str, compared: Compared) -> dict[str, Any]:
     listed = [{**asdict(change), "how": change.how} for change in compared.changes]
-    data = {"problem": problem_id, "since": compared.since, "changed": bool(listed), "changes": listed}
+    return {sort: name, "since": compared.since, "changed": bool(listed), "changes": listed}
+
+
+def _json(data: Any) -> str:
     return json.dumps(data, indent=2, ensure_ascii=False)
 
 
@@ -148,7 +170,7 @@ class _Shown:
         return textwrap.wrap(listed, WIDTH, initial_indent="  ", subsequent_indent="  ", break_long_words=False)
 
     def _order(self, changes: Sequence[Change]) -> Iterable[str]:
-        yield "  steps that are still there come in another order"
+        yield f"  {changes[0].where} that are still there come in another order"
 
 
 def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], bool, bool]]:

@@ -76,7 +76,9 @@ class Problem:
     @property
     def inputs(self) -> tuple[str, ...]:
         """The files it was read from."""
-        return (self.path, self.script_path) if self.script_path else (self.path,)
+        modules = self.script.modules if isinstance(self.script, Script) else ()
+        beside = (module.relative_to(self.root).as_posix() for module in modules)
+        return (self.path, *filter(None, [self.script_path]), *beside)
 
     @property
     def asked(self) -> tuple[Word, ...]:

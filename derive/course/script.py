@@ -22,6 +22,7 @@ from types import ModuleType
 from typing import Any
 
 from derive.algebra.kinds import ANNOTATIONS, Asked, asked_by_annotation
+from derive.course.beside import importable, modules_beside
 from derive.course.yaml_tree import Source, abridged, read_source
 from derive.errors import Complaint, DeriveError, Faults, Place, Rejected, did_you_mean, nearest
 
@@ -42,13 +43,14 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Script:
-    """A script that was imported, and the signature of its `solve()`."""
+    """A script that was imported, the signature of its `solve()`, and the modules of its folder that it imports."""
 
     file: Path
     source: Source
     solve: Callable[..., object]
     parameters: tuple[Parameter, ...]
     returns: Place
+    modules: tuple[Path, ...] = ()
 
 
 class _NoCache(SourceFileLoader):
@@ -62,19 +64,21 @@ def imported_script(file: Path, shown_as: str, name: str) -> Script:
     """The script's `solve()` and what it asks for, or `Rejected` with the script's line."""
     source = read_source(file, shown_as)
     definition = _definition(source)
-    module = _module(file, source, name)
+    modules = modules_beside(file)
+    with importable(file, modules):
+        module = _module(file, source, name)
     solve = getattr(module, "solve", None)
     if not callable(solve):
         raise Rejected(Complaint("script", "`solve` is not a function", source.at(definition.lineno)))
     returns = [node for node in ast.walk(definition) if isinstance(node, ast.Return)]
     place = source.at(*_start(returns[-1] if returns else definition), 6 if returns else 3)
-    return Script(file, source, solve, _parameters(definition, solve, source), place)
+    return Script(file, source, solve, _parameters(definition, solve, source), place, modules)
 
 
 def run(script: Script, values: Mapping[str, Any]) -> object:
     """What `solve()` returns; what it prints goes to standard error, where it spoils no output."""
     try:
-        with redirect_stdout(sys.stderr):
+        with redirect_stdout(sys.stderr), importable(script.file, script.modules):
             return script.solve(**values)
     except DeriveError as error:
         raise _placed(error, script.file, script.source) from error

@@ -32,15 +32,11 @@ def preview(
     """Serve the pages of a set until somebody interrupts; `ready` is told the address, `told` what was shown."""
     check_asked(root, set_id, [name] if name else ())
     heading = problem_set(root, set_id)
-    names = [each.rpartition("/")[2] for each in heading.problems]
-    first = name or names[0]
+    first = name or heading.problems[0].rpartition("/")[2]
     warm = Warm(root, limit)
-    pages = Pages(warm, set_id, {*names, first}, detail, told)
+    pages = Pages(warm, set_id, {*heading.numbers, first}, detail, told)
 
     def whole(of: str, main: str) -> str:
-        nonlocal heading
-        with suppress(DeriveError):  # a heading with a fault stays as it was
-            heading = problem_set(root, set_id)
         return live_page(root, heading, of, main)
 
     served = server(pages, whole, first, port)
@@ -48,7 +44,10 @@ def preview(
         warm.begun()  # it loads while the browser is opened
         with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
-            for _ in _edits(root, set_id):
+            for _ in _edits(root):
+                with suppress(DeriveError):  # a heading with a fault stays as it was
+                    heading = problem_set(root, set_id)
+                pages.names = {*heading.numbers, first}
                 pages.edited()
     finally:
         warm.end()
@@ -66,9 +65,14 @@ def _serving(served: Server) -> Iterator[int]:
         served.server_close()
 
 
-def _edits(root: Path, set_id: str) -> Iterator[object]:
-    """Each time that files of the set, its templates or its phrases were written."""
+def _edits(root: Path) -> Iterator[object]:
+    """Each time that problems or scripts, which may be another set's, templates or phrases were written."""
     from watchfiles import watch
 
-    folders = [root / "problems" / set_id, template_folder(root)]
-    yield from watch(*folders, watch_filter=lambda _, path: path.endswith(WRITTEN), step=SETTLED, debounce=400)
+    yield from watch(
+        root / "problems",
+        template_folder(root),
+        watch_filter=lambda _, path: path.endswith(WRITTEN),
+        step=SETTLED,
+        debounce=400,
+    )

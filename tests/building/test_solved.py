@@ -100,6 +100,17 @@ def test_a_changed_reference_is_compared_anew(course: Path, kept: Cache, monkeyp
         rendered(course, "hw9/block", None, kept)
 
 
+def test_a_changed_module_beside_the_script_is_derived_anew(course: Path) -> None:
+    change(course, "block.py", "def solve(", "from helper import X\n\n\ndef solve(")
+    keys = set()
+    for text in ("X = 1", "X = 2"):
+        (course / "problems" / "hw9" / "helper.py").write_text(text)
+        problem = load_problem(course, "hw9/block")
+        keys.add(steps_key(problem))
+    assert len(keys) == 2
+    assert problem.inputs == tuple(f"problems/hw9/{name}" for name in ("block.yaml", "block.py", "helper.py"))
+
+
 def test_a_changed_reference_of_its_own_is_compared_anew(course: Path) -> None:
     own = "reference:\n  source: a book\n  entries: [{part: 2, answer: kinetic_energy, states: 1}]\n"
     file = course / "problems" / "hw9" / "block.yaml"

@@ -31,7 +31,7 @@ def test_each_sort_has_its_heading_and_is_counted() -> None:
         Change("order", "steps", "a b", "b a"),
     ) == [
         "hw9/block: changed since the last build: 1 number of points, 2 parts, 1 answer, 2 steps, 1 number",
-        "of an equation, 1 order of steps",
+        "of an equation, 1 other order",
         "",
         "points",
         "  ~ the problem: 10 -> 12",

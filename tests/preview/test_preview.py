@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+import derive.preview.preview
+from derive.preview.server import Pages, Server, server
 from tests.browser import browser_page
 from tests.courses import ROOT, course_in
 
@@ -47,6 +51,36 @@ def preview(course: Path) -> Iterator[Preview]:
 def test_an_interrupt_ends_it_cleanly_with_its_worker(preview: Preview) -> None:
     assert preview.address.startswith("http://127.0.0.1:")
     assert preview.ended() == 0
+
+
+def test_a_problem_that_the_set_lists_anew_has_a_page(course: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder, served = course / "problems" / "hw9", list[Pages]()
+
+    def edits(root: Path) -> Iterator[object]:
+        shutil.copy(folder / "block.yaml", folder / "brick.yaml")
+        with (folder / "set.yaml").open("a") as heading:
+            heading.write("  - brick\n")
+        yield
+        assert served[0].names == {"block", "brick"}
+        (folder / "set.yaml").write_text("problems: [")
+        yield
+        assert served[0].names == {"block", "brick"}
+
+    def noted(pages: Pages, *how: Any) -> Server:
+        served.append(pages)
+        return server(pages, *how)
+
+    monkeypatch.setattr(derive.preview.preview, "_edits", edits)
+    monkeypatch.setattr(derive.preview.preview, "server", noted)
+    derive.preview.preview.preview(course, "hw9", "", 0, None, 60, lambda at: None, lambda name, shown: None)
+    assert served
+
+
+def test_scripts_of_other_sets_are_watched_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    watched: list[Path] = []
+    monkeypatch.setattr("watchfiles.watch", lambda *folders, **how: watched.extend(folders) or [])
+    assert [*derive.preview.preview._edits(tmp_path)] == []
+    assert tmp_path / "problems" in watched
 
 
 @pytest.mark.browser

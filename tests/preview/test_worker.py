@@ -49,6 +49,28 @@ def test_an_edit_of_a_given_or_of_the_script_derives_only_what_it_touches(
     assert "size" in touched and touched.isdisjoint({"inertia_tensor", "spin", "torque"})
 
 
+def test_an_edit_of_a_module_beside_the_script_is_in_the_next_answer(tmp_path: Path) -> None:
+    script = {"def solve(": "from helper import TIMES\n\n\ndef solve(", "spin(rate,": "spin(TIMES * rate,"}
+    root = course_in(tmp_path, script=script)
+    module = root / "problems" / "hw9" / "helper.py"
+    module.write_text("TIMES = 5\n")
+    before = answer(root, ASKED)["main"]
+    module.write_text("TIMES = 7\n")
+    after = answer(root, ASKED)["main"]
+    assert "<mn>175</mn>" in before and "<mn>175</mn>" not in after  # 7/24 of the square of 5
+
+
+def test_an_edit_of_what_the_set_or_a_document_says_is_in_the_next_answer(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    before = answer(root, ASKED)["main"]
+    heading = root / "problems" / "hw9" / "set.yaml"
+    heading.write_text(heading.read_text() + "evidence: end\n")
+    assert answer(root, ASKED)["main"] != before
+    (root / "problems" / "hw9" / "reference.yaml").write_text("entries")
+    (complaint,) = answer(root, ASKED)["complaints"]
+    assert complaint["shown"].startswith("problems/hw9/reference.yaml:1:1: error")
+
+
 def test_a_fault_is_told_with_its_place_and_not_raised(tmp_path: Path) -> None:
     said = answer(course_in(tmp_path, {"mass: M\n": "mass: a\n"}), ASKED)
     assert "main" not in said

@@ -9,8 +9,10 @@ import pytest
 from fake_course import Course
 
 import derive.building.compared
+import derive.building.compared_sets
 from derive.building.changes import Change
 from derive.building.compared import Compared
+from derive.building.compared_sets import ComparedSet
 from derive.cli.options import main
 from derive.errors import Complaint
 
@@ -92,3 +94,22 @@ def test_warnings_go_to_standard_error(
     compares(monkeypatch, Compared("the last build", (), (warning,)))
     assert main(["diff", "hw1/one"]) == 0
     assert capsys.readouterr().err == "warning[other-engine]: derive itself is another\n"
+
+
+def test_of_a_set_the_set_itself_and_what_has_changed_of_its_problems(
+    course: Course, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    same = Compared("the last build", ())
+    for own, problems, code in ((CHANGED, {"hw1/one": same}, 1), (same, {"hw1/two": CHANGED}, 1), (same, {}, 0)):
+        found = ComparedSet(own, problems)
+        monkeypatch.setattr(derive.building.compared_sets, "set_since_build", lambda *how, found=found: found)
+        assert main(["diff", "hw1"]) == code
+        text = capsys.readouterr().out
+        assert (text.count("10 -> 12"), "hw1/one" in text) == (code, False)
+        assert main(["diff", "hw1", "--format", "json"]) == code
+        data = json.loads(capsys.readouterr().out)
+        assert (data["set"], data["changed"], [each["problem"] for each in data["problems"]]) == (
+            "hw1",
+            bool(code),
+            [*problems],
+        )

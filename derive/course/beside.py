@@ -1,0 +1,61 @@
+"""The modules in a script's folder that it imports: found there while it runs, and read anew each time."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from importlib import invalidate_caches
+from pathlib import Path
+
+
+def modules_beside(script: Path) -> tuple[Path, ...]:
+    """Those that it imports, and those that they import; each file of a package."""
+    found: set[Path] = set()
+    waiting = [script]
+    while waiting:
+        named = _imported(waiting.pop())
+        files = {file for name in named for file in _files_of(script.parent, name)} - found - {script}
+        found |= files
+        waiting += files
+    return tuple(sorted(found))
+
+
+@contextmanager
+def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
+    """Its folder is looked in last, so that no problem stands in for a package; behind it, nothing is left of them."""
+    if not modules:
+        yield
+        return
+    before, wrote, folder = {*sys.modules}, sys.dont_write_bytecode, str(script.parent)
+    files = {str(file) for file in modules}
+    invalidate_caches()
+    sys.dont_write_bytecode = True
+    sys.path.append(folder)
+    try:
+        yield
+    finally:
+        sys.dont_write_bytecode = wrote
+        sys.path.remove(folder)
+        for name in {*sys.modules} - before:
+            if getattr(sys.modules[name], "__file__", None) in files:
+                del sys.modules[name]
+
+
+def _imported(file: Path) -> set[str]:
+    """The first words of what a file imports; nothing of one that is not Python, which is told where it is run."""
+    try:
+        nodes = [*ast.walk(ast.parse(file.read_bytes()))]
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return set()
+    whole = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
+    parts = [node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level]
+    return {name.partition(".")[0] for name in (*whole, *parts)}
+
+
+def _files_of(folder: Path, name: str) -> Iterator[Path]:
+    module = folder / f"{name}.py"
+    if module.is_file():
+        yield module
+    yield from (file for file in (folder / name).rglob("*.py") if file.is_file())
