@@ -247,7 +247,7 @@ class _Writer:
         if mode == "hidden" and step.key not in self.asked:
             return
         if step.key not in self.asked and (same := says_again(step)) in self.numbers:
-            self.numbers[step.key] = self.numbers[str(same)]
+            self.numbers.share(step.key, self.numbers[str(same)])
             return
         if (manner := self.selection.manner(step.key)) is not OWN:
             self.clauses.set_aside(step, manner is TOLD)
@@ -261,7 +261,7 @@ class _Writer:
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
         if again is not None and (sentence := told_by_number(step, nodes, self.level)):
-            self.numbers[step.key] = self.numbers[again]
+            self.numbers.share(step.key, self.numbers[again])
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
@@ -274,7 +274,7 @@ class _Writer:
             beside = self._beside(step, equations) and self._beside(self.before, blocks[-1].groups[-1])
             blocks[-1] = blocks[-1].with_more(display, beside)
             if beside:
-                self.numbers[step.key] = blocks[-1].groups[-1].number
+                self.numbers.share(step.key, blocks[-1].groups[-1].number)
         else:
             before = (*self._clause(blocks), *self.clauses.begun(), *before)
             blocks.extend([Paragraph(before)] if before else [])

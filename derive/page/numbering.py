@@ -34,6 +34,12 @@ class Numbering(dict[str, Number]):
         """The next number."""
         self._last = self[key] = self._next(key)
 
+    def share(self, key: str, number: Number) -> None:
+        """It has the number of another equation, and its own is free for the next."""
+        own, self[key] = self.get(key), number
+        if own == self._last:
+            self._last = max(self.values())
+
     def _next(self, key: str) -> Number:
         if self._like is None:
             return Number(self._last.whole + 1)

@@ -44,3 +44,13 @@ def test_letters_go_on_after_z(behind: int, shown: str) -> None:
 def test_numbers_are_in_the_order_of_the_page() -> None:
     numbers = [Number(0, 1), Number(1), Number(1, 1), Number(1, 2), Number(2)]
     assert all(a < b for a, b in pairwise(numbers))
+
+
+def test_what_shares_a_number_leaves_its_own_to_the_next() -> None:
+    numbers = numbered("ab")
+    numbers.share("b", numbers["a"])
+    numbers.add("c")
+    assert shown(numbers) == {"a": "1", "b": "1", "c": "2"}
+    numbers.share("a", numbers["c"])
+    numbers.add("d")
+    assert shown(numbers)["d"] == "3", "what had been numbered before has not moved"
