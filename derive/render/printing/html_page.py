@@ -31,7 +31,8 @@ from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
 LISTED = 3  # so many parts have contents
-WIDE = 24.0  # characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard
+# Characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard.
+WIDE, IN_TABLE = 24.0, 14.0
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ class HtmlPage:
         sides = [("start", self.notation.side(line.left))] if line.left is not None else []
         sides.append((line.relation, self.notation.result(line.right)))
         shown = (in_pieces(side, inline=True, sign=TEX_OPERATORS[relation]) for relation, side in sides)
-        return Html("<wbr> ".join(_scrolling_pieces(pieces) for pieces in shown))
+        return Html("<wbr> ".join(_scrolling_pieces(pieces, room=IN_TABLE) for pieces in shown))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"
@@ -226,8 +227,9 @@ def _sides(line: Printed, stop: str) -> str:
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:
-    """The sides with their punctuation, which never begins a line."""
-    return "".join([*sides[:-1], sides[-1].removesuffix(CLOSED), _stop(stop), CLOSED])
+    """The sides with their punctuation, which never begins a line: within what scrolls, if the last one does."""
+    closed = CLOSED * (2 if sides[-1].endswith(CLOSED * 2) else 1)
+    return "".join([*sides[:-1], sides[-1].removesuffix(closed), _stop(stop), closed])
 
 
 def _stop(stop: str) -> str:
@@ -239,17 +241,19 @@ CLOSED = "</span>"
 
 def _side(relation: str, side: Layout) -> str:
     """A side of an equation; where it is wide, a line may end before each of its terms."""
+    if relation == "on":
+        return f'<span class="side on">{_scrolling_pieces(in_pieces(side, goes_on=True))}</span>'
     sign = TEX_OPERATORS[relation]
     if width(side) <= WIDE:
         return f'<span class="side">{of_latex(f"{sign} {latex(side)}")}</span>'
     return f'<span class="side">{_scrolling_pieces(in_pieces(side, sign=sign))}</span>'
 
 
-def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "") -> str:
+def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
     """One behind the other as far as there is room; one that is too wide alone can be scrolled by the keyboard too."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
-        f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > WIDE else formula
+        f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula
         for characters, formula in pieces
     )
 
