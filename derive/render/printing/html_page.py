@@ -24,7 +24,7 @@ from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_latex
-from derive.render.printing.lines import Printed, printed_lines
+from derive.render.printing.lines import PAGE_WIDTH, Printed, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.printing.told_once import theorem, told_in
@@ -163,7 +163,7 @@ class HtmlPage:
         return [
             Html("\n".join(self._row(line, "" if line is not printed[-1] else stop) for line in printed))
             for group, stop in zip(display.groups, display.stops, strict=True)
-            for printed in [printed_lines(group, self.notation)]
+            for printed in [printed_lines(group, self.notation, PAGE_WIDTH)]
         ]
 
     def numbers(self, folded: Folded) -> str:
