@@ -16,7 +16,7 @@ from typing import Any
 from derive.building import sealed
 from derive.building.cache import digest, file_digest
 from derive.building.recipe import Recipe, recipe_digest
-from derive.course.names import INDEX, MORE
+from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
@@ -158,4 +158,4 @@ def outputs_of(name: str) -> list[str]:
 
 def outputs_of_paper(paper: str, file: str) -> list[str]:
     """The outputs of a paper of the whole set."""
-    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if paper in MORE else ()))]
+    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if paper in ON_A_PAGE else ()))]

@@ -11,13 +11,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.course.names import MORE, REPORT, SHEET, SOLUTIONS
+from derive.course.names import MORE, ON_A_PAGE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.printing.templates import HTML, filled_html
+from derive.render.printing.told_once import told_once
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
@@ -43,10 +44,6 @@ class Listed:
     @property
     def body(self) -> Tex:
         return Tex(self.problem.papers.get(self.paper, "")) if self.paper in MORE else self.problem.latex
-
-    @property
-    def html_body(self) -> Html:
-        return Html(self.problem.papers.get(f"{self.paper}.html", ""))
 
     @property
     def name(self) -> str:
@@ -82,9 +79,11 @@ def paper_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]
 
 
 def paper_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], paper: str) -> str:
-    """The same for a browser, on one page."""
+    """The same for a browser, on one page, which the sheet has too."""
     kind = phrases(template_folder(root)).labels["documents"][paper]
-    return _page(root, "paper.html.j2", heading, _listed(problems, paper), kind_of_paper=kind)
+    listed = _listed(problems, paper)
+    bodies = told_once([(each.name, each.number, each.problem.papers.get(f"{paper}.html", "")) for each in listed])
+    return _page(root, "paper.html.j2", heading, listed, kind_of_paper=kind, bodies=bodies)
 
 
 def the_document(paper: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], str]:
@@ -123,8 +122,8 @@ def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) ->
 def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:
     folder = template_folder(root)
     font = b64encode((folder / HTML / FONT).read_bytes()).decode()
-    facts = {**_facts(root, heading, problems), "font": font, "documents": heading.papers, **more}
-    return filled_html(folder, template, facts)
+    papers = {"documents": heading.papers, "on_a_page": ON_A_PAGE}
+    return filled_html(folder, template, {**_facts(root, heading, problems), **papers, "font": font, **more})
 
 
 def _alone(problem: Rendered, heading: ProblemSet) -> Listed:

@@ -27,7 +27,7 @@ from derive.building.recipe import EVIDENCE, PAPERS, recipe_digest, recipe_of
 from derive.building.sealed import regular_content
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
-from derive.course.names import INDEX, MORE, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import INDEX, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
@@ -276,7 +276,7 @@ class _Build:
         for name in names:
             problem = f"{self.set_id}/{name}"
             shown = EvidenceShown(self.made_by[EVIDENCE])
-            more = [paper for paper, _ in self.papers if paper in MORE]
+            more = [paper for paper, _ in self.papers if paper in ON_A_PAGE]
             work = partial(
                 rendered, self.root, problem, self.options.detail, self.cache, draws=True, evidence=shown, papers=more
             )
@@ -351,7 +351,7 @@ class _Build:
             numbers = Kept(self.cache, digest("numbers", paper, self.engine.identity))  # one run is enough next time
             document = partial(the_document(paper), self.root, self.heading, parts)
             of_set = partial(paper_page, self.root, self.heading, parts, paper)
-            page = self._page(file, of_set) if paper in MORE else {}
+            page = self._page(file, of_set) if paper in ON_A_PAGE else {}
             rank = FIRST if paper == SOLUTIONS else LAST
             beside = files if paper != REPORT else ()
             self._typeset(file, document, page, beside, rank, numbers if paper not in (SHEET, REPORT) else None)

@@ -14,6 +14,7 @@ SOLUTIONS, SHEET, REPORT = DOCUMENTS = ("solutions", "problems", "report")
 # the points alone.
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 PAPERS = (*DOCUMENTS, *MORE)
+ON_A_PAGE = (SHEET, *MORE)  # those that a browser shows too, each on one page
 INDEX = "index"  # the page of a set for a browser
 
 

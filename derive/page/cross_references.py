@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from derive.course.prose import FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, did_you_mean
@@ -96,3 +96,24 @@ def found_before(steps: Iterable[Step], shown_in: Mapping[str, str], words: Phra
         filled(words.labels["found_before"], {"part": part, "results": joined(items, words.labels["and"])})
         for part, items in found.items()
     ]
+
+
+def each_number_once(nodes: Sequence[Inline], numbers: Mapping[str, Number]) -> tuple[Inline, ...]:
+    """`(4), (5) and (5)` as `(4) and (5)`: of references side by side one to each number."""
+    found: list[Inline] = []
+    for node in nodes:
+        if not _repeats(found[-2:], node, numbers):
+            found.append(node)
+            continue
+        between = found.pop()
+        if len(found) > 2 and isinstance(found[-3], Ref):
+            found[-2] = between
+    return tuple(found)
+
+
+def _repeats(before: Sequence[Inline], node: Inline, numbers: Mapping[str, Number]) -> bool:
+    """Whether the reference before it, with a comma or a word between them, has the same number."""
+    match (*before, node):
+        case (Ref(one), Text(between), Ref(other)):
+            return len(between.split()) == 1 and numbers[one] == numbers[other]
+    return False

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from derive.page.chain_lines import ChainLine, Equations
+from derive.page.cross_references import each_number_once
 from derive.page.numbering import Number
 from derive.page.tree import Block, Display, Document, Folded, Paragraph, PartPage
 
@@ -15,12 +16,17 @@ Sentence = tuple[Block, ...]
 def with_details(document: Document, full: Document) -> Document:
     """A page with the lines that `full`, of the same problem with the same numbers, has besides."""
     lines = {group.key: group.lines for part in document.parts for group in _groups(part.blocks)}
+    numbers = {**full.numbers, **document.numbers}
     merged = {part.label: _merged(part, document.numbers, lines) for part in full.parts}
+    behind = {
+        label: {key: tuple(_naming_once(block, numbers) for block in blocks) for key, blocks in each.items()}
+        for label, each in merged.items()
+    }
     parts = tuple(
-        replace(part, blocks=_placed(part.blocks, merged[part.label])) if part.shown else part
+        replace(part, blocks=_placed(part.blocks, behind[part.label])) if part.shown else part
         for part in document.parts
     )
-    return replace(document, parts=parts, numbers={**full.numbers, **document.numbers})
+    return replace(document, parts=parts, numbers=numbers)
 
 
 def _merged(
@@ -45,6 +51,19 @@ def _merged(
             if more:
                 found.setdefault(at, []).append(replace(display, groups=more, end="."))
     return {key: tuple(blocks) for key, blocks in found.items()}
+
+
+def _naming_once(block: Block, numbers: Mapping[str, Number]) -> Block:
+    """Where two equations of the full page share a number here, it is named once."""
+    if isinstance(block, Paragraph):
+        return Paragraph(each_number_once(block.nodes, numbers))
+    if not isinstance(block, Display):
+        return block
+    groups = (
+        replace(group, lines=tuple(replace(l, reason=each_number_once(l.reason, numbers)) for l in group.lines))
+        for group in block.groups
+    )
+    return replace(block, groups=tuple(groups))
 
 
 def _has_more(full: Sequence[ChainLine], shown: Sequence[ChainLine]) -> bool:

@@ -13,7 +13,7 @@ from derive.course.problem_set import problem_set
 from derive.render.rendered import Rendered
 from tests.courses import course_in, rendered_once
 
-VOID = {"meta", "br", "hr", "img", "link", "mspace", "path", "input"}
+VOID = {"meta", "br", "hr", "img", "link", "mspace", "path", "input", "wbr"}
 
 
 class Tags(HTMLParser):

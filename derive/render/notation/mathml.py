@@ -21,13 +21,16 @@ def mathml(layout: Layout, *, inline: bool = False) -> Html:
     return of_latex(latex(layout, inline=inline), inline=inline)
 
 
-def in_pieces(layout: Layout, *, inline: bool = False, sign: str = "") -> list[tuple[float, Html]]:
+def in_pieces(
+    layout: Layout, *, inline: bool = False, sign: str = "", goes_on: bool = False
+) -> list[tuple[float, Html]]:
     """The terms of a sum as formulas of their own, between which a line may end, each with its width in characters.
 
-    A relation stands before the first.
+    Before the first stands a relation, or the sum goes on from another line.
     """
     first, *others = latex_of_terms(layout, inline=inline)
-    formulas = [of_latex(f"{sign} {first}".strip(), inline=inline), *(_going_on(other, inline) for other in others)]
+    begun = _going_on(first, inline) if goes_on else of_latex(f"{sign} {first}".strip(), inline=inline)
+    formulas = [begun, *(_going_on(other, inline) for other in others)]
     return list(zip(map(width, terms_of(layout)), formulas, strict=True))
 
 

@@ -6,11 +6,11 @@ another where the window is narrow; what is still too wide scrolls within its ow
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
 
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
@@ -18,18 +18,21 @@ from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.theorems import alone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_latex
-from derive.render.printing.lines import Printed, printed_lines
+from derive.render.printing.lines import PAGE_WIDTH, Printed, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
+from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
-WIDE = 24.0  # characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard
+LISTED = 3  # so many parts have contents
+# Characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard.
+WIDE, IN_TABLE = 24.0, 14.0
 
 
 @dataclass(frozen=True)
@@ -63,8 +66,11 @@ class HtmlPage:
         top: int = 1,
     ):
         """`top` is the level of the heading that it stands below."""
-        self.document, self.words, self.notation, self.rubric = alone(document), words, notation, rubric or {}
         self.alone = top == 1
+        self.document = alone(document) if self.alone else document
+        self.words, self.notation, self.rubric = words, notation, rubric or {}
+        self._within = "" if self.alone else f"{document.id.rpartition('/')[2]}-"
+        self._shown = {number for part in self.sections() for number in _numbers_of(part.blocks)}
         self.begin, self.end = Html(f"<h{top + 1}>"), Html(f"</h{top + 1}>")
         self._placed: set[Number] = set()
         self.drawings = {name: content for name, content in drawings if name.endswith(".svg")}
@@ -87,7 +93,7 @@ class HtmlPage:
         sides = [("start", self.notation.side(line.left))] if line.left is not None else []
         sides.append((line.relation, self.notation.result(line.right)))
         shown = (in_pieces(side, inline=True, sign=TEX_OPERATORS[relation]) for relation, side in sides)
-        return Html("<wbr> ".join(_scrolling_pieces(pieces) for pieces in shown))
+        return Html("<wbr> ".join(_scrolling_pieces(pieces, room=IN_TABLE) for pieces in shown))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"
@@ -124,10 +130,31 @@ class HtmlPage:
                 return of_latex(unit_latex(text), inline=True)
             case Ref(key):
                 number = self.document.numbers[key]
-                return f'<a href="#{_anchor(number)}">({number})</a>'
+                return f'<a href="#{self._anchor(number)}">({number})</a>' if number in self._shown else f"({number})"
             case ProblemRef(of, text):
-                return f'<a href="{escape(of.rpartition("/")[2])}.html">{escape(text)}</a>'
+                name = escape(of.rpartition("/")[2])
+                return f'<a href="{f"{name}.html" if self.alone else f"#{name}"}">{escape(text)}</a>'
+            case ToldOnce(name, nodes, again):
+                return theorem(name, self.inline(nodes), self.inline(again))
+            case ToldIn(problem):
+                return told_in(problem)
         return ""
+
+    def _anchor(self, number: Number) -> str:
+        """Where an equation stands; on a page of several problems each has its own."""
+        return f"{self._within}eq-{number}"
+
+    def place(self, part: PartPage) -> str:
+        """What leads to a part or to the limiting cases."""
+        return f"{self._within}part-{part.label}" if part.label else f"{self._within}limits"
+
+    def contents(self) -> Sequence[PartPage]:
+        """What a page of several parts lists at its head."""
+        return self.sections() if self.alone and len(self.sections()) >= LISTED else ()
+
+    def listed(self, part: PartPage) -> Html:
+        """What a part asks, within a link: nothing in it leads elsewhere."""
+        return Html(re.sub(r"</?(?:a|span|wbr)\b[^>]*>", "", self.inline(part.ask)))
 
     # --- equations ---------------------------------------------------------------------------------------------------
 
@@ -136,7 +163,7 @@ class HtmlPage:
         return [
             Html("\n".join(self._row(line, "" if line is not printed[-1] else stop) for line in printed))
             for group, stop in zip(display.groups, display.stops, strict=True)
-            for printed in [printed_lines(group, self.notation)]
+            for printed in [printed_lines(group, self.notation, PAGE_WIDTH)]
         ]
 
     def numbers(self, folded: Folded) -> str:
@@ -156,7 +183,7 @@ class HtmlPage:
         why = f'<span class="why">{self.inline(line.reason)}</span>' if line.reason else ""
         number = "" if line.number is None else f'<span class="number">({line.number})</span>'
         beside = f'<span class="beside">{why}{number}</span>' if why or number else ""
-        anchor = "" if line.number is None or not self._is_first(line.number) else f' id="{_anchor(line.number)}"'
+        anchor = "" if line.number is None or not self._is_first(line.number) else f' id="{self._anchor(line.number)}"'
         return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
@@ -184,21 +211,29 @@ class HtmlPage:
 
 def _sides(line: Printed, stop: str) -> str:
     """Relations and right sides, each of which may begin a line of its own; those that are the result have a frame."""
-    end = f'<span class="stop">{escape(stop)}</span>' if stop else ""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
-    shown = [_side(*side) for side in line.sides[:at]]
+    shown: list[str] = []
+    for relation, side in line.sides[:at]:
+        if relation == "next":
+            shown = [_ending(shown, ","), '<span class="next"></span>']
+        shown.append(_side("start" if relation == "next" else relation, side))
     if at == len(line.sides):
-        return _ending(shown, end)
+        return _ending(shown, stop)
     (relation, first), *others = line.sides[at:]
     sign = TEX_OPERATORS[relation].strip()
     framed = "".join([_side("start", first), *(_side(*other) for other in others)])
     begun = of_latex(sign) if sign else ""
-    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span>{end}</span>'])
+    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span>{_stop(stop)}</span>'])
 
 
-def _ending(sides: Sequence[str], end: str) -> str:
-    """The sides with their punctuation, which never begins a line."""
-    return "".join([*sides[:-1], sides[-1].removesuffix(CLOSED) + end + CLOSED])
+def _ending(sides: Sequence[str], stop: str) -> str:
+    """The sides with their punctuation, which never begins a line: within what scrolls, if the last one does."""
+    closed = CLOSED * (2 if sides[-1].endswith(CLOSED * 2) else 1)
+    return "".join([*sides[:-1], sides[-1].removesuffix(closed), _stop(stop), closed])
+
+
+def _stop(stop: str) -> str:
+    return f'<span class="stop">{escape(stop)}</span>' if stop else ""
 
 
 CLOSED = "</span>"
@@ -206,20 +241,36 @@ CLOSED = "</span>"
 
 def _side(relation: str, side: Layout) -> str:
     """A side of an equation; where it is wide, a line may end before each of its terms."""
+    if relation == "on":
+        return f'<span class="side on">{_scrolling_pieces(in_pieces(side, goes_on=True))}</span>'
     sign = TEX_OPERATORS[relation]
     if width(side) <= WIDE:
         return f'<span class="side">{of_latex(f"{sign} {latex(side)}")}</span>'
     return f'<span class="side">{_scrolling_pieces(in_pieces(side, sign=sign))}</span>'
 
 
-def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "") -> str:
+def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
     """One behind the other as far as there is room; one that is too wide alone can be scrolled by the keyboard too."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
-        f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > WIDE else formula
+        f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula
         for characters, formula in pieces
     )
 
 
-def _anchor(number: Any) -> str:
-    return f"eq-{number}"
+def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
+    """The equations that stand there, folded or not."""
+    for block in blocks:
+        if isinstance(block, Folded):
+            yield from _numbers_of(block.blocks)
+        elif isinstance(block, Display):
+            yield from (group.number for group in block.groups)
+
+
+class HtmlQuestions(HtmlPage):
+    """The same without what is derived: an equation is referred to by the part that asks for it."""
+
+    def _node(self, node: Inline) -> str:
+        if isinstance(node, Ref):
+            return escape(f"{self.words.labels['part']} ({self.document.shown_in.get(node.key, '')})")
+        return super()._node(node)

@@ -14,7 +14,7 @@ from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
-LINE_WIDTH, TEXT_WIDTH = 74.0, 60.0  # of a line on paper, and of one on a screen
+LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # of a line on paper, of one in a browser and of one of text
 LINE_INDENT = 4.0  # of a line that goes on
 GAP = 5.0  # between two equations on one row
 MOST_SIDES = 4  # of one line

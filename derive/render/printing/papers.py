@@ -1,16 +1,17 @@
-"""The papers that are made where they are asked for, in TeX and HTML: a problem's key, its hints and its rubric."""
+"""The papers that are made where they are asked for, in TeX and HTML: a problem's key, its hints and its rubric; and
+the sheet in HTML."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
-from derive.course.names import HINTS, KEY, RUBRIC
+from derive.course.names import HINTS, KEY, RUBRIC, SHEET
 from derive.page.rubric import Credit
 from derive.page.tree import Document
 from derive.page.wording import Phrases
 from derive.render.notation.notation import Notation
-from derive.render.printing.html_page import HtmlPage
+from derive.render.printing.html_page import HtmlPage, HtmlQuestions
 from derive.render.printing.latex_page import LatexPage
 from derive.render.printing.templates import filled_html, filled_template
 from derive.render.rendered import Files
@@ -30,6 +31,9 @@ def paper_fragments(
     """Each paper by its name, and as HTML by `name.html`; `pages` yields the page that a paper is made of."""
     found: dict[str, str] = {}
     for paper in wanted:
+        if paper == SHEET:
+            questions = HtmlQuestions(pages(paper), words, notation, drawings, top=2)
+            found[f"{paper}.html"] = filled_html(folder, "questions.html.j2", {"page": questions})
         if paper not in TEMPLATES:
             continue
         document, template = pages(paper), TEMPLATES[paper]

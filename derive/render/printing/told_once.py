@@ -1,0 +1,43 @@
+"""Theorems on a page that has several problems: the first that uses one tells it, and the others say which has.
+
+The problems of a page are printed apart, so each has the words for both, between marks that no page shows.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from functools import partial
+from html import escape
+
+from derive.render.rendered import Html
+
+FIRST, LATER, END, TOLD_IN = "<!--theorem {}-->", "<!--or again-->", "<!--end of theorem-->", "<!--told in {}-->"
+MARKED = re.compile(
+    FIRST.format("(?P<name>[^>]*)") + "(?P<told>.*?)" + LATER + "(?P<again>.*?)" + END + "(?P<rest> *</p>)?", re.DOTALL
+)
+
+
+def theorem(name: str, told: str, again: str) -> str:
+    """A theorem at the head of a paragraph: one of its own, or a sentence before the others."""
+    return f"{FIRST.format(escape(name))}{told}{LATER}{again}{END}"
+
+
+def told_in(problem: str) -> str:
+    """Where the problem stands that has told it: `Problem` is followed by its number."""
+    return TOLD_IN.format(escape(problem))
+
+
+def told_once(problems: Iterable[tuple[str, str, str]]) -> list[Html]:
+    """The problems of a page, each of a name and a number, with every theorem where it is first used."""
+    first: dict[str, tuple[str, str]] = {}
+
+    def chosen(match: re.Match[str], name: str, number: str) -> str:
+        place, known = first.setdefault(match["name"], (name, number))
+        ends = match["rest"] or ""
+        if place == name:
+            return match["told"] + (ends or "</p>\n<p>")
+        link = rf'<a href="#{place}">\1 {known}</a>'
+        return re.sub(TOLD_IN.format("([^>]*?)"), link, match["again"]) + (ends or " ")
+
+    return [Html(MARKED.sub(partial(chosen, name=name, number=number), body)) for name, number, body in problems]
