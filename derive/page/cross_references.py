@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from derive.course.prose import FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, did_you_mean
 from derive.page.numbering import Number
-from derive.page.wording import FigureRef, Inline, Phrases, ProblemRef, Ref, filled, joined, name_of
+from derive.page.wording import FigureRef, Inline, Phrases, ProblemRef, Ref, Text, filled, joined, name_of
 from derive.steps.step import Step
 
 
