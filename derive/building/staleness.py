@@ -16,10 +16,12 @@ from derive.building.manifest import Manifest
 from derive.building.named import check_asked, set_folder, set_names
 from derive.building.recipe import DETAIL, EVIDENCE, MODULES, PAPERS, Recipe, recipe_of
 from derive.building.tex import chosen_engine
+from derive.course.names import NAME
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of what builds write
 MOST = 8  # reasons that are told of one output
+_SUCH_AS = "name a page such as `build/hw9/block.pdf`, a problem or a set"
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,8 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
     """The set and the outputs that a path below build/, a problem's id or a set's name stands for."""
     built = _below_build(root, what)
     set_id, _, name = built or what.partition("/")
+    if not NAME.fullmatch(set_id):
+        raise Misused(Complaint("no-such-output", f"no build makes `{what}`", help=_SUCH_AS))
     if not name:
         check_asked(root, set_id)
         return set_id, ()
@@ -65,7 +69,7 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
     if stem in manifest.documents:
         check_asked(root, set_id)
     elif built and Path(name).suffix.removeprefix(".") not in SUFFIXES:
-        help_line = did_you_mean(name, sorted(known)) or "name a page such as `build/hw9/block.pdf`, or a problem"
+        help_line = did_you_mean(name, sorted(known)) or _SUCH_AS
         raise Misused(Complaint("no-such-output", f"no build makes `{what}`", help=help_line))
     else:
         check_asked(root, set_id, [stem])
@@ -74,11 +78,12 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
     """Set, stroke, file: of a path as it is named from here, or from the root."""
-    for base in (Path.cwd(), root):
-        relative = os.path.relpath(os.path.normpath(base / what), root / "build")
-        parts = Path(relative).parts
-        if parts[0] != ".." and 0 < len(parts) <= 2 and parts[0] in set_names(root):
-            return parts[0], "/", parts[1] if len(parts) == 2 else ""
+    found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
+    below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
+    of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]
+    if of_a_set or below:  # a folder of no set is told as one
+        set_id, name = (*(of_a_set or below)[0], "", "")[:2]
+        return set_id, "/", name
     return None
 
 

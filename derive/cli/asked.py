@@ -43,8 +43,12 @@ def root_of(arguments: argparse.Namespace) -> Path:
 
 def problem_id_of(text: str) -> str:
     """The id, also where a path was completed by the shell: problems/hw9/block.yaml, with a topic or without."""
-    text = text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
-    return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", text)
+    return re.sub(r"^([^/]+)/[^/]+/([^/]+)$", r"\1/\2", new_id_of(text))
+
+
+def new_id_of(text: str) -> str:
+    """The id of a problem that there is not yet, which is in no topic."""
+    return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 
 
 def warn_of_names(root: Path) -> None:

@@ -70,7 +70,7 @@ def parser_of_commands() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help=argparse.SUPPRESS)
     parser.add_argument("--root", metavar="FOLDER", help=argparse.SUPPRESS)
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="derive")
 
     def command(name: str, help: str, operands: str = "", example: str = "") -> argparse.ArgumentParser:
         sub = commands.add_parser(
@@ -188,8 +188,9 @@ def _count(text: str) -> int:
 
 def _papers(text: str) -> tuple[str, ...]:
     papers = tuple(text.split(","))
-    if not set(papers) <= set(PAPERS):
-        raise ValueError(text)
+    if odd := [paper for paper in papers if paper not in PAPERS]:
+        message = f"there is no paper `{odd[0]}`: name some of {', '.join(PAPERS)}, with commas between them"
+        raise argparse.ArgumentTypeError(message)
     return papers
 
 
@@ -201,4 +202,4 @@ def _port(text: str) -> int:
 
 # argparse names the type in its message
 _positive.__name__, _port.__name__ = "time limit", "port"
-_count.__name__, _papers.__name__ = "count", "list of papers"
+_count.__name__ = "count"

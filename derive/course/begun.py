@@ -48,10 +48,10 @@ def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str
 
 
 def _check_names(root: Path, set_id: str, name: str) -> None:
-    wrong = next((each for each in (set_id, name) if not NAME.fullmatch(each)), None)
-    if wrong is not None:
+    if not NAME.fullmatch(set_id) or not NAME.fullmatch(name):
         help_line = "such as `hw10/wheel`: letters, digits, `-` and `_`"
-        raise Misused(Complaint("new-name", f"`{wrong}` is no name of a set and a problem", help=help_line))
+        message = f"`{set_id}{'/' if name else ''}{name}` is no name of a set and a problem"
+        raise Misused(Complaint("new-name", message, help=help_line))
     if name in (*PAPERS, INDEX, "set", "reference"):
         message = f"a problem cannot be called `{name}`, for another file of the set has that name"
         raise Misused(Complaint("new-name", message, help="choose another name"))

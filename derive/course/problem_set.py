@@ -125,11 +125,13 @@ def topic_of(path: str) -> str:
 def path_of(root: Path, problem_id: str) -> str:
     """The problem's file, relative to the root, if there is such a problem."""
     paths = problem_paths(root)
-    if problem_id not in paths:
-        raise Misused(
-            Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=_meant(problem_id, list(paths)))
-        )
-    return paths[problem_id]
+    if problem_id in paths:
+        return paths[problem_id]
+    message, help_line = f"there is no problem `{problem_id}`", _meant(problem_id, list(paths))
+    own = sorted(each for each in paths if each.startswith(f"{problem_id}/")) if problem_id in set_ids(root) else []
+    if own:
+        message, help_line = f"`{problem_id}` is a set", f"name a problem of it, such as `{own[0]}`"
+    raise Misused(Complaint("no-such-problem", message, help=help_line))
 
 
 def _meant(problem_id: str, known: list[str]) -> str:

@@ -304,7 +304,7 @@ class _Reader:
                     self.refuse("documents", "a second document begins here", event, 3, "keep one document in a file")
                     break
                 if isinstance(event, yaml.NodeEvent):
-                    root = self.node(event, 1)
+                    root = _nothing_is_empty(self.node(event, 1))
         except yaml.MarkedYAMLError as error:
             complaint = _syntax_complaint(error, self.source)
             # An alias or a tag that was refused leaves the rest of its line unreadable: that is one fault, not two.
@@ -397,6 +397,8 @@ def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
         return syntax("this quotation mark is never closed", None, opening)
     if "unknown escape" in problem:
         return syntax(f"`\\{found}` has no meaning in double quotes", "use single quotes", max(0, index - 1))
+    if "flow" in context and found == "?":
+        return syntax("a `?` ends what stands within brackets", "put the text in quotes")
     if "flow" in context and ("expected ','" in problem or "stream end" in problem):
         opening = max(source.text.rfind(bracket, 0, opening + 1) for bracket in "[{")
         bracket, closing = ("[", "]") if source.text[opening] == "[" else ("{", "}")

@@ -164,7 +164,9 @@ def test_of_very_many_reasons_the_first_are_told(course: Course) -> None:
         ("build/hw1/on.pdf", "no-such-problem"),
         ("hw1/on", "no-such-problem"),
         ("hw2", "no-such-set"),
-        ("/etc/passwd", "no-such-set"),
+        ("/etc/passwd", "no-such-output"),
+        ("build", "no-such-output"),
+        ("build/hw2/one.pdf", "no-such-set"),
     ],
 )
 def test_what_no_build_makes_is_refused(course: Course, what: str, code: str) -> None:

@@ -42,6 +42,46 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
     assert "fake_course.py" in capfd.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("solve hw1/onne", "there is no problem `hw1/onne`"),
+        ("solve one", "did you mean `hw1/one`?"),
+        ("solve hw1", "`hw1` is a set"),
+        ("explain hw1", "name a problem of it, such as `hw1/one`"),
+        ("solve hw1/one --format wodr", "derive solve: error: argument --format: invalid choice: 'wodr'"),
+        ("build hw1 --only hits", "argument --only: there is no paper `hits`: name some of solutions, problems,"),
+        ("build hw1 hw2", "there is no set `hw2`"),
+        ("check hw2", "there is no set `hw2`"),
+        ("check hw1/one hw1/onne", "there is no problem `hw1/onne`"),
+        ("list --topic tops", "topics are folders within a set, and no set has any"),
+        ("why nowhere.pdf", "no build makes `nowhere.pdf`"),
+        ("why build", "no build makes `build`"),
+        ("why build/hw2/one.pdf", "there is no set `hw2`"),
+        ("why /etc", "name a page such as `build/hw9/block.pdf`, a problem or a set"),
+        ("new hw1/one/two", "`hw1/one/two` is no name of a set and a problem"),
+        ("new one", "`one` is no name of a set and a problem"),
+        ("new ../one", "a set cannot be called `..`"),
+        ("new build/one", "`make` has a target of that name"),
+        ("new hw1/three --like hw1/onne", "there is no problem `hw1/onne`"),
+        ("preview hw1/onne", "did you mean `hw1/one`?"),
+        ("clean hw2", "there is no set `hw2`"),
+    ],
+)
+def test_a_slip_is_met_with_one_message_and_nothing_is_done(
+    course: Course, capfd: pytest.CaptureFixture[str], asked: str, told: str
+) -> None:
+    before = {*course.root.rglob("*")}
+    try:
+        code = main(asked.split())
+    except SystemExit as error:
+        code = error.code  # type: ignore[assignment]
+    output, complaint = capfd.readouterr()
+    assert (code, output) == (2, "")
+    assert told in complaint and "Traceback" not in complaint and complaint.count("error") == 1
+    assert {*course.root.rglob("*")} == before
+
+
 def test_a_reader_that_has_had_enough_is_no_error(course: Course) -> None:
     course.problem("one", "x" * 500_000)
     piped = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}

@@ -49,6 +49,23 @@ def test_scalars_are_text_and_never_numbers_or_booleans() -> None:
     ]
 
 
+@pytest.mark.parametrize("text", ["", "null", "~", "# a comment\n", "---\n"])
+def test_a_file_that_says_nothing_is_empty(text: str) -> None:
+    assert codes(text) == ["empty"]
+
+
+def test_what_stands_for_nothing_is_as_nothing() -> None:
+    assert [scalar(f"a: {text}\n").left_empty for text in ("", "null", "~", "Null", "NULL")] == [True] * 5
+    assert [scalar(f"a: {text}\n").left_empty for text in ("nil", "none", "''", '"null"', "' '")] == [False] * 5
+    assert list(tree("null: 1").get("null").text) == ["1"]  # type: ignore[union-attr]
+
+
+def test_a_question_mark_within_brackets_asks_for_quotes() -> None:
+    (complaint,) = complaints("parts:\n- {ask: How fast?, answer: speed}\n")
+    assert (complaint.message, complaint.help) == ("a `?` ends what stands within brackets", "put the text in quotes")
+    assert complaint.place and (complaint.place.line, complaint.place.column) == (2, 17)
+
+
 def test_every_node_knows_its_line_and_column() -> None:
     node = tree("a: 1\nb:\n  - x\n  - c: yy\n")
     items = node.get("b")

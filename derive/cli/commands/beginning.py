@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import argparse
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.asked import new_id_of, root_of
+from derive.errors import Complaint, Misused
 
 
 def new(arguments: argparse.Namespace) -> int:
     """Write the files of a problem that builds at once, and say what to do next."""
     from derive.building.files import shown_path, write
+    from derive.building.named import wrong_set_name
     from derive.course.begun import begun
     from derive.course.editors import SCHEMAS, schema_folder
     from derive.page.template import template_folder
 
     root = root_of(arguments)
     schemas = schema_folder(root)
-    problem_id = problem_id_of(arguments.id)
+    problem_id = new_id_of(arguments.id)
+    set_id = problem_id.partition("/")[0]
+    if set_id and (why := wrong_set_name(set_id)):
+        raise Misused(Complaint("new-name", f"a set cannot be called `{set_id}`: {why}", help="such as `hw10/wheel`"))
     files = begun(root, template_folder(root), schemas, problem_id, arguments.like)
     if not (schemas / "problem.schema.json").exists():
         for name, made in SCHEMAS.items():

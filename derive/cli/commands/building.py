@@ -39,7 +39,7 @@ class Voice:
 
 
 def build(arguments: argparse.Namespace) -> int:
-    from derive.building.named import set_names
+    from derive.building.named import check_asked, set_names
     from derive.building.sets import Options, built_set
 
     root = root_of(arguments)
@@ -59,6 +59,8 @@ def build(arguments: argparse.Namespace) -> int:
         raise Misused(
             Complaint("no-such-set", "there is no set to build", help="a set is a folder of `problems` with a set.yaml")
         )
+    for name, only in asked.items():
+        check_asked(root, name, only)
     voice = Voice(arguments.quiet, arguments.verbose)
     if arguments.watch:
         return _watched(root, asked, options, voice)

@@ -24,14 +24,17 @@ if TYPE_CHECKING:
 def check(arguments: argparse.Namespace) -> int:
     from derive.building.alone import reports
     from derive.building.loaded import load
-    from derive.building.named import set_names
+    from derive.building.named import check_asked, set_names
     from derive.building.solution import rendered
     from derive.building.workers import Crew, job_of, under_way
     from derive.course.problem_set import ids_in_order
 
     root = root_of(arguments)
     warn_of_names(root)
-    ids = _selected([problem_id_of(name) for name in arguments.ids], ids_in_order(root), set_names(root))
+    asked = [problem_id_of(name) for name in arguments.ids]
+    for set_id, stroke, name in (each.partition("/") for each in asked):
+        check_asked(root, set_id, [name] if stroke else ())
+    ids = _selected(asked, ids_in_order(root), set_names(root))
     if len(ids) > 1:
         load(root, draws=False)
     wanted = TYPESET if arguments.report else ()

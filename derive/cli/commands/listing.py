@@ -19,7 +19,8 @@ def list_problems(arguments: argparse.Namespace) -> int:
     topics = {problem_id: topic_of(path) for problem_id, path in sorted(problem_paths(root).items())}
     if arguments.topic and arguments.topic not in topics.values():
         known = sorted({topic for topic in topics.values() if topic})
-        help_line = did_you_mean(arguments.topic, known) or f"the topics are {', '.join(known) or 'none'}"
+        every = f"the topics are {', '.join(known)}" if known else "topics are folders within a set, and no set has any"
+        help_line = did_you_mean(arguments.topic, known) or every
         raise Misused(Complaint("no-such-topic", f"there is no topic `{arguments.topic}`", help=help_line))
     ids = [problem for problem, topic in topics.items() if arguments.topic in (None, topic)]
     found = ((problem, topics[problem], *told) for problem, told in zip(ids, _headlines(root, ids), strict=True))

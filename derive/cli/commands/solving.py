@@ -24,10 +24,11 @@ def solve(arguments: argparse.Namespace) -> int:
     from derive.building.solution import rendered
     from derive.building.workers import done, job_of
     from derive.course.names import EvidenceShown
-    from derive.course.problem_set import problem_set
+    from derive.course.problem_set import path_of, problem_set
 
     root, problem_id, limit = root_of(arguments), problem_id_of(arguments.id), arguments.time_limit
     check_output(arguments.output, root)
+    path_of(root, problem_id)
     set_id, form = problem_id.partition("/")[0], arguments.format
     beside = formats()[form].drawings if form in formats() and arguments.output not in (None, "-") else ""
 
