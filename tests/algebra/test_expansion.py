@@ -7,6 +7,7 @@ from sympy import Expr, Integer, Rational, atan, cos, cosh, exp, log, oo, sin, s
 
 from derive.algebra.equality import equal
 from derive.algebra.expansion import (
+    Approach,
     BeginsBeyond,
     Expansion,
     FirstOrder,
@@ -96,3 +97,7 @@ def test_an_expansion_that_begins_beyond_its_order_is_zero_to_it() -> None:
 
 def test_to_first_order_products_of_what_is_small_vanish() -> None:
     assert explicit(FirstOrder((a + x**2) * sin(b) + 3 * x * b - x * cos(b), x, b)) == a * b - x
+
+
+def test_where_a_letter_goes_is_itself_when_it_is_carried_out() -> None:
+    assert explicit(Approach(a / b, Integer(0))) == Approach(a / b, Integer(0))

@@ -10,8 +10,9 @@ import pytest
 from derive.algebra.expressions import scalar
 from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, Place
-from derive.page.cross_references import References, found_before
-from derive.page.wording import FigureRef, Math, Phrases, ProblemRef, Ref, phrases
+from derive.page.cross_references import References, each_number_once, found_before
+from derive.page.numbering import Number
+from derive.page.wording import FigureRef, Inline, Math, Phrases, ProblemRef, Ref, Text, phrases
 from tests.courses import ROOT
 
 HERE = Place("problems/hw9/block.yaml", 7, 3, "<<eq torque>>")
@@ -94,3 +95,22 @@ def test_what_earlier_parts_have_found_is_told_part_by_part(words: Phrases) -> N
     names = [[node.expr.name for node in nodes if isinstance(node, Math)] for nodes in sentences]
     assert names == [["T", "U"], ["L"]]
     assert [node.key for node in sentences[1] if isinstance(node, Ref)] == ["L"]
+
+
+@pytest.mark.parametrize(
+    ("said", "once"),
+    [
+        (["from ", "x", " and ", "y"], ["from ", "x"]),
+        (["from ", "w", ", ", "x", " and ", "y"], ["from ", "w", " and ", "x"]),
+        (["x", ", ", "y", " and ", "z", "."], ["x", " and ", "z", "."]),
+        (["x", " follows from ", "y"], ["x", " follows from ", "y"]),
+        (["w", " and ", "z"], ["w", " and ", "z"]),
+    ],
+)
+def test_equations_that_share_a_number_are_named_once(said: list[str], once: list[str]) -> None:
+    numbers = {"w": Number(4), "x": Number(5), "y": Number(5), "z": Number(6)}
+
+    def nodes(words: list[str]) -> tuple[Inline, ...]:
+        return tuple(Ref(word) if word in numbers else Text(word) for word in words)
+
+    assert each_number_once(nodes(said), numbers) == nodes(once)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 
-from derive.building.set_document import index_page, problem_page
+from derive.building.set_document import index_page, paper_page, problem_page
+from derive.building.solution import rendered
+from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
 from derive.render.rendered import Rendered
-from tests.courses import course_in, rendered_once
+from tests.courses import course_in, kept, rendered_once
 
 VOID = {"meta", "br", "hr", "img", "link", "mspace", "path", "input", "wbr"}
 
@@ -101,4 +104,47 @@ def test_the_page_of_a_set_leads_to_its_problems_and_to_what_can_be_printed(tmp_
     solved = rendered_once(root, "hw9/block", draws=True, only=("html",))
     tags = read(index_page(root, problem_set(root, "hw9"), [solved]))
     assert (tags.open, tags.faults) == ([], [])
-    assert {"block.html", "solutions.pdf", "problems.pdf", "report.pdf"} <= set(tags.links)
+    assert {"block.html", "solutions.pdf", "problems.pdf", "problems.html", "report.pdf"} <= set(tags.links)
+
+
+@pytest.mark.parametrize("paper", [SHEET, *MORE])
+def test_papers_are_well_formed_and_each_place_of_them_is_there_once(tmp_path: Path, paper: str) -> None:
+    parts = []
+    for problem in ("block", "top"):
+        root = course_in(tmp_path / problem, problem=problem)
+        parts.append(rendered(root, f"hw9/{problem}", cache=kept(), only=(), papers=(paper,)))
+    tags = read(paper_page(root, problem_set(root, "hw9"), parts, paper))
+    assert (tags.open, tags.faults) == ([], [])
+    assert len(tags.ids) == len(set(tags.ids)) and {"block", "top"} <= set(tags.ids)
+    assert {link[1:] for link in tags.links if link.startswith("#")} <= set(tags.ids)
+    assert tags.headings[0] == 1 and all(b <= a + 1 for a, b in zip(tags.headings, tags.headings[1:], strict=False))
+
+
+def test_a_page_of_several_parts_leads_to_each_of_them(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path)
+    tags = read(page)
+    assert [link for link in tags.links if link.startswith("#part")] == ["#part-a", "#part-b", "#part-c", "#part-d"]
+    few, _ = page_of(tmp_path / "few", "cone")
+    assert "#part-a" not in read(few).links, "two parts need no list"
+
+
+def test_of_many_problems_a_page_leads_to_the_next_ones_and_to_the_ends(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    solved = rendered_once(root, "hw9/block", only=("html",))
+    heading = problem_set(root, "hw9")
+    many = replace(heading, problems=(*(f"hw9/p{i}" for i in range(20)), *heading.problems, "hw9/q", "hw9/r", "hw9/s"))
+    links = read(problem_page(root, solved, many)).links
+    assert [link for link in links if link.endswith(".html")][1:] == [
+        "p0.html",
+        "p19.html",
+        "block.html",
+        "q.html",
+        "s.html",
+    ]
+
+
+def test_a_line_may_end_before_a_term_of_a_wide_side_and_never_before_its_punctuation(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path, "slab")
+    rows = re.findall(r'<div class="row".*?</div>', page, re.DOTALL)
+    assert any('<wbr><math displaystyle="true"><mo form="infix">' in row for row in rows)
+    assert not re.search(r'class="side[^"]*">(?:(?!</span>).)*</span><span class="stop">', page)

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from derive.building.set_document import index_page, problem_page
+from derive.building.set_document import index_page, paper_page, problem_page
+from derive.building.solution import rendered
+from derive.course.names import ON_A_PAGE, RUBRIC, SHEET
 from derive.course.problem_set import problem_set
 from tests.browser import barriers, browser_page, overflow
-from tests.courses import course_in, rendered_once
+from tests.courses import course_in, kept
+from tests.every_page import faults
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -28,10 +32,18 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     solved = []
     for name in PROBLEMS:
         root = course_in(folder / name, problem=name)
-        solved.append(rendered_once(root, f"hw9/{name}", draws=True, only=("html",)))
+        solved.append(rendered(root, f"hw9/{name}", cache=kept(), draws=True, only=("html",), papers=papers_of(name)))
         (folder / f"{name}.html").write_text(problem_page(root, solved[-1], problem_set(root, "hw9")))
     (folder / "index.html").write_text(index_page(root, problem_set(root, "hw9"), solved))
-    return {name: (folder / f"{name}.html").as_uri() for name in (*PROBLEMS, "index")}
+    for paper in ON_A_PAGE:
+        having = [each for each in solved if f"{paper}.html" in each.papers]
+        (folder / f"{paper}.html").write_text(paper_page(root, problem_set(root, "hw9"), having, paper))
+    return {name: (folder / f"{name}.html").as_uri() for name in (*PROBLEMS, "index", *ON_A_PAGE)}
+
+
+def papers_of(name: str) -> tuple[str, ...]:
+    """The papers of two problems, and of one alone where every line is on it."""
+    return ON_A_PAGE if name == "block" else (SHEET, RUBRIC) if name == "top" else ()
 
 
 @pytest.fixture(scope="module")
@@ -57,6 +69,20 @@ def test_nothing_is_wider_than_a_phone(pages: dict[str, str], phone: Page, name:
     phone.goto(pages[name])
     phone.evaluate("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
     assert overflow(phone) == 0
+
+
+@pytest.mark.parametrize("name", ON_A_PAGE)
+def test_a_paper_has_no_fault_on_a_phone(pages: dict[str, str], phone: Page, name: str) -> None:
+    assert faults(phone, pages[name]) == []
+
+
+def test_a_fault_is_found(tmp_path: Path, phone: Page) -> None:
+    page = tmp_path / "page.html"
+    wide = '<p style="width: 900px">wide <math style="margin-left: 600px"><mi>x</mi></math></p>'
+    page.write_text(f"<html><body><h1></h1>{wide}<script>fails()</script></body></html>")
+    found = faults(phone, page.as_uri())
+    assert any("fails" in each for each in found) and "out of sight: x" in found
+    assert any("wider" in each for each in found) and any(each.startswith("html-has-lang") for each in found)
 
 
 def test_axe_finds_no_barrier_on_a_phone_in_the_dark(pages: dict[str, str], phone: Page) -> None:

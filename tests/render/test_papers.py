@@ -9,9 +9,10 @@ import pytest
 
 from derive.building.set_document import paper_document, paper_page
 from derive.building.solution import rendered
-from derive.course.names import MORE
+from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
+from derive.render.printing.told_once import told_once
 from derive.render.rendered import Rendered
 from tests.courses import course_in, kept
 
@@ -31,8 +32,16 @@ def test_a_paper_is_there_in_tex_and_in_html(course: Path, solved: Rendered, pap
     heading = problem_set(course, "hw9")
     tex = paper_document(course, heading, [solved], paper)
     page = paper_page(course, heading, [solved], paper)
+    (body,) = told_once([("block", "1", solved.papers[f"{paper}.html"])])
     assert tex.rstrip().endswith(r"\end{document}") and solved.papers[paper] in tex
-    assert page.rstrip().endswith("</html>") and solved.papers[f"{paper}.html"] in page
+    assert page.rstrip().endswith("</html>") and body in page
+
+
+def test_the_sheet_is_a_page_too_and_has_no_answer(course: Path) -> None:
+    sheet = rendered(course, "hw9/block", cache=kept(), papers=[SHEET])
+    page = paper_page(course, problem_set(course, "hw9"), [sheet], SHEET)
+    assert set(sheet.papers) == {"problems.html"} and sheet.papers["problems.html"] in page
+    assert "Find the inertia tensor" in page and 'class="display"' not in page
 
 
 def test_the_key_has_the_numbers_of_the_solutions(solved: Rendered) -> None:

@@ -30,7 +30,7 @@ from derive.render.printing.text_page import closing_title, inline_text
 from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
-LISTED = 3  # so many parts have contents
+LISTED = 3  # so many parts have contents before them
 # Characters that a narrow window has room for; what is wider scrolls, and can be reached by the keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
 
@@ -150,7 +150,7 @@ class HtmlPage:
 
     def contents(self) -> Sequence[PartPage]:
         """What a page of several parts lists at its head."""
-        return self.sections() if self.alone and len(self.sections()) >= LISTED else ()
+        return self.sections() if self.alone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
         """What a part asks, within a link: nothing in it leads elsewhere."""
