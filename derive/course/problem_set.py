@@ -127,11 +127,11 @@ def path_of(root: Path, problem_id: str) -> str:
     paths = problem_paths(root)
     if problem_id in paths:
         return paths[problem_id]
-    message, help_line = f"there is no problem `{problem_id}`", _meant(problem_id, list(paths))
-    own = sorted(each for each in paths if each.startswith(f"{problem_id}/")) if problem_id in set_ids(root) else []
-    if own:
-        message, help_line = f"`{problem_id}` is a set", f"name a problem of it, such as `{own[0]}`"
-    raise Misused(Complaint("no-such-problem", message, help=help_line))
+    if own := sorted(each for each in paths if each.startswith(f"{problem_id}/")):
+        help_line = f"name a problem of it, such as `{own[0]}`"
+        raise Misused(Complaint("no-such-problem", f"`{problem_id}` is a set", help=help_line))
+    help_line = _meant(problem_id, list(paths))
+    raise Misused(Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=help_line))
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
