@@ -21,7 +21,7 @@ def test_build_ends_with_one_line_per_set(course: Course, capfd: pytest.CaptureF
     assert main(["build"]) == 0
     out, err = capfd.readouterr()
     pages = [f"build/hw1/{name}.pdf" for name in ("one", "two", "solutions", "problems", "report")]
-    pages += [f"build/hw1/{name}.html" for name in ("one", "two", "index")]
+    pages += [f"build/hw1/{name}.html" for name in ("one", "two", "index", "problems")]
     said = re.fullmatch(r"hw1: derived 2 of 2 problems, wrote (.*) \(\d+\.\d s\)\n", out)
     assert said
     assert sorted(said[1].split(", ")) == sorted(pages)
