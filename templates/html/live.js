@@ -1,6 +1,8 @@
 // A page that is being written: shown anew as soon as it has changed, at the place where one reads.
 const name = document.querySelector("main").dataset.name;
 const complaints = document.getElementById("complaints");
+const heading = complaints.querySelector("h2");
+const wrong = heading.textContent;
 const events = new EventSource(`/${name}/events`);
 
 function placeOf(main) {
@@ -23,6 +25,7 @@ events.onmessage = (event) => {
   const said = JSON.parse(event.data);
   if (said.main) show(said.main);
   complaints.hidden = said.complaints.length === 0;
+  heading.textContent = document.querySelector("main").innerHTML.trim() ? wrong : heading.dataset.first;
   complaints.querySelector("pre").textContent = said.complaints.join("\n\n");
   document.body.dataset.edition = Number(document.body.dataset.edition || 0) + 1;
 };
