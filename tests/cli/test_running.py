@@ -64,7 +64,6 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
         ("new ../one", "a set cannot be called `..`"),
         ("new build/one", "`make` has a target of that name"),
         ("new hw1/three --like hw1/onne", "there is no problem `hw1/onne`"),
-        ("preview hw1/onne", "did you mean `hw1/one`?"),
         ("clean hw2", "there is no set `hw2`"),
     ],
 )
