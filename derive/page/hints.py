@@ -13,6 +13,7 @@ from typing import Any
 
 from sympy import Basic, Derivative, Integral, MatrixBase, Symbol
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import BLANK, MassIntegral, Partial, Relation, Slope, TimeRate, explicit, rate
 from derive.course.problem import Problem
 from derive.page.chain_lines import ChainLine, Equations
@@ -140,7 +141,12 @@ class _Hints:
     def _tells(self, nodes: Sequence[Inline]) -> bool:
         """Whether the words themselves have an answer in them."""
         formulas = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
-        return any(_of(formula) in self.answers for formula in formulas)
+        return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
+
+    def _is_answer(self, formula: Any) -> bool:
+        """Whether it is one, written differently; a general law is none, though for some letters it says 0 = 0."""
+        is_plain = isinstance(formula, Basic) and not formula.is_Atom and not formula.has(*TO_BE_DONE)
+        return is_plain and any(equal(formula, answer) for answer in self.answers)
 
 
 def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:

@@ -73,6 +73,10 @@ def sides(value: Any) -> list[Any]:
     return [each for each in found if isinstance(each, Basic | MatrixBase) and not getattr(each, "is_Atom", False)]
 
 
+def sides_in(words: Paragraph) -> list[Any]:
+    return [side for formula in expressions_in(words) for side in sides(formula)]
+
+
 def gives_away(line: ChainLine, of: Step, result: Step, names: set[Any]) -> bool:
     """Whether a line of one step is the result of a step, with nothing left to put in or to carry out."""
     whole = line.right if of.symbol is not None or line.left is None else Relation(line.left, "=", line.right)
@@ -94,6 +98,13 @@ def test_no_hint_is_the_result_of_its_step_or_of_what_is_asked(courses: Any, nam
         own = steps[group.key]
         assert not any(gives_away(line, own, result, names) for result in (own, *asked)), (group.key, line)
     assert lines
+
+
+def test_no_answer_is_told_in_words(courses: Any) -> None:
+    _, hints, problem, solved = of(courses, "library/power_law")
+    asked = [step.result for part in problem.parts for step in solved.derivation.answering(part.answers)]
+    worded = [each for part in hints.parts for rung in part.blocks for each in rung.blocks if type(each) is Paragraph]
+    assert not any(equal(said, answer) for nodes in worded for said in sides_in(nodes) for answer in asked)
 
 
 @pytest.mark.parametrize("name", [*PINNED, *BEGUN, *LIBRARY])
