@@ -131,7 +131,7 @@ def printed(
 
     def page_of(paper: str) -> Document:
         if paper == HINTS:
-            return with_hints(document, (s for p in problem.parts for s in derivation.answering(p.answers)), words)
+            return with_hints(document, problem, derivation, values, words)
         return full() if paper == KEY else document
 
     page = NO_HTML

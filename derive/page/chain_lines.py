@@ -30,6 +30,7 @@ class ChainLine:
     presented: bool = False
     numeric: bool = False
     beside: bool = False  # whether it may begin on the row of the line before it
+    because: str = ""  # that of its form; of a list of results none
 
 
 @dataclass(frozen=True)
@@ -102,9 +103,10 @@ class ChainWriter:
         reason = self._reason(step, form, template)
         numeric = form.because in NUMBERS
         if isinstance(form.expr, Relation) and numeric and before is not None:
-            return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True)
+            return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True, because=form.because)
         if isinstance(form.expr, Relation):
-            return ChainLine(form.expr.left, form.expr.word, form.expr.right, reason, numeric=numeric)
+            left, right = form.expr.left, form.expr.right
+            return ChainLine(left, form.expr.word, right, reason, numeric=numeric, because=form.because)
         return ChainLine(
             left=step.symbol if before is None else None,
             relation=sign_before(form),
@@ -112,6 +114,7 @@ class ChainWriter:
             reason=reason,
             presented=form.because == "result",
             numeric=numeric,
+            because=form.because,
         )
 
     def _reason(self, step: Step, form: Form, template: str) -> tuple[Inline, ...]:

@@ -12,6 +12,8 @@ from derive.page.introduced import expressions_in, letters_in, letters_of
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
 from derive.steps.step import Step
 
+BY_VALUE = "<<definition>>"  # of a step for which there are no words
+
 
 class Clauses:
     """Those of one page.
@@ -59,6 +61,10 @@ class Clauses:
             return (*sentence, *((Text(" "),) if clause else ()), *clause)
         return (*(self._sentence("where", due)), *((Text(" "),) if due else ()), *sentence)
 
+    def meanings(self, steps: Sequence[Step]) -> tuple[Inline, ...]:
+        """What their letters are, without their values where there are words for it: `where rho is the density`."""
+        return self._sentence("where", steps, by_value=False)
+
     def _due(self, lines: Any) -> list[Step]:
         letters = letters_in(expressions_in(lines)) if self.waiting else set()
         due = [step for step in self.waiting if letters_of(step.symbol) & letters]
@@ -66,16 +72,17 @@ class Clauses:
         self.told |= {step.key for step in due}
         return [step for step in due if step.result not in expressions_in(lines)]
 
-    def _sentence(self, label: str, due: Sequence[Step]) -> tuple[Inline, ...]:
+    def _sentence(self, label: str, due: Sequence[Step], by_value: bool = True) -> tuple[Inline, ...]:
         if not due:
             return ()
-        told = joined([self._told(step) for step in due], self.words.labels["and"])
+        told = joined([self._told(step, by_value) for step in due], self.words.labels["and"])
         return filled(self.words.labels[label], {"definitions": told})
 
-    def _told(self, step: Step) -> tuple[Inline, ...]:
+    def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
         """`rho = M/(6 a^3) is the density`: in a sentence the value alone."""
-        phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, "<<definition>>")
-        return filled(phrase, self._names(step))
+        phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
+        names = self._names(step)
+        return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})
 
     def _names(self, step: Step) -> dict[str, Any]:
         definition = (Math(step.symbol), Text(" = "), *_in_a_row(step.result))
