@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import prod
 from typing import Any
 
@@ -20,12 +20,20 @@ from sympy.simplify.fu import TR5, TR6
 class Range:
     """The letter is greater than one number and less than the other; an end that is `closed` it may have.
 
-    Either end may be infinite.
+    Either end may be infinite. `written` is how a file has it.
     """
 
     least: Expr
     greatest: Expr
     closed: tuple[bool, bool] = (False, False)
+    written: str = field(default="", compare=False)
+
+    def holds(self, number: Expr) -> bool:
+        """Whether the number is one of those in the range."""
+        ways = number - self.least, self.greatest - number
+        return all(
+            way.is_extended_positive or closed and way.is_zero for way, closed in zip(ways, self.closed, strict=True)
+        )
 
     @property
     def is_above_zero(self) -> bool:
@@ -46,7 +54,7 @@ class Range:
 
 
 LARGEST = 200  # operations of a sum whose squares are turned into one another
-POSITIVE = Range(Integer(0), oo)
+POSITIVE = Range(Integer(0), oo, written="(0, infinity)")
 
 _KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  which nobody changes
 

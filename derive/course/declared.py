@@ -11,7 +11,8 @@ from derive.algebra.expressions import TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article
 from derive.algebra.ranges import POSITIVE, Range
 from derive.course.expression import RESERVED, Declared, read_expression
-from derive.course.given import Wanted, number_with_unit, symbol_of_kind
+from derive.course.given import symbol_of_kind
+from derive.course.measures import Wanted, number_with_unit
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Word, abridged
 from derive.errors import Faults, rejected
@@ -37,7 +38,7 @@ def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Rang
         rejected("range", f"nothing lies between {least} and {greatest}", node.place)
     if about_kind(kind).positive and not about_kind(kind).signed and not signed and least.is_negative:
         rejected("range", f"`{name}` is {kind_with_article(kind)}, which is positive", node.place)
-    return Range(least, greatest, (found[1] == "[", found[4] == "]"))
+    return Range(least, greatest, (found[1] == "[", found[4] == "]"), " ".join(node.text.split()))
 
 
 def _end(name: str, node: Scalar, kind: str) -> Expr:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NoReturn
+from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol, pi
 
@@ -28,28 +28,24 @@ from derive.algebra.kinds import (
     unit_of_kind,
 )
 from derive.algebra.ranges import Range
-from derive.course.expression import RESERVED, Declared, rational, read_expression
-from derive.course.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
+from derive.course.expression import Declared, read_expression
+from derive.course.measures import Number, Wanted, check_range, is_more_than_unit, number_with_unit
+from derive.course.units import read_unit
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 DIRECTION_NAMES = ("diagonal", "x", "y", "z")
 
-_NUMBER_UNIT = re.compile(
-    r"\s*(?P<sign>[-+]?)\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*/\s*(?P<over>\d+))?"
-    r"(?P<unit>\s*(?![eE][+-]?\d)(?:[A-Za-z°]|1\s*/).*|\s*)",
-    re.ASCII | re.DOTALL,
-)
-
 
 @dataclass(frozen=True)
 class Measured:
-    """A number put in at the end: 900 rpm for omega, which is exactly 30*pi in the SI."""
+    """A number put in at the end: 900 rpm for omega, which is exactly 30*pi in the SI; `place` is where it stands."""
 
     symbol: Symbol
     number: Rational
     unit: str
     si: Expr
+    place: Place | None = field(default=None, repr=False, compare=False)
 
     @property
     def factor(self) -> Expr:
@@ -79,38 +75,6 @@ class Given:
         return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
-@dataclass(frozen=True)
-class _Number:
-    """A number with its unit, before it has a letter."""
-
-    number: Rational
-    unit: str
-    si: Expr
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What is being read, for messages: its name, its kind, and where `solve()` asks for it."""
-
-    name: str
-    kind: str
-    notes: tuple[str, ...] = ()
-    one_of_many: bool = False
-    bounds: tuple[int, int] | None = None
-    numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
-
-    @property
-    def must(self) -> str:
-        return f"each of `{self.name}` must be" if self.one_of_many else f"`{self.name}` must be"
-
-    @property
-    def must_be_it(self) -> str:
-        return f"{self.must} {kind_with_article(self.kind)}"
-
-    def refuse(self, code: str, message: str, place: Place, help: str | None = None) -> NoReturn:
-        rejected(code, message, place, help, *self.notes)
-
-
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
     """What a declared letter is in expressions: `t` is the time itself, any other letter of its kind a duration."""
     if name == TIME.name and kind == "time":
@@ -135,14 +99,18 @@ def read_givens(
     `notes` says for each name where `solve()` asks for it; `used` are symbols that already have a number.
     `numbers` are those numbers, in the SI: a value that they make negative is refused where it must be positive.
     """
-    read: dict[str, tuple[Expr | _Number, ...] | Direction] = {}
+    read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():
         with faults:
             note = (notes or {}).get(name)
             wanted = _wanted(name, kinds[name], (note,) if note else (), numbers or {})
             read[name] = _read_one(node, kinds[name], wanted, symbols)
     letters = _LettersForNumbers(symbols, {*used, *_names_in(read.values())})
-    return tuple(_given(name, kinds[name], value, letters) for name, value in read.items()), letters.symbols
+    givens = []
+    for name, value in read.items():
+        with faults:
+            givens.append(_given(name, kinds[name], value, letters))
+    return tuple(givens), letters.symbols
 
 
 def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Measured:
@@ -156,13 +124,14 @@ def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Me
     wanted = Wanted(str(name), declared.kind)
     scalar = _scalar(node, wanted, name.place)
     value = _value(scalar, wanted, symbols)
-    if not isinstance(value, _Number):
+    if not isinstance(value, Number):
         if not value.is_Rational:
             wanted.refuse("wrong-kind", f"`{name}` needs a number here", scalar.place, _unit_example(declared.kind))
-        value = _Number(value, "", value)
+        value = Number(value, "", value, scalar)
     if declared.symbol.is_positive and not value.number > 0:
         wanted.refuse("not-positive", f"`{name}` must be positive, but `{scalar.text}` is not", scalar.place)
-    return Measured(declared.symbol, value.number, value.unit, value.si)
+    check_range(declared, value.si, scalar)
+    return Measured(declared.symbol, value.number, value.unit, value.si, scalar.place)
 
 
 def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], faults: Faults) -> tuple[Measured, ...]:
@@ -178,7 +147,7 @@ def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared]
     """An expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
     wanted = Wanted(name, kind, notes)
     value = _value(_scalar(node, wanted), wanted, symbols)
-    return value.si if isinstance(value, _Number) else value
+    return value.si if isinstance(value, Number) else value
 
 
 def _wanted(name: str, kind: Asked, notes: tuple[str, ...], numbers: Mapping[Symbol, Expr]) -> Wanted:
@@ -187,7 +156,7 @@ def _wanted(name: str, kind: Asked, notes: tuple[str, ...], numbers: Mapping[Sym
 
 def _read_one(
     node: Tree, kind: Asked, wanted: Wanted, symbols: Mapping[str, Declared]
-) -> tuple[Expr | _Number, ...] | Direction:
+) -> tuple[Expr | Number, ...] | Direction:
     if kind is DIRECTION:
         return _direction(node, wanted, symbols)
     if kind.count == 1:
@@ -221,7 +190,7 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
     wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but it is {shape_of(node)}", node.place)
 
 
-def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | _Number:
+def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
     """A scalar as an expression, or as a number with its unit; its kind and its sign are checked."""
     if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
         point = f"{comma[1]}.{comma[2]}{comma[3]}"
@@ -245,45 +214,6 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
         wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place)
     _check_sign(expr, scalar, wanted)
     return expr
-
-
-def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> _Number | None:
-    """`1.5 kg`; nothing if the text is an expression."""
-    match = _NUMBER_UNIT.fullmatch(scalar.text)
-    if not match or not match["unit"].strip() or len(scalar.text) > 80:
-        return None
-    first = re.match(r"\s*([A-Za-z_][A-Za-z0-9_]*)", match["unit"])
-    if first and not begins_with_unit(match["unit"]) and (first[1] in symbols or first[1] in RESERVED):
-        return None
-    start = match.start("unit") + len(match["unit"]) - len(match["unit"].lstrip())
-    unit = read_unit(match["unit"], scalar.place_within(start, len(scalar.text.rstrip()) - start))
-    text = " ".join(scalar.text.split())
-    if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):
-        is_a = named(unit.dimension) if unit.dimension != NUMBER else kind_with_article("angle")
-        product = f"{match['number']}*{match['unit'].strip()}" if first and first[1] in symbols else None
-        help_line = f"write `{product}` for the symbol" if product else None
-        wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place, help_line)
-    if wanted.kind == "angular speed" and "Hz" in unit.names:
-        help_line = f"write `{text.replace('Hz', 'rev/s')}` for turns"
-        wanted.refuse("ambiguous-unit", f"`{text}` could be turns or radians", scalar.place, help_line)
-    if misfit(unit, wanted.kind, unit.dimension):
-        is_a = f"{kind_with_article(wanted.kind)}, which is not measured in `{unit.text}`"
-        wanted.refuse("wrong-unit", f"{wanted.must} {is_a}", scalar.place)
-    if len(match["number"]) > 30 or (match["over"] or "1").strip("0") == "" or abs(_ten_power(match["number"])) > 50:
-        wanted.refuse("too-large", f"`{text}` is not a number to calculate with", scalar.place)
-    value = rational(match["number"]) / int(match["over"] or 1) * (-1 if match["sign"] == "-" else 1)
-    return _Number(value, unit.text, value * unit.factor)
-
-
-def _is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
-    """Whether a number goes on as an expression: `3 cm*sin(phi)`, `2 m + a`."""
-    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is that of the unit
-    return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
-
-
-def _ten_power(number: str) -> int:
-    power = number.lower().partition("e")[2]
-    return int(power) if power and len(power) < 6 else 99 * bool(power)
 
 
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
@@ -338,7 +268,7 @@ def _direction(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> D
 # -- letters for numbers ----------------------------------------------------------------------------------------------
 
 
-def _names_in(values: Iterable[tuple[Expr | _Number, ...] | Direction]) -> set[str]:
+def _names_in(values: Iterable[tuple[Expr | Number, ...] | Direction]) -> set[str]:
     exprs: list[Any] = []
     for value in values:
         exprs.extend(value.components or () if isinstance(value, Direction) else value)
@@ -358,7 +288,7 @@ class NumbersAsLetters:
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """The letter, or an exact angle, of a number with its unit, one `of` several; nothing for an expression."""
-        if _is_more_than_unit(scalar.text, self.letters.symbols):
+        if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
         if number is None:
@@ -384,7 +314,8 @@ class _LettersForNumbers:
         self.symbols = dict(symbols)
         self.used = used
 
-    def letter(self, kind: Asked) -> Symbol:
+    def letter(self, kind: Asked, size: Expr, scalar: Scalar) -> Symbol:
+        """That of a size, which was written so and lies where the letter is declared to lie."""
         taken = {*self.used, TIME.name}
         declared = (d for d in self.symbols.values() if d.kind == kind.each and d.name not in taken)
         chosen = next(declared, None)
@@ -394,6 +325,7 @@ class _LettersForNumbers:
             chosen = Declared(name, symbol_of_kind(name, kind.each), kind.each)
             self.symbols[name] = chosen
         self.used.add(chosen.name)
+        check_range(chosen, size, scalar)
         return chosen.symbol
 
     def usual(self, kind: Asked) -> Iterable[str]:
@@ -402,10 +334,10 @@ class _LettersForNumbers:
             yield f"{kind.letters[0].partition('_')[0]}_{n}"
 
 
-def _given(name: str, kind: Asked, value: tuple[Expr | _Number, ...] | Direction, letters: _LettersForNumbers) -> Given:
+def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction, letters: _LettersForNumbers) -> Given:
     if isinstance(value, Direction):
         return Given(name, kind, value, (), value.name)
-    if isinstance(value[0], _Number) and kind.each == "angle" and _is_exact_angle(value[0].si):
+    if isinstance(value[0], Number) and kind.each == "angle" and _is_exact_angle(value[0].si):
         number = value[0]
         return Given(name, kind, number.si, written=Amount(number.number, number.unit, number.si / number.number))
     measured: dict[Expr, Measured] = {}
@@ -420,14 +352,15 @@ def _given(name: str, kind: Asked, value: tuple[Expr | _Number, ...] | Direction
             exprs.append(Integer(0))
             continue
         # A letter that is assumed positive takes the size; the sign stays outside.
-        sign = -1 if about_kind(kind.each).signed and entry.number < 0 else 1
+        sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
         # Equal numbers share a letter, so that a cube stays a cube; 2 cm, 4 cm, 6 cm are a, 2a, 3a.
         times = size / smallest.si if smallest else 1
         if smallest:
             entry, size = smallest, smallest.si
         if size not in measured:
-            measured[size] = Measured(letters.letter(kind), entry.number * sign, entry.unit, size)
+            letter = letters.letter(kind, size, entry.scalar)
+            measured[size] = Measured(letter, entry.number * sign, entry.unit, size, entry.scalar.place)
         exprs.append(sign * times * measured[size].symbol)
     return Given(name, kind, exprs[0] if kind.count == 1 else tuple(exprs), tuple(measured.values()))
 
@@ -438,9 +371,9 @@ def _is_exact_angle(angle: Expr) -> bool:
     return bool(parts.is_Rational and parts != 0 and (4 * parts).is_Integer | (6 * parts).is_Integer)
 
 
-def _common_measure(value: tuple[Expr | _Number, ...]) -> _Number | None:
+def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
     """The smallest of several positive numbers, if all of them are small whole multiples of it."""
-    numbers = [entry for entry in value if isinstance(entry, _Number) and entry.number > 0]
+    numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None
     smallest = min(numbers, key=lambda entry: float(entry.si))

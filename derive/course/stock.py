@@ -139,10 +139,16 @@ class InLetters:
             rejected("letter-clash", message, name.place, help_line)
         return str(name)
 
-    def value(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """An expression of a kind; where letters of that kind are positive it cannot be known to be negative."""
+    def value(self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False) -> Expr:
+        """An expression of a kind; where letters of that kind are positive it cannot be known to be negative, nor zero
+        where that means nothing."""
         found = self.of_kind(node, name, kind, of)
-        if found.is_nonpositive and about_kind(kind).positive and not about_kind(kind).signed:
+        if (
+            found.is_nonpositive
+            and not (or_zero and found.is_zero)
+            and about_kind(kind).positive
+            and not about_kind(kind).signed
+        ):
             rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
         return found
 

@@ -129,3 +129,25 @@ def test_numbers_are_drawn_from_the_range(letter: Symbol) -> None:
         assert ends[0] < there < ends[1]
     assert rational_in_range(P, Integer(7)) == 7
     assert rational_in_range(a, Integer(7)) == 7
+
+
+@pytest.mark.parametrize(
+    ("number", "closed", "held"),
+    [
+        (pi / 4, (False, False), True),
+        (pi / 2, (False, False), False),
+        (pi / 2, (False, True), True),
+        (Integer(0), (False, True), False),
+        (Integer(0), (True, False), True),
+        (Rational(-1), (True, True), False),
+        (Rational(157, 100), (False, False), True),
+        (Rational(158, 100), (False, True), False),
+    ],
+)
+def test_a_range_holds_the_numbers_between_its_ends(number: Expr, closed: tuple[bool, bool], held: bool) -> None:
+    assert Range(Integer(0), pi / 2, closed).holds(number) is held
+
+
+def test_a_range_without_an_end_holds_whatever_is_large() -> None:
+    assert POSITIVE.holds(Integer(10) ** 12)
+    assert not POSITIVE.holds(Integer(0))

@@ -71,3 +71,14 @@ def test_a_help_for_scripts_is_said_in_the_keys_of_a_file() -> None:
 
 def _modules(room: str) -> Iterable[Path]:
     return (FOLDER / room).rglob("*.py")
+
+
+def test_the_sign_of_a_number_stays_outside_its_letter_and_a_size_has_none() -> None:
+    letters = InLetters({"l": l})
+    component = letters.of_kind(node("-3 m"), "x", "length")
+    assert component.is_negative
+    assert [m.si for m in letters.numbers.measured] == [3]
+    for text, or_zero in (("-3 m", False), ("-3 m", True), ("0", False)):
+        with pytest.raises(Rejected, match="`length` must be positive"):
+            letters.value(node(text), "length", "length", or_zero=or_zero)
+    assert letters.value(node("0"), "length", "length", or_zero=True) == 0

@@ -85,7 +85,7 @@ class SpringKeys(Record):
     length: Tree | None = key("its natural length; without it zero", SCALAR)
 
     def part(self, places: Places, letters: InLetters) -> Part:
-        length = letters.of_kind(self.length, "length", "length") if self.length else Integer(0)
+        length = letters.value(self.length, "length", "length", or_zero=True) if self.length else Integer(0)
         constant = letters.value(_there(self.constant), "constant", "spring constant")
         return Part("spring", (constant, *_ends(self, places), length), place=self.places[""])
 

@@ -1,0 +1,103 @@
+"""A number with its unit as a file has it, and what it is read for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NoReturn
+
+from sympy import Expr, Rational, Symbol
+
+from derive.algebra.dimensions import NUMBER
+from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
+from derive.course.expression import RESERVED, Declared, rational
+from derive.course.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
+from derive.course.yaml_tree import Scalar
+from derive.errors import Place, rejected
+
+_NUMBER_UNIT = re.compile(
+    r"\s*(?P<sign>[-+]?)\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*/\s*(?P<over>\d+))?"
+    r"(?P<unit>\s*(?![eE][+-]?\d)(?:[A-Za-z°]|1\s*/).*|\s*)",
+    re.ASCII | re.DOTALL,
+)
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number with its unit, before it has a letter, and how it is written."""
+
+    number: Rational
+    unit: str
+    si: Expr
+    scalar: Scalar = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is being read, for messages: its name, its kind, and where `solve()` asks for it."""
+
+    name: str
+    kind: str
+    notes: tuple[str, ...] = ()
+    one_of_many: bool = False
+    bounds: tuple[int, int] | None = None
+    numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
+
+    @property
+    def must(self) -> str:
+        return f"each of `{self.name}` must be" if self.one_of_many else f"`{self.name}` must be"
+
+    @property
+    def must_be_it(self) -> str:
+        return f"{self.must} {kind_with_article(self.kind)}"
+
+    def refuse(self, code: str, message: str, place: Place, help: str | None = None) -> NoReturn:
+        rejected(code, message, place, help, *self.notes)
+
+
+def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
+    """`1.5 kg`; nothing if the text is an expression."""
+    match = _NUMBER_UNIT.fullmatch(scalar.text)
+    if not match or not match["unit"].strip() or len(scalar.text) > 80:
+        return None
+    first = re.match(r"\s*([A-Za-z_][A-Za-z0-9_]*)", match["unit"])
+    if first and not begins_with_unit(match["unit"]) and (first[1] in symbols or first[1] in RESERVED):
+        return None
+    start = match.start("unit") + len(match["unit"]) - len(match["unit"].lstrip())
+    unit = read_unit(match["unit"], scalar.place_within(start, len(scalar.text.rstrip()) - start))
+    text = " ".join(scalar.text.split())
+    if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):
+        is_a = named(unit.dimension) if unit.dimension != NUMBER else kind_with_article("angle")
+        product = f"{match['number']}*{match['unit'].strip()}" if first and first[1] in symbols else None
+        help_line = f"write `{product}` for the symbol" if product else None
+        wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place, help_line)
+    if wanted.kind == "angular speed" and "Hz" in unit.names:
+        help_line = f"write `{text.replace('Hz', 'rev/s')}` for turns"
+        wanted.refuse("ambiguous-unit", f"`{text}` could be turns or radians", scalar.place, help_line)
+    if misfit(unit, wanted.kind, unit.dimension):
+        is_a = f"{kind_with_article(wanted.kind)}, which is not measured in `{unit.text}`"
+        wanted.refuse("wrong-unit", f"{wanted.must} {is_a}", scalar.place)
+    if len(match["number"]) > 30 or (match["over"] or "1").strip("0") == "" or abs(_ten_power(match["number"])) > 50:
+        wanted.refuse("too-large", f"`{text}` is not a number to calculate with", scalar.place)
+    value = rational(match["number"]) / int(match["over"] or 1) * (-1 if match["sign"] == "-" else 1)
+    return Number(value, unit.text, value * unit.factor, scalar)
+
+
+def is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
+    """Whether a number goes on as an expression: `3 cm*sin(phi)`, `2 m + a`."""
+    names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first is that of the unit
+    return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
+
+
+def _ten_power(number: str) -> int:
+    power = number.lower().partition("e")[2]
+    return int(power) if power and len(power) < 6 else 99 * bool(power)
+
+
+def check_range(declared: Declared, size: Expr, scalar: Scalar) -> None:
+    """A number for a letter, as it is written, lies where the letter is declared to lie."""
+    if declared.lies and not declared.lies.holds(size):
+        text = " ".join(scalar.text.split())
+        message = f"`{declared.name}` is declared to lie in {declared.lies.written}, but `{text}` does not"
+        rejected("out-of-range", message, scalar.place)
