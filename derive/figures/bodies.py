@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 from typing import Any
 
 from sympy import Add, Expr, Integer, Rational, pi, sqrt
@@ -13,12 +14,24 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import Axis, CentreMark, LengthMark, Line
 from derive.figures.marks import Mark, Position, Surface
-from derive.figures.surfaces import Cavity, Circle, EllipsoidMark, Polyhedron, Revolved, SliceMark, ThinRod, TorusMark
+from derive.figures.surfaces import (
+    Bore,
+    Cavity,
+    Circle,
+    EllipsoidMark,
+    Hole,
+    Polyhedron,
+    Revolved,
+    SliceMark,
+    ThinRod,
+    TorusMark,
+)
 from derive.mechanics.bodies.body import Body, OfRadius, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.general import Solid
 from derive.mechanics.bodies.regions import Point
-from derive.mechanics.bodies.solids import Ellipsoid, ThickShell, Torus
+from derive.mechanics.bodies.solids import Ellipsoid, Torus, Tube
+from derive.mechanics.bodies.thin_bodies import Annulus
 from derive.steps.step import is_zero
 
 __all__ = ["centre_mark", "outline"]
@@ -229,7 +242,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
         point = Point(part.of, held - part.turn.T * (part.position - whole.position), part.turn.T * whole.axes)
         aside = X if in_plane else Y
         if part.sign < 0:
-            found = _hollow(body, point, -aside, named)
+            found = _hollow(body, point, -aside, named, in_plane)
         elif isinstance(body, RoundBody):
             surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
             found = [surface, *(_sizes(body, point, aside) if named else [])]
@@ -237,6 +250,8 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
             found = _with_edges(body, point, named)[:1]
         elif hasattr(body, "parts"):
             found = _of_parts(body.parts, point, named, in_plane)
+        elif hasattr(body, "whole_and_removed"):
+            found = _with_room(body, point, named)
         else:
             found = []
         if not found:
@@ -246,12 +261,20 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
     return marks
 
 
-def _hollow(body: Body, point: Point, aside: Position, named: bool) -> list[Mark]:
-    """What is cut out, if it has no rim."""
-    if not isinstance(body, RoundBody) or any(body.radius_at(end) != 0 for end in body.ends) or is_line(body):
+def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
+    """What is cut out, if it has no rim or is seen in the plane in which it lies."""
+    if isinstance(body, EdgedBody) and in_plane:
+        return [Hole(mark) for mark in _with_edges(body, point, named=False) if isinstance(mark, Surface)]
+    if not isinstance(body, RoundBody) or is_line(body):
         return []
-    surface = round_outline(body, point.seen(ORIGIN), point.axes.T * Z)
-    return [Cavity(surface), *(_sizes(body, point, aside) if named else [])]
+    origin, along = point.seen(ORIGIN), point.axes.T * Z
+    sizes = _sizes(body, point, aside) if named else []
+    if all(body.radius_at(end) == 0 for end in body.ends):
+        return [Cavity(round_outline(body, origin, along)), *sizes]
+    if not in_plane or body.filling != "area":
+        return []
+    middle, radius = origin + body.ends[0] * along, body.radius_at(body.ends[0])
+    return [Hole(Circle(middle, along, radius, filled=True, **_words(body))), *sizes]
 
 
 def _sizes(body: RoundBody, point: Point, aside: Position) -> list[Mark]:
@@ -306,11 +329,8 @@ def _torus(body: Torus, point: Point, named: bool) -> list[Mark]:
 
 def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:
     """A straight wire, or a plate in the plane of x and y whose edge the ends of its map have."""
-    if isinstance(body, ThickShell):
-        whole, removed = body.whole_and_removed()
-        outer, inner = (round_outline(each, point.seen(ORIGIN), Z) for each in (whole, removed))
-        sizes = [*_sizes(whole, point, Y), *_sizes(removed, point, -Y)] if named else []
-        return [replace(outer, **_words(body)), Cavity(replace(inner, name="")), *sizes]
+    if hasattr(body, "whole_and_removed"):
+        return _with_room(body, point, named)
     if not hasattr(body, "map"):
         return []
     place, limits = body.map()
@@ -328,8 +348,25 @@ def _by_its_map(body: Body, point: Point, named: bool) -> list[Mark]:
     return [rim, (Line(point.seen(-body.radius * X), point.seen(ORIGIN), "edge", label=body.radius))]
 
 
+def _with_room(body: Any, point: Point, named: bool) -> list[Mark]:
+    """What is a whole body less a smaller one of its kind: room in it, a bore or a hole."""
+    whole, removed = body.whole_and_removed()
+    centre, along = point.seen(ORIGIN), point.axes.T * Z
+    marks: list[Mark]
+    if isinstance(body, Annulus):
+        rim, edge = (Circle(centre, along, each.radius, filled=True) for each in (whole, removed))
+        marks = [replace(rim, **_words(body)), Hole(edge)]
+    else:
+        outer, inner = (round_outline(each, centre, along) for each in (whole, removed))
+        room: type[Cavity] = Bore if isinstance(body, Tube) else Cavity
+        marks = [replace(outer, **_words(body)), room(replace(inner, name=""))]
+    sizes = [*_sizes(whole, point, Y), *_sizes(removed, point, -Y)] if named else []
+    return [*marks, *{mark.label: mark for mark in sizes}.values()]
+
+
 def edge_of(body: Body) -> list[Position]:
-    """Places along the edge of a flat body in the plane of x and y, which the ends of its map have, all round."""
+    """Places along the edge of a flat body in the plane of x and y, which the ends of its map have, all round; none if
+    it has a hole."""
     if not hasattr(body, "map") or body.flat_across != "z":
         return []
     place, limits = body.map()
@@ -342,9 +379,11 @@ def edge_of(body: Body) -> list[Position]:
         (u, u_ends[1], v, v_ends[::-1]),
         (v, v_ends[0], u, u_ends[::-1]),
     ]
-    spots = [
-        place.xreplace({held: end, letter: first + (last - first) * Rational(k, EDGE)})
+    curves = [
+        [place.xreplace({held: end, letter: first + (last - first) * Rational(k, EDGE)}) for k in range(EDGE + 1)]
         for held, end, letter, (first, last) in sides
-        for k in range(EDGE + 1)
     ]
-    return list(dict.fromkeys(spots))
+    # Two ends that are one curve are no edge, but a seam; what is left is one line all round, or an edge and a hole.
+    seamless = [curves[k::2] for k in (0, 1) if curves[1 - k] == curves[3 - k][::-1]]
+    rounds = [curve for curve in seamless[0] if len(set(curve)) > 1] if seamless else [[*chain(*curves)]]
+    return list(dict.fromkeys(rounds[0])) if len(rounds) == 1 else []

@@ -40,6 +40,12 @@ class Revolved(Surface):
     def pieces(self, paper: Paper) -> list[Piece]:
         return paper.revolved(*self._rings(paper.numbers))
 
+    def nearest_rim(self, paper: Paper) -> tuple[Spot, ...]:
+        """The circle of the end on the side of the eye."""
+        along, rings = paper.numbers.vector(self.along), list(zip(*self._rings(paper.numbers), strict=True))
+        centre, radius = max((rings[0], rings[-1]), key=lambda ring: dot(ring[0], paper.stance.eye))
+        return paper.spots(*rim(centre, radius, along))
+
 
 @dataclass(frozen=True)
 class SliceMark(Revolved):
@@ -241,6 +247,30 @@ class Cavity(Mark):
 
     def in_words(self) -> InWords | None:
         return ("cavity", {"name": self.of.name, "measures": self.of.measures}) if self.of.name else None
+
+
+@dataclass(frozen=True)
+class Bore(Cavity):
+    """What is cut out all the way through a body: its rim on the side of the eye, and the rest of it dashed."""
+
+    layer: ClassVar[int] = 2
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        assert isinstance(self.of, Revolved)
+        near = self.of.nearest_rim(paper)
+        strokes = (piece for piece in self.of.pieces(paper) if isinstance(piece, Stroke))
+        return [*(replace(stroke, pen="hidden") for stroke in strokes), Patch(near, "body"), Stroke(near, "edge")]
+
+
+@dataclass(frozen=True)
+class Hole(Cavity):
+    """What is cut out of a flat body: one looks through it."""
+
+    layer: ClassVar[int] = 2
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        rims = [piece.spots for piece in self.of.pieces(paper) if isinstance(piece, Patch)]
+        return [piece for rim in rims for piece in (Patch(rim), Stroke((*rim, rim[0]), "edge"))]
 
 
 def _bounded(spots: tuple[Spot, ...], filled: bool = True) -> list[Piece]:

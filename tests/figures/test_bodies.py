@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import acos, cos, degrees, isclose, radians, sqrt
+from math import acos, cos, degrees, hypot, isclose, radians, sqrt
+from operator import sub
 from typing import Any, ClassVar
 
 import pytest
@@ -16,11 +17,13 @@ from derive.algebra.expressions import Factors, column
 from derive.errors import Rejected
 from derive.figures import centre_mark, drawing, outline, sketch
 from derive.figures.annotations import Axis, LengthMark, Line
-from derive.figures.bodies import is_in_plane, seen_outline, semi_axes_of
+from derive.figures.bodies import edge_of, is_in_plane, seen_outline, semi_axes_of
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Surface
-from derive.figures.surfaces import Cavity, Circle, Polyhedron, Revolved, SliceMark, ThinRod
+from derive.figures.pieces import Patch
+from derive.figures.surfaces import Bore, Cavity, Circle, Hole, Polyhedron, Revolved, SliceMark, ThinRod
 from derive.mechanics import (
+    Annulus,
     Ball,
     Composite,
     Cone,
@@ -33,6 +36,7 @@ from derive.mechanics import (
     Plate,
     PointMass,
     Rod,
+    Sheet,
     Solid,
     System,
     ThickShell,
@@ -58,7 +62,7 @@ from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from derive.steps.record import Run, recorded
 from tests.courses import ROOT
-from tests.figures.scenery import CONE, M, R, a, h, pieces_of, strokes, theta
+from tests.figures.scenery import CONE, M, R, a, h, pieces_of, plane, strokes, theta
 
 
 @dataclass(frozen=True)
@@ -330,6 +334,39 @@ def test_a_hollow_ball_is_told_as_one() -> None:
     assert (whole.mass / removed.mass).expand() == b**3 / a**3
 
 
+@pytest.mark.parametrize(
+    ("body", "room", "told"),
+    [
+        (Annulus(R / 2, R, M), Hole, "an annulus of inner radius R/2 and outer radius R"),
+        (Tube(R / 2, R, h, M), Bore, "a hollow cylinder of inner radius R/2, outer radius R and height h"),
+    ],
+)
+def test_what_has_room_in_it_has_the_edges_of_both(body: Any, room: type[Cavity], told: str) -> None:
+    rim, inner, *_ = found = outline(body)
+    assert type(inner) is room
+    assert in_words(body, named=False) == f"A drawing in space of {told}."
+    assert {mark.label for mark in found if isinstance(mark, Line)} == {R / 2, R}
+    edges = strokes(pieces_of(drawing("one", [rim, inner])), "edge")
+    closed = [edge.spots for edge in edges if hypot(*map(sub, edge.spots[0], edge.spots[-1])) < 1e-6]
+    wide, narrow = (max(x for x, _ in spots) - min(x for x, _ in spots) for spots in closed)
+    assert wide == pytest.approx(2 * narrow)
+
+
+def test_a_round_hole_in_a_flat_body_is_seen_through() -> None:
+    plate = Composite(Disc(R, M), minus(Disc(R / 3, M / 9).named("hole").at(0, R / 2, 0)))
+    hole = next(mark for mark in outline(plate) if isinstance(mark, Hole))
+    assert isinstance(hole.of, Circle) and hole.of.centre == column(0, R / 2, 0) and hole.of.radius == R / 3
+    assert [piece.fill for piece in pieces_of(plane(hole)) if isinstance(piece, Patch)] == ["blank"]
+
+
+def test_where_a_flat_body_meets_itself_is_no_edge() -> None:
+    r, u = symbols("r u", positive=True)
+    around = (r * sympy.cos(u), r * sympy.sin(u), 0)
+    corners = edge_of(Sheet(around, {r: (0, R), u: (0, 2 * pi)}, mass=M))
+    assert corners and all(sympy.simplify(x**2 + y**2 - R**2) == 0 for x, y, _ in corners)
+    assert edge_of(Sheet(around, {r: (R / 2, R), u: (0, 2 * pi)}, mass=M)) == []
+
+
 def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> None:
     half, *_ = outline(HalfDisc(R, M), named=False)
     assert isinstance(half, Polyhedron)
@@ -345,12 +382,11 @@ def test_a_flat_body_is_drawn_by_its_edge_and_a_straight_wire_by_its_ends() -> N
 @pytest.mark.parametrize(
     "body",
     [
-        Tube(R / 2, R, h, M),
         Composite(Cuboid((a, a, a), M), minus(Cylinder(R, a, M / 9))),
         Composite(Ball(R, M), Torus(b, a, M).at(0, 0, 3 * R)),
         Wire((R * sympy.cos(theta), R * sympy.sin(theta), 0), {theta: (0, 1)}, mass=M),
     ],
-    ids=["a tube", "a hole with a rim", "a part that is not known", "a bent wire"],
+    ids=["a hole with a rim", "a part that is not known", "a bent wire"],
 )
 def test_what_would_be_drawn_wrong_has_no_outline(body: Any) -> None:
     assert seen_outline(body) == []

@@ -228,16 +228,25 @@ class Tube(Body):
         require_order(self.name, self.inner, self.outer)
 
     @property
+    def measures(self) -> Mapping[str, Any]:
+        return {"inner radius": self.inner, "outer radius": self.outer, "height": self.height}
+
+    @property
     def extent(self) -> Expr:
         return Factors(pi, Terms(self.outer**2, -(self.inner**2)), self.height)
 
     def map(self) -> Map:
         return cylindrical(self.letters, (0, self.height), (self.inner, self.outer))
 
-    def particles(self) -> Particles:
-        """A cylinder less the cylinder that was taken out, their masses as the squares of their radii."""
+    def whole_and_removed(self) -> tuple[Cylinder, Cylinder]:
+        """A cylinder and the cylinder that was taken out, their masses as the squares of their radii."""
         across = self.outer**2 - self.inner**2
         whole, removed = (Cylinder(r, self.height, self.mass * r**2 / across) for r in (self.outer, self.inner))
+        return whole, removed
+
+    def particles(self) -> Particles:
+        """The one less the other."""
+        whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
 

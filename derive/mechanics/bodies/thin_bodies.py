@@ -181,10 +181,16 @@ class Annulus(Hollow):
     def map(self) -> Map:
         return cylindrical(self.letters, ZERO, (self.inner, self.outer))
 
+    def whole_and_removed(self) -> tuple[Disc, Disc]:
+        """A disc and the disc that was cut out, their masses as the squares of their radii."""
+        across = self.outer**2 - self.inner**2
+        whole, removed = (Disc(r, self.mass * r**2 / across) for r in (self.outer, self.inner))
+        return whole, removed
+
     def particles(self) -> Particles:
-        """A disc less the disc that was cut out, their masses as the squares of their radii."""
-        whole, removed = (self.mass * r**2 / (self.outer**2 - self.inner**2) for r in (self.outer, self.inner))
-        return without(disc_of_particles(whole, self.outer, ZERO), disc_of_particles(removed, self.inner, ZERO))
+        """The one less the other."""
+        whole, removed = self.whole_and_removed()
+        return without(whole.particles(), removed.particles())
 
 
 class HalfDisc(OfRadius):

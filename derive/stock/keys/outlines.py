@@ -5,25 +5,35 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sympy import Expr, cos
+from sympy import Expr, Rational, cos
 
 from derive.algebra.expressions import column, vector
 from derive.algebra.tidy import tidied
 from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, principal_outline, vectors_in
 from derive.figures.bodies import is_in_plane, seen_outline
 from derive.figures.marks import PLANE, SPACE, Mark
-from derive.mechanics.bodies.body import Body, RoundBody
+from derive.mechanics.bodies.body import Body, Hollow, RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
-from derive.mechanics.bodies.solids import Torus
+from derive.mechanics.bodies.solids import Torus, Tube
 from derive.steps.step import is_zero
 
 
 def drawn(body: Body) -> None:
     """Its outline, under its name; of a body that lies in a plane as it is seen there."""
     if marks := seen_outline(body):
-        thin = {body.section: body.radius / 4} if isinstance(body, Torus) and body.section.is_Symbol else {}
         key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
-        drawing(key, marks, view=view, values=thin)
+        drawing(key, marks, view=view, values=_proportions(body))
+
+
+def _proportions(body: Body) -> dict[Expr, Expr]:
+    """A letter of what is thinner or narrower than the rest, in terms of it."""
+    if isinstance(body, Torus):
+        small, large = body.section, body.radius / 4
+    elif isinstance(body, Hollow | Tube):
+        small, large = body.inner, body.outer * Rational(3, 5)
+    else:
+        return {}
+    return {small: large} if small.is_Symbol and not large.has(small) else {}
 
 
 def _inclination(components: Sequence[Expr]) -> list[Mark]:

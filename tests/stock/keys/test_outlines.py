@@ -17,9 +17,18 @@ from tests.stock.described import course_with, edited, loaded
 
 def test_a_body_with_an_outline_is_drawn_and_another_is_not(tmp_path: Path) -> None:
     assert "[figure:" in rendered(course_with(tmp_path, CONE), "trial/one", only={"text"}).texts["text"]
-    tube = "{shape: tube, inner: R/2, outer: R, height: h, mass: M}"
-    text = edited(CONE, (CONE_IS, tube), ("  about: apex\n", ""))
+    half = "{shape: half_cylinder, radius: R, height: h, mass: M}"
+    text = edited(CONE, (CONE_IS, half), ("  about: apex\n", ""))
     assert "[figure:" not in rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
+
+
+def test_a_hole_is_drawn_smaller_than_what_it_is_in_where_no_number_says_how_large(tmp_path: Path) -> None:
+    shell = "{shape: thick_shell, inner: h, outer: R, mass: M}"
+    run = Run()
+    run_solve(loaded(tmp_path, edited(CONE, (CONE_IS, shell), ("  about: apex\n", ""))), run)
+    (drawn,) = run.drawings
+    assert isinstance(drawn, Drawing)
+    assert [(str(small), str(large)) for small, large in drawn.values] == [("h", "3*R/5")]
 
 
 LEANING = """\
