@@ -160,7 +160,8 @@ class _Writer:
             shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=(
-                *self.derivation.warnings,
+                # What a script of the engine establishes for nothing is nobody's fault.
+                *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
                 *letters_not_drawn(problem, self.drawings),
             ),
