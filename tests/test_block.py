@@ -268,8 +268,11 @@ def test_a_step_without_an_answer_is_warned_of(tmp_path: Path) -> None:
         tmp_path, script={"    return I,": '    kinetic_energy(I, omega, "T_2", "extra")\n    return I,'}
     )
     solution = rendered_once(course, "hw9/block")
-    assert [warning.code for warning in solution.warnings] == ["not-shown"]
-    assert "`extra`" in solution.warnings[0].message
+    (warning,) = solution.warnings
+    assert (warning.code, warning.place and warning.place.path) == ("not-shown", "problems/hw9/block.yaml")
+    assert "`extra`" in warning.message
+    assert warning.place is not None
+    assert warning.place.text.startswith("solve:")
 
 
 @pytest.mark.parametrize(

@@ -117,9 +117,8 @@ def printed(
     def full() -> Document:
         return document if level is Level.FULL else page_at(Level.FULL, document)
 
-    of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
-    warnings = (*(w for w in document.warnings if w not in of_nobody), *failures)
+    warnings = (*document.warnings, *failures)
     solution = Solution(
         alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )

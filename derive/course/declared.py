@@ -15,7 +15,7 @@ from derive.course.given import symbol_of_kind
 from derive.course.measures import Wanted, number_with_unit
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Word, abridged
-from derive.errors import Faults, rejected
+from derive.errors import Faults, Rejected, rejected
 
 _SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
 INFINITE = {"infinity": oo, "-infinity": -oo}
@@ -48,7 +48,12 @@ def _end(name: str, node: Scalar, kind: str) -> Expr:
     number = number_with_unit(node, wanted, {})
     if number is not None:
         return number.si
-    expr, dimension = read_expression(node, {})
+    try:
+        expr, dimension = read_expression(node, {})
+    except Rejected as refusal:
+        if refusal.complaints[0].code != "undeclared-symbol":
+            raise
+        rejected("range", f"the ends of a range are numbers, but `{text}` has letters", node.place)
     bare = expr.is_Rational and kind != "number"
     if not expr.is_zero and (bare or dimension != dimension_of_kind(kind)):
         wanted.refuse("missing-unit", f"`{node.text.strip()}` needs a unit: {wanted.must_be_it}", node.place)

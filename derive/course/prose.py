@@ -13,7 +13,7 @@ from functools import cached_property
 
 from derive.course.schema import LEFT_EMPTY, TEXT, Reader, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, abridged, shape_of
-from derive.errors import Faults, Place
+from derive.errors import Complaint, Faults, Place
 
 EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
 
@@ -21,6 +21,12 @@ _MENTION = re.compile(
     r"<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
     r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
     r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
+    re.ASCII,
+)
+# A price is none: the dollars of a formula have no blank within them, and no digit behind.
+_LATEX = re.compile(
+    r"\$(?=\S)(?P<letter>[A-Za-z](?:_\w+)?)?[^$]*(?<=\S)\$(?!\d)|\\[A-Za-z]+|\\[(\[]"
+    r"|\w(?P<power>\^)[\w{(+-]+|\b(?P<below>[A-Za-z]_)[\w{]+",
     re.ASCII,
 )
 _HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
@@ -89,6 +95,30 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
     if isinstance(node, Scalar) and node.empty:
         wrong_type(faults, f"`{what}`", "text", node)
     return read_prose(node, what, faults)
+
+
+def latex_in(prose: Prose) -> Complaint | None:
+    """A warning of the first bit of LaTeX in a text: it is data, and printed as it stands."""
+    found = [*_LATEX.finditer(_MENTION.sub(lambda mention: "x" * len(mention[0]), prose.text))]
+    if not found:
+        return None
+    first = found[0]
+    notes = (f"{len(found) - 1} more in this text",) * bool(found[1:])
+    return Complaint(
+        "latex-in-prose",
+        f"LaTeX is not read in prose: `{abridged(first[0])}` is printed as it stands",
+        prose.place_within(first.start(), len(first[0])),
+        notes,
+        "write `²` for a square" if first["power"] else f"write `<<{_letter(first)}>>` for a letter",
+        severity="warning",
+    )
+
+
+def _letter(latex: re.Match[str]) -> str:
+    """The letter that was meant, if that is plain, else any."""
+    inner = latex[0].strip("$").strip()
+    whole = latex["below"] or latex["letter"]
+    return inner if whole and re.fullmatch(r"\w+", inner) else "R"
 
 
 PROSE = Reader(TEXT.schema, _some_prose)

@@ -32,6 +32,7 @@ _ODD = re.compile(
     "[^\t\n\r\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]"
 )
 _LINE_END = re.compile(r"\r\n|\r|\n")
+_RANGE = re.compile(r"(\w+:[ ]+)([^][(){},:'\"\n]* in [\[(][^,\n]{1,40},[^])}\n]{1,40}[])])")
 _SPACE = re.compile(r"\s*")
 _JOINED_LINES = re.compile(r"(?:\s|\\[\r\n])*")
 _TAB_INDENT = re.compile(r"^[ ]*\t[ \t]*(?=\S)", re.MULTILINE)
@@ -335,7 +336,7 @@ class _Reader:
                 items.append(_nothing_is_empty(self.node(event, depth + 1)))
             return Sequence(tuple(items), self.source.place(start))
         if isinstance(event, yaml.MappingStartEvent):
-            return self.mapping(start, depth)
+            return self.mapping(event, depth)
         if isinstance(event, yaml.AliasEvent):
             return Scalar(f"*{event.anchor}", "", start, end, self.source)
         if odd := _ODD.search(event.value):
@@ -343,13 +344,17 @@ class _Reader:
             self.refuse("control-character", f"the character U+{ord(odd[0]):04X} is not text", event, end - start)
         return Scalar(event.value, event.style or "", start, end, self.source)
 
-    def mapping(self, start: int, depth: int) -> Mapping:
+    def mapping(self, opening: Any, depth: int) -> Mapping:
         pairs: dict[str, tuple[Scalar, Tree]] = {}
+        last: tuple[Scalar, Tree] | None = None
         while not isinstance(event := next(self.events), yaml.MappingEndEvent):
             key = self.node(event, depth + 1)
             value = _nothing_is_empty(self.node(next(self.events), depth + 1))
+            last, before = (key, value) if isinstance(key, Scalar) else None, last
             if not isinstance(key, Scalar):
                 self.refuse("key", "a key must be a word", event, 1)
+            elif opening.flow_style and before and (cut := _cut_off(before[1], key, value)):
+                self.faults.add(_needs_quotes(f"{before[0].text}: ", cut))
             elif key.text == "<<" and not key.quoted:
                 self.refuse("merge-key", "merge keys are not used here", event, 2, "write the keys out")
             elif key.text in pairs:
@@ -358,7 +363,7 @@ class _Reader:
                 self.faults.error("duplicate-key", f"`{abridged(key.text)}` is given twice", key.place, notes=(note,))
             else:
                 pairs[key.text] = key, value
-        return Mapping(tuple(pairs.values()), self.source.place(start))
+        return Mapping(tuple(pairs.values()), self.source.place(opening.start_mark.index))
 
     def refuse_cleverness(self, event: Any) -> None:
         """Aliases, anchors and tags: YAML that is a program, or that was meant as something else."""
@@ -376,6 +381,20 @@ class _Reader:
 def _nothing_is_empty(node: Tree) -> Tree:
     """A value for which YAML has the word `null` or `~` is as one that was not written."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
+
+
+def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
+    """The value that a comma has cut in two, whose bracket is closed in what then looks like the next key."""
+    if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
+        return None
+    source, start = key.source, before.start
+    closed = before.text.count("(") > before.text.count(")") and ")" in key.text and value.left_empty
+    return Scalar(source.text[start : key.end], "", start, key.end, source) if closed else None
+
+
+def _needs_quotes(name: str, value: Scalar) -> Complaint:
+    message, whole = "within braces a value with a comma or a bracket needs quotes", " ".join(value.text.split())
+    return Complaint("yaml", message, value.place, help=f"write `{name}'{whole}'`")
 
 
 def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
@@ -399,6 +418,9 @@ def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
         return syntax(f"`\\{found}` has no meaning in double quotes", "use single quotes", max(0, index - 1))
     if "flow" in context and found == "?":
         return syntax("a `?` ends what stands within brackets", "put the text in quotes")
+    cut = next((m for m in _RANGE.finditer(source.text) if m.start(2) <= index < m.end()), None)
+    if "flow" in context and cut:
+        return _needs_quotes(cut[1], Scalar(cut[2], "", cut.start(2), cut.end(), source))
     if "flow" in context and ("expected ','" in problem or "stream end" in problem):
         opening = max(source.text.rfind(bracket, 0, opening + 1) for bracket in "[{")
         bracket, closing = ("[", "]") if source.text[opening] == "[" else ("{", "}")

@@ -17,6 +17,7 @@ from derive.algebra.expressions import Amount, rate
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem
+from derive.course.prose import latex_in
 from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
@@ -158,7 +159,12 @@ class _Writer:
             symbols={**self.symbols, **{value.key: value.symbol for value in self.values.values()}},
             shown_in=self.shown_in,
             dimensions=self.dimensions,
-            warnings=(*self.derivation.warnings, *letters_not_drawn(problem, self.drawings)),
+            warnings=(
+                # What a script of the engine establishes for nothing is nobody's fault.
+                *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
+                *filter(None, map(latex_in, problem.texts)),
+                *letters_not_drawn(problem, self.drawings),
+            ),
             evidence=evidence,
         )
 

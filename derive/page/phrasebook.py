@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -64,6 +65,16 @@ class PhraseTable(dict[str, Any]):
         where = f" under `{'.'.join(self.keys_above)}`" if self.keys_above else ""
         message, help_line = f"the phrases have no `{name}`{where}", did_you_mean(str(name), self)
         raise Rejected(Complaint("no-phrase", message, _place(self.source, self.keys_above), help=help_line))
+
+
+def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> Complaint:
+    """That a step has no sentence, at the place of those that its rule has, or with the file where it is looked for."""
+    message, place = f"`{key}`: no phrase for `{rule}` with the outcome `{outcome}`", None
+    help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {SHOWN_AS}/{rule.partition('.')[0]}.yaml"
+    if isinstance(of_rule, PhraseTable):
+        place, known = _place(of_rule.source, of_rule.keys_above), ", ".join(f"`{name}`" for name in of_rule)
+        help_line = f"the rule has phrases for {known}: write one for `{outcome}` too"
+    return Complaint("no-phrase", message, place, help=help_line)
 
 
 def read_phrases(folder: Path) -> PhraseTable:

@@ -29,7 +29,7 @@ from derive.course.problem import Problem
 from derive.course.prose import Mention
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean
-from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, read_phrases
+from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
 from derive.page.template import environment
 from derive.steps.derivation import Derivation
 from derive.steps.numeric import in_radians
@@ -141,8 +141,7 @@ class Phrases:
         following = f"{step.outcome}{AFTER}{preceded_by}"
         phrase = of_rule.get(following, of_rule.get(step.outcome))
         if phrase is None:
-            message = f"`{step.key}`: no phrase for `{step.rule}` with the outcome `{step.outcome}`"
-            raise Rejected(Complaint("no-phrase", message, Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)))
+            raise Rejected(no_phrase(step.key, step.rule, step.outcome, of_rule))
         return phrase
 
     def of_both(self, step: Step, following: Step) -> str:

@@ -43,11 +43,10 @@ class Derivation:
         """The steps that answer what a part asks for, each once: those of these keys, or which stand for them."""
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
-    @property
-    def warnings(self) -> tuple[Complaint, ...]:
-        """A word on each step that the script established for nothing."""
-        said = "`{}` is established but no answer rests on it"
-        return tuple(Complaint("not-shown", said.format(key), severity="warning") for key in self.unshown)
+    def warnings(self, place: Place) -> tuple[Complaint, ...]:
+        """A word on each step that the script established for nothing; `place` is where the script is named."""
+        said, help_line = "`{}` is established but no answer rests on it", "let a part ask for it, or leave it out"
+        return tuple(Complaint("not-shown", said.format(k), place, (), help_line, "warning") for k in self.unshown)
 
     @property
     def keys(self) -> tuple[str, ...]:

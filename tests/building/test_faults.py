@@ -74,6 +74,12 @@ def test_no_text_field_of_a_set_or_a_problem_is_tex(hostile: tuple[Path, Rendere
     assert not list(tmp_path.glob("taken*"))
 
 
+def test_whoever_writes_tex_into_a_text_field_is_warned_of_it(hostile: tuple[Path, Rendered]) -> None:
+    places = [w.place.line for w in hostile[1].warnings if w.place and w.code == "latex-in-prose"]
+    lines = (hostile[0] / "problems" / "hw9" / "block.yaml").read_text().splitlines()
+    assert sorted(places) == [i for i, line in enumerate(lines, 1) if "immediate" in line]
+
+
 # --- nothing is lost -------------------------------------------------------------------------------------------------
 
 

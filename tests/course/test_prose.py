@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention, Prose, read_prose
+from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention, Prose, latex_in, read_prose
 from derive.course.yaml_tree import Mapping, Scalar, Source, yaml_tree
 from derive.errors import Complaint, Faults, Rejected
 
@@ -81,3 +81,34 @@ def test_pieces_of_prose_are_all_of_it_in_order() -> None:
     assert prose is not None
     said = [piece.name if isinstance(piece, Mention) else piece for piece in prose.pieces]
     assert said == ["a ", "mass", "b", "rate", " >> c"]
+
+
+@pytest.mark.parametrize(
+    ("text", "printed", "help_line"),
+    [
+        ("of radius $R$ here", "$R$", "write `<<R>>` for a letter"),
+        (r"a rate \alpha of", r"\alpha", "write `<<R>>` for a letter"),
+        (r"$\frac{1}{2}$ of it", r"$\frac{1}{2}$", "write `<<R>>` for a letter"),
+        ("starts with v_0 at <<x_0>>", "v_0", "write `<<v_0>>` for a letter"),
+        ("the curve y = x^2", "x^2", "write `²` for a square"),
+        ("the square <<x>>^2", "<<x>>^2", "write `²` for a square"),
+    ],
+)
+def test_latex_in_prose_is_printed_as_it_stands_and_warned_of(text: str, printed: str, help_line: str) -> None:
+    warning = latex_in(prose(f"title: '{text}'"))
+    assert warning is not None
+    assert (warning.code, warning.severity, warning.help) == ("latex-in-prose", "warning", help_line)
+    place = warning.place
+    assert place is not None
+    assert f"title: '{text}'"[place.column - 1 :].startswith(printed[-place.width :])
+
+
+@pytest.mark.parametrize("text", ["a ticket of $5 and one of $7", "$5/$7 each", "of <<v_0>> m/s", "one \\ other", "5$"])
+def test_a_price_and_a_mention_are_no_latex(text: str) -> None:
+    assert latex_in(prose(f"title: '{text}'")) is None
+
+
+def test_one_warning_tells_of_all_latex_of_a_text() -> None:
+    warning = latex_in(prose("title: of $R$ and $b$, and $c$"))
+    assert warning is not None
+    assert warning.notes == ("2 more in this text",)

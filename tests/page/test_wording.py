@@ -151,8 +151,23 @@ def test_every_word_of_a_step_has_its_term() -> None:
 
 def test_an_outcome_without_a_phrase_is_an_error_that_names_both() -> None:
     odd = replace(known_block()["torque"].step, outcome="sideways")
-    with pytest.raises(Rejected, match=r"`torque`: no phrase for `rotation\.torque` with the outcome `sideways`"):
+    with pytest.raises(
+        Rejected, match=r"`torque`: no phrase for `rotation\.torque` with the outcome `sideways`"
+    ) as caught:
         WORDS.phrase(odd)
+    (complaint,) = caught.value.complaints
+    assert complaint.place
+    assert (complaint.place.path, complaint.place.text) == ("templates/phrases/en/rotation.yaml", "  rotation.torque:")
+    assert complaint.help
+    assert all(f"`{outcome}`" in complaint.help for outcome in (*WORDS.rules["rotation.torque"], "sideways"))
+
+
+def test_a_rule_without_phrases_is_told_with_what_to_write_where() -> None:
+    odd = replace(known_block()["torque"].step, rule="sling.pull", outcome="generic")
+    with pytest.raises(Rejected) as caught:
+        WORDS.phrase(odd)
+    (complaint,) = caught.value.complaints
+    assert complaint.help == "write `rules: {sling.pull: {generic: ...}}` in templates/phrases/en/sling.yaml"
 
 
 def test_what_goes_on_from_an_alike_step_has_the_words_for_that() -> None:
