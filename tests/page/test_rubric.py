@@ -109,4 +109,6 @@ def test_a_key_says_what_the_steps_are_worth(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     rendered_once(root, "hw9/block")
     key = rendered(root, "hw9/block", papers=("key",)).papers
-    assert "Points:" in key["key"] and "Points:" in key["key.html"]
+    lines = [line for line in key["key"].splitlines() if "Points:" in line]
+    assert lines and all(line.endswith(r"\par\nobreak") for line in lines)  # no page ends between it and what it is of
+    assert "Points:" in key["key.html"]
