@@ -150,7 +150,13 @@ def printed(
         html=page.solution,
         title_html=page.title,
         papers=paper_fragments(
-            papers, page_of, credits_of(document, rubric), words, notation, template_folder(root), files
+            papers,
+            page_of,
+            credits_of(document, rubric, values.values()),
+            words,
+            notation,
+            template_folder(root),
+            files,
         ),
         texts={name: form.render(solution) for name, form in formats().items() if name in wanted},
         warnings=warnings,

@@ -1,12 +1,13 @@
 """A rubric: the points of a part shared among its steps, in halves, so that they add up to those of the part.
 
 An instructor may say it, `rubric: {lagrangian: 2, motion_theta: 1}` in a part; what is not said is shared by rule: a
-step counts once, an answer twice, and what is left over goes to the answers first.
+step counts once, an answer twice, and what is left over goes to the answers first. An answer in letters is the answer;
+its number is worth half a point, and nothing where that would leave some step with less.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -14,9 +15,18 @@ from derive.course.yaml_tree import Word
 from derive.errors import Complaint, did_you_mean
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.tree import Display, Document, PartPage
+from derive.steps.step import Step
 
 UNITS = (Fraction(1, 2), Fraction(1, 4))  # the least that a step may be worth: halves where they suffice
-ANSWER, STEP = 2, 1  # how much each counts
+ANSWER, STEP, NUMBER = 2, 1, 0  # how much each counts; a number behind its formula does not share
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """A step, and how much it counts."""
+
+    equations: Equations
+    weight: int
 
 
 @dataclass(frozen=True)
@@ -34,11 +44,15 @@ class Credit:
         return replace(lines[-1], left=left)
 
 
-def credits_of(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> dict[str, tuple[Credit, ...]]:
+def credits_of(
+    document: Document, said: Mapping[str, Mapping[Word, Fraction]], values: Iterable[Step] = ()
+) -> dict[str, tuple[Credit, ...]]:
     """The rubric of each part by its label; `said` is what the problem says, by label.
 
-    Parts that name no points share what those that do leave of the points of the problem.
+    `values` are the steps that put numbers in. Parts that name no points share what those that do leave of the points
+    of the problem.
     """
+    into = {value.key: value.inputs for value in values}
     asked = [part for part in document.parts_shown if not part.extra]
     named = [part for part in asked if part.points is not None]
     open_parts = [part for part in asked if part.points is None]
@@ -46,7 +60,7 @@ def credits_of(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) 
     points: dict[str, Fraction] = {}
     for parts, worth in (*(([part], part.points or Fraction(0)) for part in named), (open_parts, left)):
         own = {str(key): share for part in parts for key, share in said.get(part.label, {}).items()}
-        others = [group for part in parts for group in _groups(part) if group.key not in own]
+        others = [group for part in parts for group in _weighed(part, into) if group.equations.key not in own]
         points |= {**_shared(worth - sum(own.values(), Fraction(0)), others), **own}
     found = {
         part.label: tuple(Credit(group, share) for group in _groups(part) if (share := points.get(group.key)))
@@ -55,20 +69,43 @@ def credits_of(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) 
     return {label: rubric for label, rubric in found.items() if rubric}
 
 
-def _shared(points: Fraction, groups: Sequence[Equations]) -> dict[str, Fraction]:
+def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighed]:
+    """The steps of a part; where a number follows its formula, the formula is the answer."""
+    groups = _groups(part)
+    keys = {group.key for group in groups}
+    formulas = {group.key: keys & set(into.get(group.key, ())) for group in groups}
+    answers = {key for found in formulas.values() for key in found}
+
+    def weight(group: Equations) -> int:
+        if formulas[group.key]:
+            return NUMBER
+        return ANSWER if group.framed or group.key in answers else STEP
+
+    return [Weighed(group, weight(group)) for group in groups]
+
+
+def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
+    """Half a point for each number, if all steps can have as much; the rest is shared among the others."""
+    numbers = [group.equations.key for group in groups if group.weight == NUMBER]
+    others = [group for group in groups if group.weight != NUMBER]
+    worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)
+    shares = _by_weight(points - worth * len(numbers), others)
+    return shares | (dict.fromkeys(numbers, worth) if worth else {})
+
+
+def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
     """In whole units by largest remainder; where there is not enough for all, the answers and later steps have it."""
     if not groups or points <= 0:
         return {}
-    answers = sum(1 for group in groups if group.framed)
-    unit = next((unit for unit in UNITS if points / unit >= max(1, answers)), UNITS[-1])
-    weights = [ANSWER if group.framed else STEP for group in groups]
+    weights = [group.weight for group in groups]
+    unit = next((unit for unit in UNITS if points / unit >= max(1, weights.count(ANSWER))), UNITS[-1])
     exact = [points / unit * weight / sum(weights) for weight in weights]
     counts = [int(share) for share in exact]
     order = sorted(range(len(groups)), key=lambda i: (exact[i] - counts[i], weights[i], i), reverse=True)
     for i in order[: int(points / unit) - sum(counts)]:
         counts[i] += 1
-    shares = {group.key: unit * count for group, count in zip(groups, counts, strict=True)}
-    shares[groups[-1].key] += points - sum(shares.values(), Fraction(0))  # what is less than a unit
+    shares = {group.equations.key: unit * count for group, count in zip(groups, counts, strict=True)}
+    shares[groups[-1].equations.key] += points - sum(shares.values(), Fraction(0))  # what is less than a unit
     return {key: share for key, share in shares.items() if share}
 
 

@@ -13,15 +13,38 @@ from derive.building.solution import rendered
 from derive.errors import Rejected
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.numbering import Number
-from derive.page.rubric import Credit, _shared
+from derive.page.rubric import ANSWER, NUMBER, STEP, Credit, Weighed, _shared, _weighed
+from derive.page.tree import Display, PartPage
 from tests.courses import course_in, rendered_once
 
 HALF = Fraction(1, 2)
 
 
-def groups(framed: list[bool]) -> list[Equations]:
+def groups(framed: list[bool], numbers: int = 0) -> list[Weighed]:
+    weights = [ANSWER if answer else STEP for answer in framed] + [NUMBER] * numbers
     line = ChainLine("T", "equals", 1)
-    return [Equations(f"step_{i}", (line,), Number(i + 1), int(answer)) for i, answer in enumerate(framed)]
+    return [Weighed(Equations(f"step_{i}", (line,), Number(i + 1)), weight) for i, weight in enumerate(weights)]
+
+
+@given(st.integers(1, 60), st.lists(st.booleans(), min_size=1, max_size=10), st.integers(0, 4))
+def test_a_number_is_worth_half_a_point_at_most_and_no_more_than_a_step(
+    halves: int, framed: list[bool], n: int
+) -> None:
+    shares = _shared(halves * HALF, groups(framed, n))
+    assert sum(shares.values()) == halves * HALF
+    numbers = [shares.get(f"step_{len(framed) + i}", Fraction(0)) for i in range(n)]
+    answers = [shares.get(f"step_{i}", Fraction(0)) for i, answer in enumerate(framed) if answer]
+    assert all(share in (0, HALF) for share in numbers)
+    assert not any(numbers) or all(share >= HALF for share in answers)
+
+
+def test_the_formula_of_a_number_is_the_answer_and_a_number_alone_is_one() -> None:
+    line = ChainLine("T", "equals", 1)
+    keys = {"mass": 0, "speed": 0, "speed_value": 1, "other_value": 1}
+    equations = tuple(Equations(key, (line,), Number(i), framed) for i, (key, framed) in enumerate(keys.items(), 1))
+    part = PartPage("a", (), Fraction(3), (Display(equations),))
+    weighed = _weighed(part, {"speed_value": ("speed",), "other_value": ("elsewhere",)})
+    assert [each.weight for each in weighed] == [STEP, ANSWER, NUMBER, ANSWER]
 
 
 @given(st.integers(1, 60), st.lists(st.booleans(), min_size=1, max_size=30))
@@ -86,4 +109,6 @@ def test_a_key_says_what_the_steps_are_worth(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     rendered_once(root, "hw9/block")
     key = rendered(root, "hw9/block", papers=("key",)).papers
-    assert "Points:" in key["key"] and "Points:" in key["key.html"]
+    lines = [line for line in key["key"].splitlines() if "Points:" in line]
+    assert lines and all(line.endswith(r"\par\nobreak") for line in lines)  # no page ends between it and what it is of
+    assert "Points:" in key["key.html"]
