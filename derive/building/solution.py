@@ -19,6 +19,7 @@ from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_k
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
 from derive.building.drawn import drawing_files
+from derive.building.numbers import faults_of_numbers
 from derive.building.solved import Solved, steps_key
 from derive.course.names import HINTS, KEY, EvidenceShown
 from derive.course.parts import Question, points_text
@@ -119,7 +120,9 @@ def printed(
 
     of_nobody = derivation.warnings if problem.described else ()  # what a script of the engine establishes for nothing
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
-    warnings = (*(w for w in document.warnings if w not in of_nobody), *failures)
+    of_numbers = faults_of_numbers(problem, derivation, values, solved.drawings)
+    Faults(fault for fault in of_numbers if fault.severity == "error").stop()
+    warnings = (*(w for w in document.warnings if w not in of_nobody), *of_numbers, *failures)
     solution = Solution(
         alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )
