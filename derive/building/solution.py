@@ -19,6 +19,7 @@ from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_k
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
 from derive.building.drawn import drawing_files
+from derive.building.numbers import faults_of_numbers
 from derive.building.solved import Solved, steps_key
 from derive.course.names import HINTS, KEY, EvidenceShown
 from derive.course.parts import Question, points_text
@@ -118,7 +119,13 @@ def printed(
         return document if level is Level.FULL else page_at(Level.FULL, document)
 
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
+<<<<<<< HEAD
     warnings = (*document.warnings, *failures)
+=======
+    of_numbers = faults_of_numbers(problem, derivation, values, solved.drawings)
+    Faults(fault for fault in of_numbers if fault.severity == "error").stop()
+    warnings = (*(w for w in document.warnings if w not in of_nobody), *of_numbers, *failures)
+>>>>>>> part-values
     solution = Solution(
         alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )

@@ -1,0 +1,147 @@
+"""What the numbers of a problem leave open: answers that get none, and numbers that no text of the sheet tells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Pow, Symbol
+
+from derive.algebra.expressions import TIME, Amount, Relation, explicit
+from derive.course.parts import Question
+from derive.course.problem import Problem
+from derive.course.yaml_tree import Word
+from derive.errors import Complaint, Place
+from derive.figures.marks import Plot, Recorded
+from derive.steps.derivation import Derivation, answering
+from derive.steps.step import Step
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """An answer as a part asks for it, what of it takes a number, the numbers there are, and whether it has one."""
+
+    key: str
+    asked: Word
+    part: Question
+    value: Any
+    numbers: Mapping[Symbol, Amount]
+    has_number: bool
+
+    @property
+    def letters(self) -> set[Symbol]:
+        return {letter for letter in self.value.free_symbols if isinstance(letter, Symbol)}
+
+    @property
+    def missing(self) -> list[Symbol]:
+        return sorted(self.letters - {*self.numbers}, key=str)
+
+    @property
+    def is_halfway(self) -> bool:
+        """Whether some of its letters have numbers, and it has none all the same."""
+        return not self.has_number and not self.letters.isdisjoint(self.numbers)
+
+    @property
+    def why(self) -> str:
+        """Why it has no number."""
+        if self.missing:
+            return f"{_listed(self.missing)} {'has' if len(self.missing) == 1 else 'have'} no value"
+        at = {letter: explicit(self.numbers[letter]) for letter in self.letters}
+        below = sorted({str(power.base) for power in self.value.atoms(Pow) if _is_no_root(power, at)})
+        return f"with these values {f'`{below[0]}` is negative' if below else 'it is not real'}"
+
+    @property
+    def in_form(self) -> Place | None:
+        """Where a form asks for a number of it; one that does not depend on what has a number keeps its figures."""
+        form = self.part.form_of(self.asked)
+        if form.units:
+            return form.units[0].place
+        return form.places.get("figures") if self.is_halfway else None
+
+
+def faults_of_numbers(
+    problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
+) -> list[Complaint]:
+    """A complaint about each form that asks for a number where there is none; a warning where numbers that nothing
+    else needs do not suffice for an answer, and for each number that the sheet does not tell.
+
+    values     the numbers of answers, by key
+    drawings   those of the problem: a plot needs numbers too
+    """
+    if not problem.every_amount:
+        return []
+    answers = list(_answers(problem, derivation, values))
+    served = [answer.part for answer in answers if answer.has_number]  # a form of several may be meant for these
+    wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
+    said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
+    return [
+        *(Complaint("number-missing", f"`{key}` has no number: {why}", place) for (key, why), place in said.items()),
+        *_not_sufficient(problem, [a for a in answers if (a.key, a.why) not in said], _plotted(drawings)),
+        *_untold(problem, {letter for answer in answers if answer.has_number for letter in answer.letters}),
+    ]
+
+
+def _answers(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> Iterator[_Answer]:
+    groups = dict(derivation.groups)
+    for part in problem.parts:
+        cases = problem.cases_of(part)
+        for key, asked in answering(part.answers, derivation.steps, groups).items():
+            value = _taking_a_number(derivation.step(key).result)
+            if value is None:
+                continue
+            for name, numbers in [(f"{key}_in_case_{case}", numbers) for case, numbers in cases.items()] or [
+                (key, problem.amounts)
+            ]:
+                yield _Answer(key, asked, part, value, numbers, name in values or not value.free_symbols)
+
+
+def _taking_a_number(result: Any) -> Any | None:
+    """What of a result takes a number: of R > a/2 the right side, of a condition on several letters nothing."""
+    if isinstance(result, Relation):
+        solved = isinstance(result.left, Symbol) and not result.right.has(result.left)
+        result = result.right if solved else None
+    return explicit(result) if hasattr(result, "free_symbols") else None
+
+
+def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
+    return {letter for drawing in drawings if isinstance(drawing, Plot) for letter in drawing.letters}
+
+
+def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
+    """What varies, or is only named, has no number; a letter of the problem's own may have been forgotten."""
+    own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
+    used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
+    found: dict[str, list[_Answer]] = {}
+    for answer in answers:
+        needless = answer.letters & {*answer.numbers} - used
+        if answer.is_halfway and own.issuperset(answer.missing) and (needless or not answer.missing):
+            found.setdefault(answer.why, []).append(answer)
+    for why, of in found.items():
+        names = list(dict.fromkeys(answer.key for answer in of))
+        place = next((m.place for m in problem.measured if m.symbol in of[0].letters), of[0].asked.place)
+        message = f"{_listed(names)} {'has' if len(names) == 1 else 'have'} no number: {why}"
+        help_line = "give numbers to all letters that a result depends on, or to none" if of[0].missing else None
+        yield Complaint("number-missing", message, place, help=help_line, severity="warning")
+
+
+def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
+    """Numbers that answers need, of letters that neither the statement nor a question mentions."""
+    texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
+    mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
+    told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}
+    for measured in problem.measured:
+        if measured.symbol in needed - told:
+            name = next((given.name for given in problem.givens if measured.symbol in given.letters), measured.symbol)
+            message = f"`{measured.symbol}` has a number that the sheet does not tell"
+            help_line = f"mention `<<{name}>>` in the statement"
+            yield Complaint("untold-number", message, measured.place, help=help_line, severity="warning")
+
+
+def _is_no_root(power: Pow, at: Mapping[Symbol, Any]) -> bool:
+    return bool(power.exp.is_Rational and power.exp.q == 2 and power.base.subs(at).is_negative)
+
+
+def _listed(names: Iterable[Any]) -> str:
+    *others, last = (f"`{name}`" for name in names)
+    return f"{', '.join(others)} and {last}" if others else last
