@@ -119,13 +119,9 @@ def printed(
         return document if level is Level.FULL else page_at(Level.FULL, document)
 
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
-<<<<<<< HEAD
-    warnings = (*document.warnings, *failures)
-=======
     of_numbers = faults_of_numbers(problem, derivation, values, solved.drawings)
     Faults(fault for fault in of_numbers if fault.severity == "error").stop()
-    warnings = (*(w for w in document.warnings if w not in of_nobody), *of_numbers, *failures)
->>>>>>> part-values
+    warnings = (*document.warnings, *of_numbers, *failures)
     solution = Solution(
         alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )
