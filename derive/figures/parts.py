@@ -90,11 +90,13 @@ class ConnectionMark(_Stretched):
 
 @dataclass(frozen=True)
 class SpringMark(_Stretched):
-    """A spring: a zigzag with straight ends."""
+    """A spring: a zigzag with straight ends; nothing where these are one place."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         (x, y), (u, v) = spots = paper.spots(*self.places(paper.numbers))
         far = hypot(u - x, v - y)
+        if far < 1e-6:
+            return []
         lead = min(LEAD, 0.2 * far)
         turns = max(5, min(26, round((far - 2 * lead) / PITCH)))
         along = direction(*spots)
@@ -315,7 +317,7 @@ class WheelMark(_Piecewise):
         if self.pointer is not None and not self.is_ring:
             ahead = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.pointer)))
             end = hub[0] + radius * ahead[0], hub[1] + radius * ahead[1]
-            pieces.append(Stroke((hub, end), "edge"))
+            return [*pieces, Stroke((hub, end), "edge"), Bullet(hub), beside(self.label, hub, end)]
         return [*pieces, Bullet(hub), Tag(self.label, hub, (-0.6, 0.8))]
 
 

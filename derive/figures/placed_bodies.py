@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, ClassVar
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, cos, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, cos, diff, sin, sqrt
 
 from derive.algebra.expressions import TIME, column
+from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import PointMark, Support
 from derive.figures.bodies import edge_of, is_line, round_outline
@@ -17,16 +18,18 @@ from derive.figures.marks import Mark, Position, Surface
 from derive.figures.parts import BarMark, ConnectionMark, WheelMark, beside
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, track_of
+from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, same, track_of
 from derive.figures.rollers import roller_of, rolling_marks, way_marks
 from derive.figures.space import Spot, Vector, hull
-from derive.figures.surfaces import Circle, Polyhedron, ThinRod
+from derive.figures.surfaces import Cavity, Circle, Hole, Polyhedron, Revolved, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
 from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, turns_about_axes
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.body import RoundBody
 from derive.mechanics.bodies.edged_bodies import EdgedBody
 from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.bodies.solids import Tube
+from derive.mechanics.bodies.thin_bodies import Annulus
 from derive.mechanics.systems.no_slip import Rolling
 from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import System
@@ -82,7 +85,7 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield PointMark(column_of(placed.at)) if in_space and _rolls(system, placed) else _holder(system, placed)
     pivoted = pivot_of(system, placed) if square == 0 and not in_space else None
     if square != 0 and not moving_in(system, square):
-        angles = angle_marks(system, Link(placed.at, centre, sqrt(square), True))
+        angles = angle_marks(system, _line_of_centre(placed, sqrt(square), outline))
         yield from (seen_upright(each) for each in angles) if follows_nodes(placed) else angles
         if in_space and not _rolls(system, placed):
             yield from turns_about_axes(system, placed, _far_end(placed))
@@ -93,6 +96,15 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield from _own_angle(system, outline)
     for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
         yield from _ground_of(system, Location(tuple(wheel.centre)), wheel.radius)
+
+
+def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
+    """The way from the point of a body to its centre of mass; to the rim from the middle of a disc."""
+    way = placed.centre - placed.at
+    for mark in outline:
+        if isinstance(mark, WheelMark) and same(Location(tuple(mark.centre)), placed.at):
+            return Link(placed.at, placed.at + mark.radius / size * way, mark.radius, True)
+    return Link(placed.at, placed.centre, size, True)
 
 
 def _rolls(system: System, placed: Any) -> bool:
@@ -107,14 +119,15 @@ def pivot_of(system: System, placed: Any) -> Link | None:
             continue
         c, s = cos(placed.turned), sin(placed.turned)
         x, y = link.way.components
-        own = tidied(x * c + y * s), tidied(y * c - x * s)
-        if not moving_in(system, *own):
+        own = x * c + y * s, y * c - x * s
+        if all(vanishes(diff(each, q)) for each in own for q in moving_in(system, each)):
             return link
     return None
 
 
 def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
-    """The joint on its rim or at its end; of a rod with both ends as far from there, the circle on which they slide."""
+    """The joint on its rim or at its end; of a rod with both ends as far from there, the circle on which they slide,
+    and of another how far its middle is from there."""
     for mark in outline:
         if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
             yield FixedEnd(column_of(link.start), downwards(2), True)
@@ -122,7 +135,7 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
             yield from angle_marks(system, link)
         elif isinstance(mark, ThickBar):
             ways = [Location(tuple(end)) - link.start for end in (mark.start, mark.end)]
-            far, other = (tidied(Add(*(c**2 for c in way.components))) for way in ways)
+            far, other = (_kept(system, Add(*(c**2 for c in way.components))) for way in ways)
             radius = sqrt(far)
             if 0 in (far, other):
                 yield FixedEnd(column_of(link.start), downwards(2), True)
@@ -130,7 +143,16 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
                 yield Circle(column_of(link.start), ACROSS, radius)
                 yield PointMark(column_of(link.start))
                 yield ConnectionMark(column_of(link.start), mark.start, label=radius)
+            else:
+                yield PointMark(column_of(link.start))
+                told = link.length if link.length.as_coeff_Mul()[1].is_Symbol else None
+                yield ConnectionMark(column_of(link.start), column_of(link.end), label=told)
             yield from angle_marks(system, link)
+
+
+def _kept(system: System, value: Expr) -> Expr:
+    """A value that stays the same while the system moves, without its coordinates."""
+    return tidied(value.xreplace(dict.fromkeys(moving_in(system, value), Integer(0))))
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
@@ -183,11 +205,18 @@ def _ends_on_axis(part: Any) -> list[Expr]:
 
 
 def _of_parts(placed: Any) -> list[Mark]:
-    """Each part of a body where it is; what is cut out is not drawn. In space a rod is in pieces, so that the bodies on
-    it hide what is behind them."""
+    """Each part of a body where it is; nothing where what is cut out cannot be seen. In space a rod is in pieces, so
+    that the bodies on it hide what is behind them."""
     marks: list[Mark] = []
     for part in placed.body.parts:
-        if part.sign < 0 or not (isinstance(part.body, RoundBody | EdgedBody) or hasattr(part.body, "parts")):
+        if part.sign < 0:
+            there = _placed_part(placed, part)
+            found = _cut_out(placed_outline(there), placed.is_plane) if there is not None else []
+            if not found:
+                return []
+            marks = [*(_towards(mark, placed.centre) for mark in marks), *found]
+            continue
+        if not (isinstance(part.body, RoundBody | EdgedBody) or hasattr(part.body, "parts")):
             continue
         there = _placed_part(placed, part)
         if there is None:
@@ -197,6 +226,25 @@ def _of_parts(placed: Any) -> list[Mark]:
         else:
             marks += placed_outline(there)
     return marks
+
+
+def _cut_out(outline: list[Mark], is_plane: bool) -> list[Mark]:
+    """Of what is cut out the hole in a plane; in space what has a rim is not seen through."""
+    surfaces = [mark for mark in outline if isinstance(mark, SilhouetteMark | WheelMark)]
+    if is_plane:
+        return [Hole(mark) for mark in surfaces]
+    return [
+        Cavity(mark)
+        for mark in outline
+        if isinstance(mark, Revolved) and mark.profile[0][1] == mark.profile[-1][1] == 0
+    ]
+
+
+def _towards(mark: Mark, centre: Location) -> Mark:
+    """A disc with a hole has its pointer to the centre of mass."""
+    if not isinstance(mark, WheelMark) or same(Location(tuple(mark.centre)), centre):
+        return mark
+    return replace(mark, pointer=column_of(centre) - mark.centre)
 
 
 def _placed_part(placed: Any, part: Any) -> Any:
@@ -286,6 +334,8 @@ def placed_outline(placed: Any) -> list[Mark]:
         if len(corners[0]) == 3:
             return [Polyhedron(corners, body.faces, **words)]
         return [SilhouetteMark(corners, **words), *_sides(body, corners)]
+    if isinstance(body, Annulus | Tube):
+        return _seen_through(body, placed, words) if placed.across == 2 else []
     if not isinstance(body, RoundBody):
         return _mapped(body, placed, at, words)
     (lower, upper), origin = body.ends, at(0, 0, 0)
@@ -301,6 +351,13 @@ def placed_outline(placed: Any) -> list[Mark]:
     sides = [(side * body.radius_at(z), z) for z in heights for side in (-1, 1)]
     corners = tuple(at(0, r, z) if placed.across == 0 else at(r, 0, z) for r, z in sides)
     return [SilhouetteMark(corners, **words)]
+
+
+def _seen_through(body: Annulus | Tube, placed: Any, words: dict[str, Any]) -> list[Mark]:
+    """A ring or a tube seen along its axis: a disc with a hole."""
+    (rim,), (edge,) = (placed_outline(replace(placed, body=each)) for each in body.whole_and_removed())
+    assert isinstance(rim, WheelMark) and isinstance(edge, WheelMark)
+    return [replace(rim, **words), Hole(replace(edge, name=""))]
 
 
 def _sides(body: Any, corners: tuple[Position, ...]) -> Iterable[Mark]:

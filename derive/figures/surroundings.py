@@ -94,7 +94,8 @@ def _across(start: Spot, end: Spot, side: Spot) -> Spot:
 
 @dataclass(frozen=True)
 class FixedEnd(Surface):
-    """A place that is held by a piece of wall behind it; `away` is the direction from the wall. A pivot has a joint."""
+    """A place that is held by a piece of wall behind it; `away` is the direction from the wall, without which there
+    is none. A pivot has a joint."""
 
     at: Position
     away: Position
@@ -106,6 +107,8 @@ class FixedEnd(Surface):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        if size_of(paper.numbers.vector(self.away)) < 1e-9:
+            return []
         away = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.away)))
         start, end = ((x + s * away[1] * STAND, y - s * away[0] * STAND) for s in (-1, 1))
         joint: list[Piece] = [Bullet(spot, 2.2), Bullet(spot, 1.3, "blank")] if self.joint else []

@@ -12,7 +12,7 @@ from sympy import diff
 from derive.figures.annotations import PointMark
 from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark, ParticleMark
-from derive.figures.placed_bodies import ThickBar, placed_outline, with_its_shape
+from derive.figures.placed_bodies import ThickBar, pivot_of, placed_outline, with_its_shape
 from derive.figures.recognition import Link, carrier_of, is_fixed, is_rod, kept_length, moving_in, same, track_of
 from derive.figures.rollers import roller_of
 from derive.figures.surroundings import AngleBetween, FieldMark, GravityMark
@@ -131,9 +131,11 @@ def _neighbours(system: System, links: Collection[Link], places: Sequence[Locati
 
 
 def _shows_something(system: System, marks: Sequence[Mark], links: Collection[Link]) -> bool:
-    """More than particles, bodies and angles alone; a free body in space needs nothing beside it."""
+    """More than particles, bodies and angles alone, or about what a body turns; nothing of one free in space."""
     outlines = [mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))]
     if any(not isinstance(mark, ALONE) and mark not in outlines for mark in marks):
+        return True
+    if any(len(placed.at.components) == 2 and pivot_of(system, placed) is not None for placed in system.bodies):
         return True
     acted_on = system.weights or system.constraints or system.conditions or system.given_forces
     lies_in_space = any(len(placed.at.components) == 3 for placed in system.bodies)

@@ -97,11 +97,14 @@ def placement_of(problem: Problem, key: str) -> Placement | None:
 
 def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
     names = [drawing.key for drawing in drawings]
-    known = "the drawings are " + ", ".join(f"`{name}`" for name in names) if names else "the script makes no drawing"
+    of_engine = problem.described is not None
+    none = "what is given is drawn only where all of it can be shown" if of_engine else "the script makes no drawing"
+    known = "the drawings are " + ", ".join(f"`{name}`" for name in names) if names else none
+    who = "the engine" if of_engine else "the script"
     return [
         Complaint(
             "unknown-drawing",
-            f"the script draws nothing called `{placement.key}`",
+            f"{who} draws nothing called `{placement.key}`",
             placement.place,
             help=did_you_mean(placement.key, names) or known,
         )

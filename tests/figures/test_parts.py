@@ -12,6 +12,7 @@ from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import BLOCK, BOB, COIL, WHEEL, CornerRopeMark
 from derive.figures.pieces import Bullet, Patch, Stroke, Tag
 from derive.figures.positions import column_of
+from derive.figures.surroundings import FixedEnd
 from derive.mechanics import point
 from tests.figures.machines import l, m, seen
 from tests.figures.scenery import strokes
@@ -34,6 +35,13 @@ def test_a_spring_begins_and_ends_where_it_is_fixed_and_swings_to_both_sides() -
     assert ends(spring)[0] == pytest.approx(2 * ends(bar)[1])
     ys = [y - spring.spots[0][1] for _, y in spring.spots]
     assert (max(ys), min(ys)) == pytest.approx((COIL, -COIL))
+
+
+def test_a_spring_of_no_length_and_the_wall_behind_it_are_not_seen() -> None:
+    here = point(0, 0)
+    pieces = seen(shown(rod(here, RIGHT), spring_mark(here, here, m), FixedEnd(column_of(here), column_of(here))))
+    assert {piece.pen for piece in pieces if isinstance(piece, Stroke)} == {"bar"}
+    assert not [piece for piece in pieces if isinstance(piece, Tag)]
 
 
 @pytest.mark.parametrize("far", [1, 3])

@@ -7,18 +7,32 @@ from math import cos, hypot, sin
 from typing import Any
 
 import pytest
-from sympy import ImmutableDenseMatrix, Symbol
+from sympy import ImmutableDenseMatrix, Symbol, sqrt
 from sympy import cos as cosine
 from sympy import sin as sine
 
-from derive.figures import drawing
+from derive.figures import drawing, sketch
 from derive.figures.annotations import PointMark
 from derive.figures.marks import Mark
-from derive.figures.parts import WheelMark
+from derive.figures.parts import ConnectionMark, WheelMark
 from derive.figures.placed_bodies import SilhouetteMark, ThickBar, placed_marks, placed_outline
-from derive.figures.surfaces import Polyhedron, Revolved
+from derive.figures.surfaces import Cavity, Circle, Hole, Polyhedron, Revolved
 from derive.figures.surroundings import AngleBetween, FixedEnd, GroundMark
-from derive.mechanics import Cuboid, Disc, Particle, Rod, System, coordinate, point, weight
+from derive.mechanics import (
+    Annulus,
+    Ball,
+    Composite,
+    Cuboid,
+    Cylinder,
+    Disc,
+    Particle,
+    Rod,
+    System,
+    coordinate,
+    minus,
+    point,
+    weight,
+)
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.systems.places import Location
 from derive.render.drawing.camera import Numbers
@@ -46,6 +60,10 @@ class Placed:
         j, k = (self.across + 1) % 3, (self.across + 2) % 3
         c, s = cosine(self.turned), sine(self.turned)
         return Location((arm[j] * c - arm[k] * s, arm[j] * s + arm[k] * c))
+
+    @property
+    def is_plane(self) -> bool:
+        return self.across is not None
 
     @property
     def centre(self) -> Location:
@@ -147,3 +165,44 @@ def test_a_bar_that_is_not_held_has_its_angle_at_its_end() -> None:
         marks = list(placed_marks(system, of_middle(Rod(l, M), middle, angle.symbol, across=1)))
     (mark,) = (mark for mark in marks if isinstance(mark, AngleBetween))
     assert mark.label == angle.symbol
+
+
+def test_a_hole_in_a_disc_is_drawn_and_the_pointer_leads_to_the_centre_of_mass() -> None:
+    holed = Composite(Disc(R, M), minus(Disc(R / 3, M / 9).named("hole").at(0, R / 2, 0)))
+    with recorded():
+        angle = coordinate("theta")
+        placed = holed.held(angle, (0, 0, 0), point(0, 0), across="z")
+        disc, hole = placed_outline(placed)
+        (turned,) = (mark for mark in placed_marks(System(placed), placed) if isinstance(mark, AngleBetween))
+    assert isinstance(disc, WheelMark) and isinstance(hole, Hole) and isinstance(hole.of, WheelMark)
+    assert numbers(hole.of.centre, theta=0.0)[:2] == pytest.approx((0, 0.5))
+    x, y, _ = numbers(disc.pointer, theta=0.0)
+    assert x == pytest.approx(0) and y < 0
+    assert hypot(*numbers(turned.b, theta=0.3)) == pytest.approx(1)  # an arc that is seen, however near the centre is
+
+
+def test_in_space_a_cavity_is_dashed_and_what_has_a_bore_is_not_drawn() -> None:
+    cavity, bore = minus(Ball(R / 2, M / 8).named("hole")), minus(Cylinder(R / 4, R, M / 9).named("hole"))
+    found = placed_outline(of_middle(Composite(Ball(R, M), cavity), point(0, 0, 0)))
+    assert [type(mark) for mark in found] == [Revolved, Cavity]
+    assert placed_outline(of_middle(Composite(Ball(R, M), bore), point(0, 0, 0))) == []
+
+
+def test_a_ring_in_a_plane_is_a_disc_with_a_hole() -> None:
+    rim, hole = placed_outline(of_middle(Annulus(R / 2, R, M), point(0, 0), theta, across=2))
+    assert isinstance(rim, WheelMark) and isinstance(hole, Hole) and isinstance(hole.of, WheelMark)
+    assert (rim.radius, hole.of.radius) == (R, R / 2)
+    assert placed_outline(of_middle(Annulus(R / 2, R, M), point(0, 0), theta, across=0)) == []
+
+
+@pytest.mark.parametrize(("across", "shown"), [("y", Circle), ("x", ConnectionMark)])
+def test_a_rod_whose_middle_goes_round_is_drawn_there(across: str, shown: type[Mark]) -> None:
+    """Across the way to its middle its ends slide on a circle; along it they do not."""
+    with recorded():
+        angle = coordinate("theta")
+        size = sqrt(R**2 - l**2 / 4)
+        middle = point(size * sine(angle), -size * cosine(angle))
+        found = sketch("rod", System(Rod(l, M).placed(angle, middle, across=across), weight(letter("g"))))
+    assert found is not None
+    assert any(isinstance(mark, shown) for mark in found.marks)
+    assert any(isinstance(mark, Circle) for mark in found.marks) == (shown is Circle)

@@ -9,6 +9,7 @@ from sympy import Rational, symbols
 
 from derive.algebra.equality import equal
 from derive.building.solution import rendered
+from derive.errors import DeriveError
 from tests.stock.described import complaints, course_with, edited, solved
 
 g, l, m, M, R = symbols("g l m M R", positive=True)
@@ -75,6 +76,13 @@ def test_a_t_of_rods_swings_about_its_foot(tmp_path: Path) -> None:
 def test_a_body_of_parts_that_is_not_drawn_is_no_fault(tmp_path: Path) -> None:
     page = rendered(course_with(tmp_path, T_OF_RODS), "trial/one")
     assert not page.warnings
+
+
+def test_what_the_engine_does_not_draw_is_no_fault_of_a_script(tmp_path: Path) -> None:
+    text = T_OF_RODS + "drawings:\n  sketch: {width: 4 cm}\n"
+    with pytest.raises(DeriveError) as refused:
+        rendered(course_with(tmp_path, text), "trial/one")
+    assert "the engine draws nothing called `sketch`" in str(refused.value)
 
 
 def test_a_wrong_mass_of_what_is_cut_out_changes_the_frequency(tmp_path: Path) -> None:
