@@ -99,11 +99,26 @@ class Misused(DeriveError):
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that was probably meant, if any is close."""
+    """The candidate that was probably meant, if any is close: of three letters one may be wrong."""
     import difflib  # only where something is wrong
 
-    close = difflib.get_close_matches(name.casefold(), {c.casefold(): c for c in candidates}, 1, 0.6)
-    return next((c for c in candidates if c.casefold() == close[0]), None) if close else None
+    written, known = name.casefold(), {c.casefold(): c for c in reversed((*candidates,))}
+    close = difflib.get_close_matches(written, known, 3, 0.6)
+    return next((known[c] for c in close if _slips(written, c) <= _most_slips(min(len(written), len(c)))), None)
+
+
+def _most_slips(letters: int) -> int:
+    return max(letters // 3, int(letters > 1))  # `kgs`
+
+
+def _slips(written: str, meant: str) -> int:
+    """How many letters are wrong, missing or too many; letters in another order are one slip."""
+    import difflib
+
+    if sorted(written) == sorted(meant):
+        return int(written != meant)
+    changes = difflib.SequenceMatcher(None, written, meant).get_opcodes()
+    return sum(max(i2 - i1, j2 - j1) for change, i1, i2, j1, j2 in changes if change != "equal")
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:

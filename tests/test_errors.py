@@ -78,11 +78,22 @@ def test_no_fault_stops_nothing_and_only_a_rejection_is_kept() -> None:
 
 @pytest.mark.parametrize(
     ("name", "meant"),
-    [("torqe", "torque"), ("TORQUE", "torque"), ("mas", "mass"), ("zebra", None), ("", None)],
+    [("torqe", "torque"), ("TORQUE", "torque"), ("mas", "mass"), ("zebra", None), ("", None), ("must", None)],
 )
 def test_the_name_that_was_probably_meant_is_found(name: str, meant: str | None) -> None:
     assert nearest(name, ("mass", "torque")) == meant
     assert did_you_mean(name, iter(("mass", "torque"))) == (f"did you mean `{meant}`?" if meant else None)
+
+
+@pytest.mark.parametrize(
+    ("name", "others"), [("distance", "resistance"), ("bar", "arc"), ("omega", "momenta"), ("ring", "rod")]
+)
+def test_a_word_that_is_only_alike_was_not_meant(name: str, others: str) -> None:
+    assert nearest(name, [others]) is None
+
+
+def test_a_nearer_word_is_not_hidden_by_a_longer_one() -> None:
+    assert [nearest(name, ("disc", "topple", "top")) for name in ("dics", "tpo", "kgs")] == ["disc", "top", None]
 
 
 def test_among_no_names_none_was_meant() -> None:

@@ -155,10 +155,12 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
     script_path, script = _script(root, path, written.solve, faults)
+    points = written.points_in_all(faults)
+    if not all(kind.known for kind in written.symbols.values()):
+        faults.stop()  # what is given in such letters is read when their kinds are known
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
-    points = written.points_in_all(faults)
     _check_cases(written.parts, drawings, faults)
     faults.stop()
     assert written.title is not None

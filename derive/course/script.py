@@ -154,7 +154,9 @@ def _parameters(definition: ast.FunctionDef, solve: Callable[..., object], sourc
         elif kind is None:
             annotation = ast.unparse(arg.annotation) if arg and arg.annotation else None
             message = f"`{annotation}` is not a kind" if annotation else f"`{name}` has no kind"
-            close = did_you_mean(annotation or "", ANNOTATIONS) or f"the kinds are {', '.join(ANNOTATIONS)}"
+            close = (
+                did_you_mean((annotation or "").strip("'\""), ANNOTATIONS) or f"the kinds are {', '.join(ANNOTATIONS)}"
+            )
             faults.error("script", f"{message}, so nothing can be given for it", place, help=close)
         else:
             found.append(Parameter(name, kind, place, parameter.default is parameter.empty))

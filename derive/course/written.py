@@ -31,7 +31,7 @@ from derive.course.schema import (
     record_of,
 )
 from derive.course.yaml_tree import Formula, Mapping, Scalar, Tree, Word, shape_of
-from derive.errors import Faults, nearest
+from derive.errors import Faults, did_you_mean
 
 ANY_OUTCOME = ""
 POSITIVE = "positive"  # before a kind
@@ -44,26 +44,27 @@ _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 class SortOfLetter(str):
     """The kind of a letter; `ends` is what stands after `in`, the range in which it lies.
 
-    `positive` was written before the kind: the letter stands for a positive number.
+    `positive` was written before the kind: the letter stands for a positive number. One that is not `known` has been
+    complained of.
     """
 
     ends: Scalar | None = None
     positive: bool = False
+    known: bool = True
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """A kind; of one that is mistyped what was meant, so that the slip is not told again at every use."""
+    """A kind; of one that is mistyped another, which nothing may be made of."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
-    if kind not in kinds:
-        close = nearest(kind, kinds)
-        help_line = f"did you mean `{close}`?" if close else f"the kinds are {', '.join(kinds)}"
+    known = kind in kinds
+    if not known:
+        help_line = did_you_mean(kind, kinds) or f"the kinds are {', '.join(kinds)}"
         message = f"the kind of `{name}` must be one that is known, but it is {shape_of(node)}"
         faults.error("unknown-kind", message, node.place, help=help_line)
-        kind = close or next(iter(kinds))
-    sort = SortOfLetter(kind)
-    sort.positive = positive == POSITIVE
+    sort = SortOfLetter(kind if known else next(iter(kinds)))
+    sort.known, sort.positive = known, positive == POSITIVE
     if ends and isinstance(node, Scalar):
         sort.ends = node.piece(len(node.text) - len(ends), len(ends))
     return sort
