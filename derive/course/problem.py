@@ -285,7 +285,11 @@ def pinned_by(
 ) -> Pinned:
     """What three keys of a file say: `symbols:`, `values:` and `given:`, of which a script asks the last."""
     symbols = declared_letters(kinds, faults)
-    values = read_numbers(numbers, symbols, faults)
+    moving = _coordinates_in(given) - {*symbols} if isinstance(script, StockScript) else set()
+    for name in moving.intersection(numbers):
+        place = next(word.place for word in numbers if word == name)
+        faults.error("changes", f"`{name}` is a coordinate, which has no value", place, help="leave it out here")
+    values = read_numbers({name: node for name, node in numbers.items() if name not in moving}, symbols, faults)
     if script is None:
         return Pinned(symbols, (), values)
     if isinstance(script, StockScript):
@@ -303,6 +307,12 @@ def pinned_by(
         numbers={measured.symbol: measured.si for measured in values},
     )
     return Pinned(symbols, givens, (*values, *(measured for given in givens for measured in given.measured)))
+
+
+def _coordinates_in(given: Mapping | None) -> set[str]:
+    """What a description says varies."""
+    coordinates = given.get("coordinates") if given else None
+    return {name.text for name, _ in coordinates.pairs} if isinstance(coordinates, Mapping) else set()
 
 
 def _described_by(

@@ -128,7 +128,7 @@ def path_of(root: Path, problem_id: str) -> str:
     if problem_id in paths:
         return paths[problem_id]
     if own := sorted(each for each in paths if each.startswith(f"{problem_id}/")):
-        help_line = f"name a problem of it, such as `{own[0]}`"
+        help_line = f"name one of its problems: {', '.join(own)}"
         raise Misused(Complaint("no-such-problem", f"`{problem_id}` is a set", help=help_line))
     help_line = _meant(problem_id, list(paths))
     raise Misused(Complaint("no-such-problem", f"there is no problem `{problem_id}`", help=help_line))
@@ -147,13 +147,18 @@ def set_ids(root: Path) -> list[str]:
     return [name for name in folders if NAME.fullmatch(name)]
 
 
-def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """The set, or one `Rejected` with every fault of its file."""
+def known_set(root: Path, set_id: str) -> str:
+    """The set of that name, if there is one."""
     known = set_ids(root)
     if set_id not in known:
         help_line = did_you_mean(set_id, known) or "`derive list` shows the sets"
         raise Misused(Complaint("no-such-set", f"there is no set `{set_id}`", help=help_line))
-    path = f"problems/{set_id}/set.yaml"
+    return set_id
+
+
+def problem_set(root: Path, set_id: str) -> ProblemSet:
+    """The set, or one `Rejected` with every fault of its file."""
+    path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)

@@ -59,7 +59,7 @@ def test_options_are_read_wherever_they_stand(handed: list[Namespace]) -> None:
         (["build", "--time-limit", "nan"], "invalid time limit value: 'nan'"),
         (["check", "-j", "0"], "invalid count value: '0'"),
         (["check", "-j", "1.5"], "invalid count value: '1.5'"),
-        (["list", "hw9"], "hw9"),
+        (["list", "hw9", "hw10"], "hw10"),
     ],
 )
 def test_what_is_no_command_line_is_wrong_usage(

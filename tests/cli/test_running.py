@@ -48,7 +48,7 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
         ("solve hw1/onne", "there is no problem `hw1/onne`"),
         ("solve one", "did you mean `hw1/one`?"),
         ("solve hw1", "`hw1` is a set"),
-        ("explain hw1", "name a problem of it, such as `hw1/one`"),
+        ("explain hw1", "name one of its problems: hw1/one"),
         ("solve hw1/one --format wodr", "derive solve: error: argument --format: invalid choice: 'wodr'"),
         ("build hw1 --only hits", "argument --only: there is no paper `hits`: name some of solutions, problems,"),
         ("build hw1 hw2", "there is no set `hw2`"),

@@ -6,17 +6,19 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from derive.cli.asked import root_of, warn_of_names
+from derive.cli.asked import new_id_of, root_of, warn_of_names
 from derive.cli.terminal import table
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 
 def list_problems(arguments: argparse.Namespace) -> int:
-    from derive.course.problem_set import problem_paths, topic_of
+    from derive.course.problem_set import known_set, problem_paths, topic_of
 
     root = root_of(arguments)
     warn_of_names(root)
-    topics = {problem_id: topic_of(path) for problem_id, path in sorted(problem_paths(root).items())}
+    within = f"{known_set(root, new_id_of(arguments.set))}/" if arguments.set else ""
+    paths = {problem: path for problem, path in sorted(problem_paths(root).items()) if problem.startswith(within)}
+    topics = {problem: topic_of(path) for problem, path in paths.items()}
     if arguments.topic and arguments.topic not in topics.values():
         known = sorted({topic for topic in topics.values() if topic})
         every = f"the topics are {', '.join(known)}" if known else "topics are folders within a set, and no set has any"

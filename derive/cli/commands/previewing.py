@@ -25,10 +25,8 @@ def preview_pages(arguments: argparse.Namespace) -> int:
     def told(of: str, shown: Shown) -> None:
         if arguments.quiet and shown.main:
             return
-        said = "shown" if shown.main else "not shown: "
-        print(
-            f"{set_id}/{of}: {said if shown.main else said + shown.complaints[0]} ({shown.seconds:.2f} s)", flush=True
-        )
+        said, why = ("shown", []) if shown.main else ("not shown", shown.complaints[:1])
+        print(*[f"{set_id}/{of}: {said} ({shown.seconds:.2f} s)", *why], sep="\n", flush=True)
 
     with suppress(KeyboardInterrupt):
         preview(root_of(arguments), set_id, name, arguments.port, arguments.detail, arguments.time_limit, ready, told)

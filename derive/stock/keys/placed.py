@@ -50,8 +50,11 @@ class MovingBodyKeys(BodyKeys):
 
     def part(self, name: Word, alone: bool, places: Places, letters: InLetters) -> Part:
         called = "" if alone else str(name).replace("_", " ")
-        if (self.centre is None) == (self.held is None):
+        if self.centre is None and self.held is None:
             rejected("missing-key", "a body needs either `centre` or `held`, which says where it is", self.places[""])
+        if self.centre is not None and self.held is not None:
+            message = "a body has either `centre` or `held`, not both: each says where it is"
+            rejected("twice", message, self.places["held"], "leave one of them out")
         if self.turned is None:
             rejected("missing-key", "a body needs `turned`, which says how it is turned", self.places[""])
         body: DescribedBody | RigidBody = (

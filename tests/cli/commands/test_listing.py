@@ -54,6 +54,18 @@ def test_a_list_may_be_of_one_topic(course: Course, capfd: pytest.CaptureFixture
     assert "did you mean `rotation`?" in capfd.readouterr().err
 
 
+def test_a_list_may_be_of_one_set(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    course.problem("one", "A block")
+    other = course.root / "problems" / "hw2"
+    other.mkdir()
+    (other / "set.yaml").write_text("problems: [two]\n")
+    (other / "two.yaml").write_text("A wheel")
+    assert main(["list", "problems/hw2/"]) == 0
+    assert [line.split()[0] for line in capfd.readouterr().out.splitlines()] == ["problem", "hw2/two"]
+    assert main(["list", "hw3"]) == 2
+    assert "there is no set `hw3`" in capfd.readouterr().err
+
+
 def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -> None:
     title = {"about <<axis>>\nsolve": "about its axis\nsolve"}
     root = course_in(tmp_path, title)

@@ -37,7 +37,7 @@ def test_a_port_is_a_number_that_a_port_can_have(port: str, capfd: pytest.Captur
     assert "invalid port value" in capfd.readouterr().err
 
 
-@pytest.mark.parametrize(("options", "lines"), [((), 3), (("-q",), 2)])
+@pytest.mark.parametrize(("options", "lines"), [((), 4), (("-q",), 3)])
 def test_quiet_tells_the_address_and_what_is_wrong(
     options: tuple[str, ...], lines: int, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -50,4 +50,5 @@ def test_quiet_tells_the_address_and_what_is_wrong(
     monkeypatch.setattr(previewed, "preview", shows_one_page_and_one_fault)
     assert main(["preview", "hw9/block", *options]) == 0
     said = capfd.readouterr().out.splitlines()
-    assert (len(said), said[0][:4], said[-1][:18]) == (lines, "http", "hw9/top: not shown")
+    assert (len(said), said[0][:4], said[-1]) == (lines, "http", "error[yaml]: no")
+    assert said[-2] == "hw9/top: not shown (0.00 s)"
