@@ -68,7 +68,14 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
     "top-slow": ({"900 rpm": "200 rpm"}, "brief"),
     "top-horizontal": ({"45 deg": "90 deg"}, "brief"),
     "top-beyond": ({"45 deg": "120 deg"}, "brief"),
-    "top-letters": ({"tilt: 45 deg": "tilt: theta_0", "spin: 900 rpm": "spin: S"}, "brief"),
+    "top-letters": (
+        {
+            "tilt: 45 deg": "tilt: theta_0",
+            "spin: 900 rpm": "spin: S",
+            "fast_precession]\n    form: {unit: [rad/s, rpm]}": "fast_precession]",
+        },
+        "brief",
+    ),
 }
 
 

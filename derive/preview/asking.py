@@ -61,7 +61,9 @@ class Warm:
 
     def begun(self) -> subprocess.Popen[str]:
         """The process, which loads what it needs before it answers."""
-        if self._process is None or self._process.poll() is not None:
+        if self._process is not None and self._process.poll() is not None:
+            self.end()
+        if self._process is None:
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "derive.preview.worker", str(self.root)],
                 stdin=subprocess.PIPE,
