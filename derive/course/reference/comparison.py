@@ -16,6 +16,7 @@ Each side of a chain is compared, and counts as one comparison.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping as Table
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,6 +29,8 @@ from derive.course.reference.agreement import given_values, verdict_on
 from derive.course.reference.errata import Erratum, erratum_of, quoted_erratum
 from derive.course.reference.quotes import Remark
 from derive.course.reference.statements import Entry, Statement, stated_groups
+from derive.course.script import Script
+from derive.course.stock import StockScript
 from derive.errors import Complaint, DeriveError, Place, did_you_mean
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.memory import Memory
@@ -98,7 +101,7 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
         given = _what_is_given(pinned)
         steps = next((steps for other, steps in derived if other == given), None)
         if steps is None:
-            steps = _derived_again(pinned, memory)
+            steps = _pinned_steps(pinned, problem, memory) if memory else _derived_again(pinned, memory)
             derived.append((given, steps))
         here = given == _what_is_given(problem)
         compared = (_comparison(one, steps, pinned) for entry in entries for one in _one_by_one(entry, steps))
@@ -109,6 +112,26 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
 def _what_is_given(problem: Problem) -> object:
     """What its steps are derived from: the system that it describes, or the values that its script asks for."""
     return problem.described or given_values(problem)
+
+
+def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
+    """As they were found before in this process, where all that they depend on is the same: a preview asks again and
+    again, and an edit of what is given leaves alone what a document pins."""
+    depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
+    found = next((steps for other, steps in _pinned_before if other == depends), None)
+    if found is None:
+        found = _derived_again(pinned, memory)
+        _pinned_before.append((depends, found))
+    return found
+
+
+def _text_of(script: Script | StockScript) -> object:
+    if isinstance(script, StockScript):
+        return script.stock
+    return script.source.text, tuple(module.read_bytes() for module in script.modules)
+
+
+_pinned_before: deque[tuple[object, Steps]] = deque(maxlen=4)
 
 
 def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:

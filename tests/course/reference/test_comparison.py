@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import deque
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -12,9 +13,11 @@ import pytest
 from derive.algebra.equality import Grade, Verdict
 from derive.cli.options import main
 from derive.course.problem import Problem, load_problem, run_solve
+from derive.course.reference import comparison
 from derive.course.reference.comparison import comparisons
 from derive.errors import Unverified
 from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.memory import Memory
 from derive.steps.record import Run
 from tests.course.reference.stated import HEAD, Compared, one
 from tests.courses import ROOT, course_in, rendered_once
@@ -227,3 +230,36 @@ def test_a_source_is_about_the_system_that_its_group_describes(
     problem = load_problem(root, "hw9/euler")
     (found,) = comparisons(problem, with_ancestors(returned_quantities(run_solve(problem))))
     assert (found.outcome, found.here) == ("agrees", here)
+
+
+class Nothing:
+    """A store that recalls nothing."""
+
+    def recalled(self, key: str) -> None:
+        return None
+
+    def keep(self, key: str, text: str) -> None:
+        return None
+
+
+def test_what_a_document_pins_is_derived_once_however_often_the_given_is_edited(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    again: list[str] = []
+    derive_again = comparison._derived_again
+    monkeypatch.setattr(comparison, "_derived_again", lambda of, m: (again.append(of.id), derive_again(of, m))[1])
+    monkeypatch.setattr(comparison, "_pinned_before", deque(maxlen=4))
+
+    def outcomes(name: str, given: str, mass: str = "mass") -> list[str]:
+        edits, script = {"sides: [a, 2*a, 3*a]": f"sides: {given}"}, {"Cuboid(sides, mass)": f"Cuboid(sides, {mass})"}
+        root = course_in(tmp_path / name, edits, script)
+        stated = "    - {answer: inertia_tensor_zz, states: 5/12*M*a**2}\n"
+        (root / "problems" / "hw9" / "reference.yaml").write_text(HEAD + stated, encoding="utf-8")
+        problem = load_problem(root, "hw9/block")
+        known = with_ancestors(returned_quantities(run_solve(problem)))
+        return [found.outcome for found in comparisons(problem, known, Memory(Nothing()))]
+
+    assert outcomes("one", "[a, 2*a, 5*a]") == outcomes("two", "[a, 2*a, 7*a]") == ["agrees"]
+    assert len(again) == 1
+    assert outcomes("three", "[a, 2*a, 7*a]", "2 * mass") == ["differs"]
+    assert len(again) == 2
