@@ -138,7 +138,7 @@ class HtmlPage:
                 return theorem(name, self.inline(nodes), self.inline(again))
             case ToldIn(problem):
                 return told_in(problem)
-        return ""
+        raise TypeError(f"nothing prints {type(node).__name__}")
 
     def _anchor(self, number: Number) -> str:
         """Where an equation stands; on a page of several problems each has its own."""

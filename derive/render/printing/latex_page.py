@@ -157,7 +157,7 @@ class LatexPage:
                 return rf"\theorem{{{name}}}{{{self.inline(nodes)}\par}}{{{self.inline(again)}\ }}"
             case ToldIn(problem):
                 return rf"\toldproblem{{{escaped(problem)}}}"
-        return ""
+        raise TypeError(f"nothing prints {type(node).__name__}")
 
     def _reference(self, key: str) -> str:
         number = self.document.numbers[key]

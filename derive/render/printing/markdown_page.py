@@ -104,7 +104,7 @@ class MarkdownPage:
                 return f"({self.document.numbers[key]})"
             case ProblemRef(of, text):
                 return f"[{text_markdown(text)}]({of.rpartition('/')[2]}.md)"
-        return ""
+        raise TypeError(f"nothing prints {type(node).__name__}")
 
     def _heading(self, level: str, text: str, worth: str) -> str:
         return f"{level} {text} ({text_markdown(worth)})" if worth else f"{level} {text}"

@@ -45,7 +45,7 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> st
             return f"({numbers[key]})"
         case ProblemRef(_, text):
             return text
-    return ""
+    raise TypeError(f"nothing prints {type(node).__name__}")
 
 
 def second_ways(display: Display, words: Phrases) -> list[str]:
