@@ -38,6 +38,7 @@ FLOORS = (
     ("errors",),
     ("algebra",),
     ("steps",),
+    ("witness",),
     ("mechanics", "course"),
     ("figures",),
     ("stock",),

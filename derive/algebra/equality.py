@@ -81,11 +81,12 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 class Compared(StrEnum):
     """What a piece of evidence is about: two lines of a chain, the result by another route through the physics, the
-    result put to a test, or nothing but what a name means."""
+    result put to a test, the described system followed in numbers, or nothing but what a name means."""
 
     LINES = "lines"
     ROUTE = "route"
     CHECK = "check"
+    WITNESS = "witness"
     NOTHING = "nothing"
 
 

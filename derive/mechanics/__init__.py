@@ -24,6 +24,7 @@ from derive.mechanics.equations.equilibria import *
 from derive.mechanics.equations.euler_equations import *
 from derive.mechanics.equations.extrema import *
 from derive.mechanics.equations.forced import *
+from derive.mechanics.equations.leaving import *
 from derive.mechanics.equations.limits import *
 from derive.mechanics.equations.linear_motion import *
 from derive.mechanics.equations.linearised import *

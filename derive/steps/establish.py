@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import FrameType
 from typing import Any
 
@@ -40,7 +40,7 @@ from derive.steps.chain import (
 )
 from derive.steps.outcomes import GENERIC, Judged, holds, told_rightly
 from derive.steps.record import coordinates_in
-from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, is_zero, same_value, value_behind
+from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
 
 
@@ -200,8 +200,27 @@ def establish(
         law_at=_place_of_verb(sys._getframe(1)),
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
+    quantity = _witnessed(quantity, judged)
     record.add(quantity, scope.case_of)
     return quantity
+
+
+def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
+    """The quantity with the evidence of the described system, where it belongs to one system and there is a test."""
+    systems = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
+    if len(systems) != 1:
+        return quantity
+    verdict = systems.pop().testimony(quantity, judged, quantity.step.outcome)
+    if verdict is None:
+        return quantity
+    if not verdict:
+        at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
+        message = f"`{quantity.key}` contradicts the motion of the described system: {verdict.detail}"
+        help_line = "if it holds for some values of the letters only, state these with `assume:`, or give numbers"
+        notes = (f"for example at {at}",) if at else ()
+        raise Unverified(Complaint("contradicts-motion", message, help=help_line, notes=notes))
+    evidence = Evidence("motion", Compared.WITNESS, verdict.grade, verdict.detail)
+    return replace(quantity, step=replace(quantity.step, evidence=(*quantity.step.evidence, evidence)))
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:

@@ -89,6 +89,14 @@ class Fact:
     eliminates: tuple[Symbol, ...] = ()  # coordinates of its parents that it no longer depends on
 
 
+class Witness(Fact):
+    """What a quantity belongs to that can be followed in numbers: a described system."""
+
+    def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
+        """Whether a step is true of the motion, put to the test in numbers; nothing where there is no test for it."""
+        raise NotImplementedError
+
+
 F = TypeVar("F", bound=Fact)
 
 

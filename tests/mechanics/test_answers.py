@@ -630,8 +630,8 @@ def test_a_wrong_root_and_a_wrong_bound_are_refused(monkeypatch: pytest.MonkeyPa
     from derive.mechanics.equations.roots import RootOf
 
     x = along()
-    right = conditions._solved
-    monkeypatch.setattr(conditions, "_solved", lambda *a: (right(*a)[0], -right(*a)[1], right(*a)[2]))
+    right = conditions.solved_for_unknown
+    monkeypatch.setattr(conditions, "solved_for_unknown", lambda *a: (right(*a)[0], -right(*a)[1], right(*a)[2]))
     with pytest.raises(Unverified):
         where(given(c - h), ">", 0, c)
     monkeypatch.setattr(RootOf, "value", property(lambda self: R / 3))

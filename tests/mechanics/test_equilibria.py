@@ -33,10 +33,10 @@ from derive.mechanics import (
 )
 from derive.mechanics.equations import equilibria as equilibria_module
 from derive.mechanics.equations import minima
-from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.zeros import Unsolved, Zero, different_from_zero, positive, sign_where, zeros_of
 from derive.steps.record import recorded
 from derive.steps.step import Quantity
+from derive.witness.facts import Rest
 
 m, M, g, l, k, a, R, w, G, S = symbols("m M g l k a R omega G S", positive=True)
 theta, x = symbols("theta x", real=True)

@@ -33,7 +33,7 @@ from derive.mechanics import (
     weight,
     where,
 )
-from derive.mechanics.equations import conditions, oscillations
+from derive.mechanics.equations import conditions, leaving, oscillations
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.stock.described import edited, messages, solved
@@ -115,8 +115,8 @@ def test_what_is_positive_in_the_range_is_positive_always() -> None:
 
 @pytest.mark.parametrize("mark", ["=", "<"])
 def test_a_bound_of_the_wrong_function_is_refused(monkeypatch: pytest.MonkeyPatch, mark: str) -> None:
-    right = conditions._solved
-    monkeypatch.setattr(conditions, "_solved", lambda *a: (right(*a)[0], m / cos(alpha), right(*a)[2]))
+    right = conditions.solved_for_unknown
+    monkeypatch.setattr(conditions, "solved_for_unknown", lambda *a: (right(*a)[0], m / cos(alpha), right(*a)[2]))
     with pytest.raises(Unverified):
         where(given(g * (M * sin(alpha) - m)), mark, 0, M)
 
@@ -199,8 +199,8 @@ def test_contact_is_told_only_where_the_force_is_known_to_push() -> None:
 
 def test_a_contact_that_would_be_lost_elsewhere_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     q = theta.symbol
-    right = conditions._held
-    monkeypatch.setattr(conditions, "_held", lambda *a: (right(*a)[0], 2 * cos(q) - 1))
+    right = leaving._held
+    monkeypatch.setattr(leaving, "_held", lambda *a: (right(*a)[0], 2 * cos(q) - 1))
     with pytest.raises(Unverified):
         leaves_contact(given(m * g * (3 * cos(q) - 2) * sin(q)), cos(q), Integer(1))
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, sqrt
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, sqrt
 from sympy.core.symbol import Str
 
 from derive.algebra.equality import Grade, Verdict
@@ -16,15 +16,13 @@ from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.equations.inequalities import of_the_size, sign_by_factors
+from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.reach import reached
 from derive.mechanics.equations.unknowns import (
     lecture_form,
     left_over,
-    letter_of,
     mark_for,
     may_vanish,
-    meaning,
     unknown_of,
     with_unknown,
     without_factors_beside,
@@ -33,7 +31,7 @@ from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.step import Form, Level, Quantity, value_behind
 
-__all__ = ["leaves_contact", "where"]
+__all__ = ["where"]
 
 TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
 ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
@@ -47,7 +45,6 @@ WORDS = {
 }
 REAL = {("roots.discriminant", mark) for mark in (">=", ">")}  # the quantities that decide whether roots are real
 POINTS = 40
-ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
 
 
 def where(
@@ -79,7 +76,7 @@ def where(
         message = f"`where`: `{mark}` is no mark"
         raise Rejected(Complaint("wrong-argument", message, help=f"the marks are {' '.join(TURNED)}"))
     bound = Integer(bound) if isinstance(bound, int) else bound
-    difference = tidied(explicit(_scalar(of)) - explicit(value_behind(bound)))
+    difference = tidied(explicit(number_of(of)) - explicit(value_behind(bound)))
     sign = sign_by_factors(difference)
     if sign is not None:
         return _of_known_sign(of, mark, bound, difference, sign, key)
@@ -87,7 +84,7 @@ def where(
     if _settled_by_its_letter(alone, solved):
         return _of_known_sign(of, mark, bound, difference, 1 if turned == mark else -1, key)
     result = Relation(alone, turned, solved)
-    existing, excluded = _existing(of, alone, turned, solved), _excluded(difference, result)
+    existing, excluded = existence(of, alone, turned, solved), _excluded(difference, result)
 
     def same_truth(found: Relation) -> Verdict:
         return _same_truth(found, difference, mark, unknown)
@@ -108,12 +105,12 @@ def where(
         routes={
             "beside": lambda found: _beside(found, difference, mark),
             # Where one factor of known sign lies between the two relations, what is so beside the bound is so anywhere.
-            **({} if _divided_out(difference, alone, solved) else {"points": same_truth}),
+            **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
         telling=Telling(
             words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) in REAL else "quantity"},
-            formulas=_told(excluded=excluded, existing=existing),
+            formulas=conditions_told(excluded=excluded, existing=existing),
             judged_by={"unknown": unknown, "mark": Str(mark)},
         ),
         key=key,
@@ -124,19 +121,19 @@ def where(
 def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
     """The criterion in other letters, whose values are put in next."""
     residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
-    return [Form(criterion, "solved", nonzero=_divided_out(difference, residual, Integer(0)))]
+    return [Form(criterion, "solved", nonzero=divided_out(difference, residual, Integer(0)))]
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
     """The relation of a value and zero, solved for a letter where that can be told from the letters alone."""
     try:
-        alone, solved, turned = _solved(of, tidied(value), mark, unknown_of("where", letter))
+        alone, solved, turned = solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:
         return None
     return Relation(alone, turned, solved)
 
 
-def _told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
+def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
     """What the sentence says must hold."""
     return {
         role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
@@ -145,7 +142,7 @@ def _told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]
     }
 
 
-def _existing(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | None:
+def existence(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | None:
     """For which letters there is such a value; an inequality holds or fails where there is none."""
     exists, never = reached(alone, solved) if mark == "=" else (None, False)
     if never:
@@ -155,133 +152,7 @@ def _existing(of: Quantity, alone: Expr, mark: str, solved: Expr) -> Relation | 
     return exists
 
 
-def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves_contact") -> Quantity:
-    """Where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
-
-    force    the normal force, positive while it pushes, N
-    letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
-    start    the value of that letter at the start, where the surfaces touch
-    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, take no part.
-    Check: a little towards the start the force is still positive, a little beyond it would be negative; where
-    there are such factors also in numbers, along the coordinate itself.
-    Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
-    positive whatever the letter is).
-    Errors: the force is not positive from the start on, or it is not linear in the letter.
-    Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
-    """
-    value, unknown = tidied(explicit(_scalar(force))), unknown_of("leaves_contact", letter)
-    if sign_known(value) == 1:
-        return establish(
-            "conditions.leaves_contact",
-            None,
-            lambda v: Relation(v, ">", 0),
-            {"force": force},
-            lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
-            routes={"size": lambda found: (found.residual, of_the_size(value, found.mark))},
-            outcome="never",
-            key=key,
-        )
-    held, pushing = _held(value, unknown)
-    at_start = tidied(with_unknown(pushing, unknown, explicit(start)))
-    if left_over(pushing, unknown) and left_over(with_unknown(pushing, unknown, mark_for(unknown)), unknown):
-        raise _unsolvable_contact(force, unknown)
-    if sign_known(at_start) != 1:
-        message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
-        raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
-    alone, solved, _ = _solved(force, pushing, "=", unknown)
-    if alone != unknown:
-        raise _unsolvable(force, unknown)
-    result = Relation(unknown, "=", solved)
-    existing = _existing(force, unknown, "=", solved)
-
-    def on_both_sides(found: Relation) -> tuple[Any, Any]:
-        """N at the place, and on the way there from the start, but for the factor that stays positive."""
-        there = explicit(found.right)
-        way = Dummy("s", positive=True)
-        u = way / (1 + way)  # between 0 and 1
-        on_the_way = tidied(with_unknown(pushing, unknown, there + u * (explicit(start) - there)))
-        at_place = tidied(with_unknown(pushing, unknown, there))
-        expected = u * at_start
-        return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", expected)
-
-    return establish(
-        "conditions.leaves_contact",
-        None,
-        lambda v: Relation(v, "=", 0),
-        {"force": force},
-        lines=Lines(
-            law=Level.STANDARD,
-            put_in=Level.FULL,
-            after=[Form(result, "solved", nonzero=(*_divided_out(value, unknown, solved), *Mul.make_args(held)))],
-            result=False,
-            arranged=lambda _: result,
-        ),
-        routes={
-            "on_the_way": on_both_sides,
-            **(
-                {} if held == 1 else {"in_numbers": lambda found: _pushes_until(found, value, unknown, explicit(start))}
-            ),
-        },
-        outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
-        telling=Telling(
-            formulas={
-                "from": (Relation(unknown, "=", start), Relation(start, "=", unknown)),
-                **_told(existing=existing),
-            },
-            judged_by={"unknown": unknown, "start": explicit(start)},
-        ),
-        key=key,
-    )
-
-
-def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
-    """Of sin(theta)(a cos(theta) - b) the sine, where it is known to be positive, and the bracket."""
-    u = mark_for(unknown)
-    rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
-    held = Mul(*beside)
-    return (held, rest.xreplace({u: unknown})) if sign_known(held) == 1 else (Integer(1), value)
-
-
-def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
-    """Whether a factor that is positive on the way is zero at the start, as sin(theta) of what stands upright."""
-    (letter, there) = next(iter(meaning(unknown, explicit(start)).items()))
-    return bool(tidied(held.xreplace({letter: there})) == 0)
-
-
-def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
-    letter = letter_of(unknown)
-    message = f"`leaves_contact`: `{force.key}` has factors with {letter} beside {unknown}, of unknown sign"
-    help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
-    return Rejected(Complaint("no-contact", message, help=help_line))
-
-
-def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> Verdict:
-    """In numbers, along the coordinate itself: the force is positive on the way, zero at the place, negative beyond."""
-    letter = letter_of(unknown)
-    value, begin, end = (with_numbers(each) for each in (value, start, explicit(found.right)))
-    letters = letters_of(value) | letters_of(begin) | letters_of(end)
-    seen = 0
-    for point in islice(points(letters - {letter}, seed_of(value)), POINTS):
-        try:
-            first, last = (value_at(_inverse(unknown, each), point) for each in (begin, end))
-            if not (first.is_real and last.is_real) or first == last:
-                continue
-            there = [value_at(value, {**point, letter: first + (last - first) * way}) for way in ON_THE_WAY]
-        except (Undefined, NoNumber, TypeError):
-            continue
-        if not all(force > 0 for force in there[:-1]) or not there[-1] < 0:
-            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is so beyond it")
-        seen += 1
-    return (
-        Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined wherever it was tried")
-    )
-
-
-def _inverse(unknown: Expr, value: Expr) -> Expr:
-    return next(iter(meaning(unknown, value).values()))
-
-
-def _scalar(of: Quantity) -> Expr:
+def number_of(of: Quantity) -> Expr:
     if not isinstance(of.value, Expr) or isinstance(of.value, Relation):
         raise Rejected(Complaint("wrong-argument", f"`{of.key}` is no number that could be compared"))
     return of.value
@@ -312,21 +183,21 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):
         unknown = unknown_of("where", letter)
-        return unknown, _solved(of, difference, mark, unknown)
+        return unknown, solved_for_unknown(of, difference, mark, unknown)
     for one in sorted(given.free_symbols & difference.free_symbols, key=str):
         try:
-            return one, _solved(of, difference, mark, one)
+            return one, solved_for_unknown(of, difference, mark, one)
         except Rejected:
             continue
-    raise _unsolvable(of, given)
+    raise unsolvable(of, given)
 
 
-def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
+def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[Expr, Expr, str]:
     """What stands alone, the unknown or its square; its bound, and the mark between."""
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):
-        raise _unsolvable(of, unknown)
+        raise unsolvable(of, unknown)
     factors = Mul.make_args(written)
     core = Mul(*(f for f in factors if f.has(u) and strict_sign_within(f.xreplace({u: unknown})) != 1))
     outside = Mul(written / core, *beside).xreplace({u: unknown})
@@ -336,13 +207,13 @@ def _solved(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> tuple[E
     if powers in ([1], [2]):
         powers = [*powers, 0]
     if powers not in ([1, 0], [2, 0]) or below.has(u):
-        raise _unsolvable(of, unknown)
+        raise unsolvable(of, unknown)
     leading = polynomial.all_coeffs()[0]
     rest = polynomial.as_expr().xreplace({u: Integer(0)})
     divided = leading * outside / below
     rising = sign_known(divided)
     if not rising and mark not in ("=", "!="):
-        raise _unsolvable(of, unknown, _without_sign(divided))
+        raise unsolvable(of, unknown, _without_sign(divided))
     solved = lecture_form(-rest / leading)
     turned = mark if rising != -1 else TURNED[mark]
     if powers[0] == 1:
@@ -362,7 +233,7 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
     return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
 
 
-def _divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
+def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
     """The factor by which the two sides differ, where its sign is known from the numbers."""
     factor = tidied(difference / (alone - solved))
     sign = sign_known(factor)
@@ -380,16 +251,16 @@ def _excluded(difference: Expr, result: Relation) -> Relation | None:
 def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> list[Form]:
     """Solved at once; or for the square of a positive letter, and then for the letter."""
     alone, solved = result.sides
-    divided = _divided_out(difference, alone, solved)
+    divided = divided_out(difference, alone, solved)
     if excluded is not None:
         return [Form(result, "solved", nonzero=(*divided, *Mul.make_args(excluded.left)))]
     squares = Relation(alone**2, result.mark, tidied(solved**2))
     if divided or not (alone.is_positive and solved.is_positive):
         return [Form(result, "solved", nonzero=divided)]
-    return [Form(squares, "solved", nonzero=_divided_out(difference, *squares.sides)), Form(result, "solved")]
+    return [Form(squares, "solved", nonzero=divided_out(difference, *squares.sides)), Form(result, "solved")]
 
 
-def _unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejected:
+def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejected:
     if factor is not None:
         message = f"`{of.key}` cannot be compared by {unknown} alone: it would be divided by {factor}, of unknown sign"
         letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))

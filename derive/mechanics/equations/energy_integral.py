@@ -101,6 +101,7 @@ def speed_from_energy(
             means={speed: sqrt(2 * (at_start - rest) / mass)},
         ),
         routes={"motion": by_motion},
+        telling=Telling(judged_by={"coordinate": letter, "start": first, "start_rate": initial}),
         key=key or f"{letter.name}_dot_squared",
         facts=[ByEnergy(letter, first, initial, acceleration)],
     )

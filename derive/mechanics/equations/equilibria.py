@@ -26,7 +26,6 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.counting import is_countable, signs_counted
 from derive.mechanics.equations.inequalities import sign_by_factors
-from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.reach import lies_within
 from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
@@ -38,6 +37,7 @@ from derive.mechanics.systems.forced import ActedOn
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import changes, given_letters
 from derive.steps.step import Fact, Quantity, Route, compared_with, is_zero, require_kind
+from derive.witness.facts import Rest
 
 __all__ = ["equilibria", "potential_at_rest"]
 

@@ -27,20 +27,12 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, T
 from derive.mechanics.systems.dalembert import Matter
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Form, Level, Quantity, compared_with, is_zero
+from derive.witness.facts import Around, Rest
 
 __all__ = ["linearised"]
 
 ZERO = Integer(0)
 MOST_TOLD = 2  # terms of higher order that a sentence tells one by one
-
-
-@dataclass(frozen=True)
-class Rest(Fact):
-    """A state of rest: the values of the coordinates, and where it exists; a coordinate left out may have any value."""
-
-    missing = "is not a state of rest"
-    values: Mapping[Symbol, Expr]
-    exists: Relation | None = None
 
 
 @dataclass(frozen=True)
@@ -176,7 +168,7 @@ def _one(
         ),
         key=key,
         parents=[*equations, *rests],
-        facts=[linear, OfCoordinate(eta[i])],
+        facts=[linear, OfCoordinate(eta[i]), Around(dict(place), linear.exists)],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
 

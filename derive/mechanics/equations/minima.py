@@ -28,7 +28,7 @@ from derive.mechanics.equations.equilibria import (
     steady_in,
 )
 from derive.mechanics.equations.inequalities import sign_by_factors
-from derive.mechanics.equations.linearised import Rest, place_given
+from derive.mechanics.equations.linearised import place_given
 from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
@@ -38,6 +38,7 @@ from derive.mechanics.systems.system import System
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
+from derive.witness.facts import Rest
 
 __all__ = ["stability"]
 

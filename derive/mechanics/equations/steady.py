@@ -23,7 +23,6 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.equilibria import RestOf, matter_behind
 from derive.mechanics.equations.inequalities import sign_by_factors
-from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.oscillations import SquareOf
 from derive.mechanics.equations.substitution import WithMomenta
 from derive.mechanics.equations.unknowns import lecture_form
@@ -37,6 +36,7 @@ from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import require_constant
 from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero, require_kind
+from derive.witness.facts import Rest
 
 __all__ = ["frequency_squared_about", "steady_motion"]
 

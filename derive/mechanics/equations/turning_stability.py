@@ -20,11 +20,12 @@ from derive.mechanics.equations.gyroscopic import (
     of_cosines_and_sines,
     require_turning,
 )
-from derive.mechanics.equations.linearised import Linear, Rest
+from derive.mechanics.equations.linearised import Linear
 from derive.mechanics.equations.turning_modes import Part, TurningPencil
 from derive.mechanics.equations.zeros import border_of, positive
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.step import Form, Level, Quantity
+from derive.witness.facts import Rest
 
 __all__ = ["linear_stability"]
 

@@ -147,6 +147,24 @@ def _lost(later: bool) -> Predicate:
     return is_so
 
 
+def _turned_back(facts: Judged) -> bool:
+    """With numbers for the letters: the force vanishes at the place and the squared rate is negative there, while at
+    the start the force pushes and the squared rate is not negative."""
+    unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
+    ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
+    values = [with_numbers(explicit(each).subs(*end)) for end in ends for each in (force, squared)]
+    seen = 0
+    for point in islice(points(set().union(*map(letters_of, values)), seed_of(*values)), 8):
+        try:
+            pushing, moving, last, beyond = (value_at(each, point) for each in values)
+        except (Undefined, NoNumber):
+            continue
+        if not (pushing > 0 and moving >= 0 and abs(last) < Rational(1, 10**9) and beyond < 0):
+            return False
+        seen += 1
+    return seen > 0
+
+
 def _letter_at(unknown: Expr, start: Expr) -> tuple[Expr, Expr]:
     if isinstance(unknown, Symbol):
         return unknown, start
@@ -335,6 +353,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "lost": _lost(later=False),
         "lost_later": _lost(later=True),
         "never": sign_is(1, lambda facts: facts.inputs["force"]),
+        "turns_back": _turned_back,
     },
 }
 

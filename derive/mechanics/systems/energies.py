@@ -248,7 +248,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
         parents=[*system.put_in, *_behind(system)],
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
         lines=Lines(put_in=_level_of_values(turnings), arranged=arranged),
-        facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated],
+        facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated, system.described],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
 
@@ -320,7 +320,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
             result=not named,
             arranged=explicit if named else lambda value: _terms_together(value, moving),
         ),
-        facts=[replace(matter, points=(), fields=()), *acting_on(system)],
+        facts=[replace(matter, points=(), fields=()), *acting_on(system), system.described],
         parents=lengths,
         telling=Telling(words={"seen": "stretched" if kept else "any"}),
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),

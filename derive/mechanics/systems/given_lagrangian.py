@@ -23,6 +23,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter
+from derive.mechanics.systems.described import Described, described
 from derive.mechanics.systems.forced import acting_on
 from derive.mechanics.systems.forces import Damper, GivenForce
 from derive.steps.establish import Lines, Scope, establish
@@ -114,6 +115,13 @@ class WithoutBodies:
         loads = [*(each.load(moving) for each in self.given_forces), *(each.load(moving) for each in self.dampers)]
         return Varied((), (), moving, tuple(loads), (), self.function)
 
+    @cached_property
+    def described(self) -> Described:
+        """What the witness is given of it: the function, and what acts along its coordinates."""
+        return Described(
+            described((*self.given_forces, *self.dampers), (), (), {}, None, self.coordinates, self.function)
+        )
+
 
 def given_lagrangian(
     function: Expr,
@@ -161,7 +169,7 @@ def given_lagrangian(
         kind=kind,
         definition=True,
         lines=Lines(put_in=None, arranged=lambda value: value),
-        facts=[system.matter, *acting_on(system)],
+        facts=[system.matter, *acting_on(system), system.described],
         scope=Scope(coordinates=moving, about=Subject(body=system)),
     )
 

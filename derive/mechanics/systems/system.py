@@ -20,10 +20,12 @@ from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
+from derive.mechanics.systems.described import Described, described
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Fact, Quantity, is_zero
+from derive.witness import description as plain
 
 __all__ = ["Particle", "System", "central", "spring", "weight"]
 
@@ -159,6 +161,7 @@ class System:
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
         self.put_in = tuple(c for c in self.conditions if _is_put_into(c, parts))
+        self._described = parts
         parts = tuple(_with_known(part, known) for part in parts) if known else parts
         self.particles = tuple(part for part in parts if isinstance(part, Particle))
         self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
@@ -232,6 +235,19 @@ class System:
         """Those that its places and the turning of its bodies depend on, with their kinds."""
         entries = [c for place in self.places for c in place.components]
         return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
+
+    @cached_property
+    def described(self) -> Described:
+        """What the witness is given of it: its parts before coordinates that conditions give by others are left out."""
+        gravity = self.weights[0].gravity if self.weights else None
+        moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
+        particles = [plain.Particle(p.mass, p.at.components) for p in self._described if isinstance(p, Particle)]
+        pairs = [
+            plain.Pair(p.start.components, p.end.components, p.distance, explicit(p.energy))
+            for p in self._described
+            if isinstance(p, Central)
+        ]
+        return Described(described(self._described, tuple(particles), tuple(pairs), self.known, gravity, moving))
 
     @cached_property
     def matter(self) -> Matter:

@@ -42,7 +42,6 @@ from derive.mechanics import (
     stability,
     weight,
 )
-from derive.mechanics.equations.linearised import Rest
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
@@ -52,6 +51,7 @@ from derive.stock.keys.blows import DescribedBlow
 from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
+from derive.witness.facts import Rest
 
 DIGITS = "0123456789"
 

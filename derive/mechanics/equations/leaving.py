@@ -1,0 +1,250 @@
+"""Where a contact that can only push is lost: the normal force vanishes, and the motion gets there."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from sympy import Dummy, Expr, Integer, Mul, Rational
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation, explicit, rate
+from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.conditions import (
+    conditions_told,
+    divided_out,
+    existence,
+    number_of,
+    solved_for_unknown,
+    unsolvable,
+)
+from derive.mechanics.equations.energy_integral import ByEnergy
+from derive.mechanics.equations.inequalities import of_the_size
+from derive.mechanics.equations.unknowns import (
+    left_over,
+    letter_of,
+    mark_for,
+    meaning,
+    unknown_of,
+    with_unknown,
+    without_factors_beside,
+)
+from derive.mechanics.equations.zeros import positive
+from derive.steps.establish import Lines, Telling, establish
+from derive.steps.known_numbers import sign_known, with_numbers
+from derive.steps.step import Form, Level, Quantity
+
+__all__ = ["leaves_contact"]
+
+POINTS = 40
+ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
+
+
+def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "leaves_contact") -> Quantity:
+    """Where a contact that can only push is lost: the normal force vanishes, N = 0, solved for one letter.
+
+    force    the normal force, positive while it pushes, N; or the tension of a string, which can only pull
+    letter   what stands alone in the end: a coordinate, or such as `cos(theta)`
+    start    the value of that letter at the start, where the surfaces touch
+    The motion must get there: where the force rests on a squared rate, q_dot^2 = f(q) by conservation of energy, f is
+    positive at the place. If that depends on the letters it is a condition; if it never is, contact is not lost.
+    Factors of the force that are positive in the ranges of the letters, sin(theta) for 0 < theta < pi/2, take no part.
+    Check: a little towards the start the force is still positive, a little beyond it would be negative; where
+    there are such factors also numerically, along the coordinate itself. Witness: the described motion, followed from
+    the start until the multiplier vanishes.
+    Outcomes: lost; lost_later (at the start itself the force is zero, and positive from then on); never (the force is
+    positive whatever the letter is); turns_back (it would vanish at a place that the motion does not reach).
+    Errors: the force is not positive from the start on, or it is not linear in the letter; whether the motion gets
+    there is not known.
+    Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
+    """
+    value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
+    if sign_known(value) == 1:
+        return establish(
+            "conditions.leaves_contact",
+            None,
+            lambda v: Relation(v, ">", 0),
+            {"force": force},
+            lines=Lines(put_in=Level.STANDARD, result=False, arranged=explicit),
+            routes={"size": lambda found: (found.residual, of_the_size(value, found.mark))},
+            outcome="never",
+            key=key,
+        )
+    held, pushing = _held(value, unknown)
+    begin = explicit(start)
+    at_start = tidied(with_unknown(pushing, unknown, begin))
+    if left_over(pushing, unknown) and left_over(with_unknown(pushing, unknown, mark_for(unknown)), unknown):
+        raise _unsolvable_contact(force, unknown)
+    if sign_known(at_start) != 1:
+        message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
+        raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
+    alone, solved, _ = solved_for_unknown(force, pushing, "=", unknown)
+    if alone != unknown:
+        raise unsolvable(force, unknown)
+    squared = squared_rate_behind(force, unknown)
+    there = None if squared is None else tidied(with_unknown(squared, unknown, solved))
+    if squared is not None and there is not None and sign_known(there) == -1:
+        return _turns_back(force, unknown, (begin, solved), squared, key)
+    reached = None if squared is None else _reached(force, unknown, squared, (begin, solved))
+    result = Relation(unknown, "=", solved)
+    existing = existence(force, unknown, "=", solved)
+
+    def on_both_sides(found: Relation) -> tuple[object, object]:
+        """N at the place, and on the way there from the start, but for the factor that stays positive."""
+        place = explicit(found.right)
+        u = _part()
+        on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))
+        at_place = tidied(with_unknown(pushing, unknown, place))
+        return Relation(found.left, found.mark, on_the_way + 7 * at_place), Relation(unknown, "=", u * at_start)
+
+    return establish(
+        "conditions.leaves_contact",
+        None,
+        lambda v: Relation(v, "=", 0),
+        {"force": force},
+        lines=Lines(
+            law=Level.STANDARD,
+            put_in=Level.FULL,
+            after=[Form(result, "solved", nonzero=(*divided_out(value, unknown, solved), *Mul.make_args(held)))],
+            result=False,
+            arranged=lambda _: result,
+        ),
+        routes={
+            "on_the_way": on_both_sides,
+            **({} if held == 1 else {"in_numbers": lambda found: _pushes_until(found, value, unknown, begin)}),
+        },
+        outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
+        telling=Telling(
+            formulas={
+                "from": (Relation(unknown, "=", start), Relation(start, "=", unknown)),
+                **conditions_told(existing=existing and positive(existing.residual), reached=reached),
+            },
+            judged_by={
+                "unknown": unknown,
+                "start": begin,
+                **({"squared": squared} if squared is not None else {}),
+            },
+        ),
+        key=key,
+    )
+
+
+def squared_rate_behind(force: Quantity, unknown: Expr) -> Expr | None:
+    """The squared rate of the coordinate, f(q) by conservation of energy, that a force rests on."""
+    found = (
+        each for each in force.ancestors() if (known := each.fact(ByEnergy)) and known.coordinate == letter_of(unknown)
+    )
+    return next((explicit(each.value) for each in found), None)
+
+
+def _reached(force: Quantity, unknown: Expr, squared: Expr, ends: tuple[Expr, Expr]) -> Relation | None:
+    """The condition under which the motion gets from the start to the place; nothing where it always does.
+
+    The squared rate is positive all the way. One that is linear in the unknown is so if it is at the place, since at
+    the start it is a square.
+    """
+    begin, place = ends
+    mark = mark_for(unknown)
+    written = with_unknown(squared, unknown, mark)
+    there = tidied(with_unknown(squared, unknown, place))
+    polynomial = written.as_poly(mark)
+    is_linear = polynomial is not None and polynomial.degree() <= 1 and not left_over(written, unknown)
+    if not is_linear:
+        on_the_way = tidied(with_unknown(squared, unknown, place + _part() * (begin - place)))
+        if sign_known(on_the_way) != 1 or sign_known(there) not in (0, 1):
+            message = f"`leaves_contact`: whether the motion gets to {unknown} = {place} is not known"
+            help_line = "state what the letters are with `assume:`, or give them numbers"
+            raise Rejected(Complaint("not-reached", message, help=help_line))
+    return None if sign_known(there) == 1 else positive(there)
+
+
+def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
+    """The motion turns back before the place where the force would vanish.
+
+    Outcomes: turns_back.
+    Source: that of `leaves_contact`.
+    """
+    begin, place = ends
+    value = tidied(explicit(number_of(force)))
+    there = tidied(with_unknown(squared, unknown, place))
+    ((q, angle),) = meaning(unknown, place).items()
+    at_angle = squared.xreplace({q: angle})
+
+    def on_the_way(found: Relation) -> tuple[object, object]:
+        """From the start to the place the force is positive; only at the place would it vanish."""
+        u = _part()
+        between = tidied(with_unknown(value, unknown, place + u * (begin - place)))
+        sure = int(sign_known(between) == 1 and found.mark == ">")
+        return found.residual * 0 + sure, Integer(1)
+
+    return establish(
+        "conditions.leaves_contact",
+        None,
+        lambda v: Relation(v, ">", 0),
+        {"force": force},
+        lines=Lines(law=Level.BRIEF, put_in=Level.STANDARD, result=False, arranged=explicit),
+        routes={"on_the_way": on_the_way},
+        outcome="turns_back",
+        telling=Telling(
+            formulas={
+                "place": (Relation(unknown, "=", place), Relation(place, "=", unknown)),
+                "impossible": (Relation(rate(q) ** 2, "=", there), Relation(rate(q) ** 2, "=", at_angle)),
+            },
+            judged_by={"unknown": unknown, "start": begin, "squared": squared},
+        ),
+        key=key,
+    )
+
+
+def _part() -> Expr:
+    """Any number between 0 and 1."""
+    way = Dummy("s", positive=True)
+    return way / (1 + way)
+
+
+def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
+    """Of sin(theta)(a cos(theta) - b) the sine, where it is known to be positive, and the bracket."""
+    u = mark_for(unknown)
+    rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
+    held = Mul(*beside)
+    return (held, rest.xreplace({u: unknown})) if sign_known(held) == 1 else (Integer(1), value)
+
+
+def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
+    """Whether a factor that is positive on the way is zero at the start, as sin(theta) of what stands upright."""
+    (letter, there) = next(iter(meaning(unknown, explicit(start)).items()))
+    return bool(tidied(held.xreplace({letter: there})) == 0)
+
+
+def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
+    letter = letter_of(unknown)
+    message = f"`leaves_contact`: `{force.key}` has factors with {letter} beside {unknown}, of unknown sign"
+    help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
+    return Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _pushes_until(found: Relation, value: Expr, unknown: Expr, start: Expr) -> Verdict:
+    """In numbers, along the coordinate itself: the force is positive on the way, zero at the place, negative beyond."""
+    letter = letter_of(unknown)
+    value, begin, end = (with_numbers(each) for each in (value, start, explicit(found.right)))
+    letters = letters_of(value) | letters_of(begin) | letters_of(end)
+    seen = 0
+    for point in islice(points(letters - {letter}, seed_of(value)), POINTS):
+        try:
+            first, last = (value_at(_inverse(unknown, each), point) for each in (begin, end))
+            if not (first.is_real and last.is_real) or first == last:
+                continue
+            there = [value_at(value, {**point, letter: first + (last - first) * way}) for way in ON_THE_WAY]
+        except (Undefined, NoNumber, TypeError):
+            continue
+        if not all(force > 0 for force in there[:-1]) or not there[-1] < 0:
+            return Verdict(Grade.REFUTED, "the force is not positive on the way, or is so beyond it")
+        seen += 1
+    return (
+        Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined wherever it was tried")
+    )
+
+
+def _inverse(unknown: Expr, value: Expr) -> Expr:
+    return next(iter(meaning(unknown, value).values()))

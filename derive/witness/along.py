@@ -1,0 +1,131 @@
+"""What holds at every moment of a motion: equations of motion, multipliers, conserved quantities."""
+
+from __future__ import annotations
+
+import numpy as np
+from sympy import Expr
+
+from derive.algebra.equality import Verdict
+from derive.algebra.expressions import Relation, explicit
+from derive.steps.step import Quantity
+from derive.witness.claim import CLOSE, PUT_IN, Claim, seen
+from derive.witness.tape import NotComputable
+from derive.witness.trial import Contradiction
+
+OF_MOTION = frozenset(
+    [
+        "lagrangian.equation_of_motion",
+        "forced.equation_of_motion",
+        "kept.acceleration",
+        "kept.constraint_force",
+        "kept.constraint_rate",
+        "kept.multiplier",
+        "canonical.rate_by_momenta",
+    ]
+)
+PASSED_ON = frozenset([PUT_IN, "solving.solved_for"])  # what follows from a statement that holds at every moment
+CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
+
+
+def holds_along(step: Quantity) -> bool:
+    """Whether a step states something that is true at every moment of a motion."""
+    if step.step.rule in OF_MOTION:
+        return True
+    if step.step.rule not in PASSED_ON:
+        return False
+    roles = [role for role, _ in step.step.roles]
+    count = 1 if "original" in roles else sum(role.startswith("equation_") for role in roles)
+    return bool(step.parents) and all(holds_along(parent) for parent in step.parents[:count])
+
+
+def equation(claim: Claim) -> Verdict | None:
+    """Its two sides are equal at every moment."""
+    residuals = claim.residuals
+    if not residuals or not holds_along(claim.quantity):
+        return None
+    scales = [_terms(residual) for residual in residuals]
+    count = 0
+    for trial in claim.trials():
+        if claim.blueprint.of.conditions and claim.loses_its_gradient(trial):
+            return claim.refuted("the gradient of a constraint vanishes where the constraint holds", trial)
+        formulas = trial.formulas([*residuals, *(term for terms in scales for term in terms)])
+        for state, response in claim.moments(trial):
+            found = formulas.at(state, response)
+            left, sizes = found[: len(residuals)], np.abs(found[len(residuals) :])
+            if not np.all(np.isfinite(found)):
+                continue
+            if np.max(np.abs(left)) > CLOSE * (1e-3 + float(np.sum(sizes))):
+                return claim.refuted("it does not hold in the described motion", trial, state)
+            count += 1
+    return seen(count, "states")
+
+
+def substitution(claim: Claim) -> Verdict | None:
+    """What is substituted agrees with the constraints; the equation holds where all of it is so."""
+    contradiction = _fits_together(claim)
+    return equation(claim) if contradiction is None else contradiction
+
+
+def _fits_together(claim: Claim) -> Verdict | None:
+    """Whether the described system has a state of which all that is given is true; rates that contradict a condition
+    refute it."""
+    letters = {*claim.blueprint.coordinates, *claim.blueprint.rates}
+    plain = [each for each in claim.states_given if each.target in letters]
+    if not plain or not claim.blueprint.of.conditions:
+        return None
+    for trial in claim.trials(1):
+        try:
+            trial.state(plain)
+        except Contradiction as contradiction:
+            if contradiction.of_rates:
+                kept = ", ".join(f"{each.residual} = 0" for each in claim.blueprint.of.conditions)
+                return claim.refuted(f"the rates that are substituted contradict the constraint {kept}", trial)
+        except NotComputable:
+            return None
+    return None
+
+
+def kinetic_energy(claim: Claim) -> Verdict | None:
+    """It is half the sum of m v . v"""
+    count = 0
+    for trial in claim.trials():
+        formulas = trial.formulas([claim.value])
+        for state, _ in claim.moments(trial):
+            (found,), expected = formulas.at(state), trial.dynamics.kinetic_energy(state)
+            if abs(found - expected) > CLOSE * (1 + abs(expected)):
+                return claim.refuted("it is not the kinetic energy of the described masses", trial, state)
+            count += 1
+    return seen(count, "states")
+
+
+def conserved(claim: Claim) -> Verdict | None:
+    """A value that is stated to be constant does not change along the motion."""
+    if claim.rule == "energy.energy_function" and claim.outcome not in CONSERVED:
+        return None
+    if not isinstance(claim.value, Expr) or isinstance(claim.value, Relation):
+        return None
+    return _unchanging(claim, claim.value)
+
+
+def kept(claim: Claim) -> Verdict | None:
+    """An energy keeps the value that it has at the start."""
+    return _unchanging(claim, explicit(claim.value).left) if isinstance(claim.value, Relation) else None
+
+
+def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
+    count = 0
+    for trial in claim.trials():
+        formulas = trial.formulas([value])
+        for state, response in claim.moments(trial):
+            (changing,) = formulas.rate_at(state, response)
+            scale = float(np.max(np.abs(state.v), initial=0.0) + np.max(np.abs(response.a), initial=0.0))
+            if np.isfinite(changing) and abs(changing) > CLOSE * 10 * (1 + scale) ** 2:
+                return claim.refuted("it changes along the described motion", trial, state)
+            count += 1
+    return seen(count, "states")
+
+
+def _terms(residual: Expr) -> list[Expr]:
+    """The terms whose sizes the difference is compared with."""
+    terms = list(residual.args) if residual.is_Add else [residual]
+    return [part for term in terms for part in ((term.args) if term.is_Add else [term])]

@@ -1,0 +1,180 @@
+"""A step that says something about a motion, with all that the witness needs to put it to the test."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from sympy import Expr, Symbol
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.steps.outcomes import Judged
+from derive.steps.step import Quantity
+from derive.witness.dynamics import Blueprint, Response, Singular
+from derive.witness.geometry import Reals, State
+from derive.witness.tape import NotComputable
+from derive.witness.trial import Contradiction, Given, Trial
+
+PUT_IN = "substitution.put_in"
+REDUCED = frozenset(["effective.routhian", "effective.effective_potential"])
+APPROXIMATE = frozenset(["approximate", "limits"])
+CLOSE = 1e-6  # to which the two must agree, relative to the terms that are compared
+NO_GRADIENT = 1e-4  # where letters are of order one, and a place is found to 1e-5 at a double zero
+TRIALS = 2
+STATES = 3
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A step with the system that it belongs to.
+
+    momenta   the letters of conserved or conjugate momenta, each with its coordinate
+    assumed   what the page assumes of its letters
+    """
+
+    quantity: Quantity
+    judged: Judged
+    outcome: str
+    blueprint: Blueprint
+    momenta: Mapping[Symbol, Symbol] = field(default_factory=dict)
+    assumed: Sequence[Relation] = ()
+
+    @property
+    def is_approximate(self) -> bool:
+        """Whether it, or something that it rests on, is a limit or a series: no motion satisfies it exactly."""
+        return any(each.step.rule.partition(".")[0] in APPROXIMATE for each in self.quantity.ancestors())
+
+    @property
+    def rule(self) -> str:
+        return self.quantity.step.rule
+
+    @property
+    def symbol(self) -> Any:
+        return self.quantity.symbol
+
+    @property
+    def value(self) -> Any:
+        return explicit(self.quantity.value)
+
+    @property
+    def residuals(self) -> list[Expr]:
+        """What vanishes if the step is right: the sides of an equation, or a symbol and its value."""
+        if isinstance(self.value, Relation):
+            return [self.value.residual] if self.value.mark == "=" else []
+        if isinstance(self.symbol, Symbol) and self.symbol not in self.moving and self.symbol not in self.momenta:
+            return []  # a letter of its own
+        return [explicit(self.symbol) - self.value] if isinstance(self.symbol, Expr) else []
+
+    @cached_property
+    def moving(self) -> set[Symbol]:
+        """All letters that are not constant."""
+        q = self.blueprint.coordinates
+        return {*q, *(rate(s, n) for s in q for n in (1, 2, 3)), *self.blueprint.multipliers, TIME}
+
+    @cached_property
+    def givens(self) -> list[Given]:
+        """What was substituted on the way to this step: it holds only where these are so."""
+        found: dict[Given, None] = {}
+        for ancestor in self.quantity.ancestors():
+            if ancestor.step.rule == PUT_IN:
+                found.update(dict.fromkeys(substituted(ancestor)))
+        return list(found)
+
+    @cached_property
+    def constants(self) -> dict[Symbol, Expr]:
+        """Cyclic coordinates that were eliminated by their constant momenta, with the values of these."""
+        found: dict[Symbol, Expr] = {}
+        reduced = [each for each in self.quantity.ancestors() if each.step.rule in REDUCED]
+        for each in (ancestor for step in reduced for ancestor in step.ancestors()):
+            if each.step.rule == "effective.conserved" and isinstance(each.symbol, Symbol):
+                found.setdefault(dict(each.step.roles)["coordinate"], each.symbol)
+        if found:
+            for each in self.quantity.ancestors():
+                roles = dict(each.step.roles)
+                if each.step.rule == "effective.value_kept" and roles.get("momentum") in self.momenta:
+                    found[self.momenta[roles["momentum"]]] = explicit(roles["value"])
+        return found
+
+    def is_of_a_state(self, given: Given) -> bool:
+        return bool(explicit(given.target).free_symbols & self.moving) or given.target in self.momenta
+
+    @property
+    def letters_given(self) -> list[Given]:
+        return [each for each in self.givens if not self.is_of_a_state(each) and isinstance(each.target, Symbol)]
+
+    @property
+    def states_given(self) -> list[Given]:
+        return [each for each in self.givens if self.is_of_a_state(each)]
+
+    def trials(self, count: int = TRIALS, also: Sequence[Relation] = ()) -> Iterator[Trial]:
+        """The system with several sets of numbers, which satisfy what is assumed, and `also` these conditions."""
+        for number in range(count):
+            try:
+                yield Trial(
+                    self.blueprint, number, [*self.assumed, *also], letters=self.letters_given, momenta=self.momenta
+                )
+            except NotComputable:
+                return
+
+    def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
+        """States of the motion with what follows from them; those at which nothing is determined are left out."""
+        for which in range(STATES):
+            try:
+                state = trial.state(self.states_given if given is None else given, which)
+                yield state, trial.dynamics.response(state)
+            except Contradiction:
+                return
+            except (Singular, np.linalg.LinAlgError):
+                continue
+
+    def loses_its_gradient(self, trial: Trial) -> bool:
+        """Whether the gradient of a condition vanishes wherever the conditions hold, so that nothing keeps it."""
+        found = []
+        for which in range(STATES):
+            try:
+                _, gradients = trial.dynamics.gradients(trial.state((), which))
+            except Contradiction:
+                continue
+            found.append(np.min(np.linalg.norm(gradients, axis=1), initial=1.0) < NO_GRADIENT)
+        return bool(found) and all(found)
+
+    def refuted(self, detail: str, trial: Trial, state: State | None = None) -> Verdict:
+        """With the numbers at which the motion says otherwise."""
+        shown = sorted(trial.used, key=str)
+        point = [(letter.name, f"{trial.numbers[letter]:.4g}") for letter in shown]
+        if state is not None:
+            q, v = self.blueprint.coordinates, self.blueprint.rates
+            point += [(s.name, f"{x:.4g}") for s, x in zip([*q, *v], [*state.q, *state.v], strict=True)]
+        return Verdict(Grade.REFUTED, detail, tuple(point))
+
+
+def substituted(step: Quantity) -> list[Given]:
+    """The replacements that one substitution made: values of letters, and results for the letters that they have."""
+    found = [
+        Given(relation.left, explicit(relation.right))
+        for role, relation in step.step.roles
+        if role.startswith("value_") and isinstance(relation, Relation)
+    ]
+    original = dict(step.step.roles).get("original")
+    for parent in step.parents:
+        if parent.symbol is not None and parent.symbol == original or parent.step.key == str(original):
+            continue
+        value = explicit(parent.value)
+        if isinstance(value, Relation) and value.mark == "=" and parent.symbol is None:
+            found.append(Given(value.left, value.right))
+        elif isinstance(parent.symbol, Expr) and isinstance(value, Expr):
+            found.append(Given(parent.symbol, value))
+    return found
+
+
+def agree(found: Reals, expected: Reals, scale: float = 1.0) -> bool:
+    return bool(np.all(np.abs(found - expected) <= CLOSE * (scale + np.abs(expected))))
+
+
+def seen(count: int, what: str) -> Verdict | None:
+    """What the witness says where nothing contradicted the claim; nothing where it saw nothing."""
+    return Verdict(Grade.SAMPLED, f"{count} {what}") if count else None

@@ -1,0 +1,332 @@
+"""Newton and Euler in numbers: the accelerations and the multipliers of a description at any state.
+
+Every place X is differentiated along the coordinates and along the motion by complex steps. With the Jacobians J and
+the accelerations c that the rates alone cause, virtual work gives
+
+    sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
+
+linear equations for the accelerations a and the multipliers lambda. W are the masses and second moments.
+
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4; Hairer, Lubich, Wanner, *Geometric
+Numerical Integration*, section I.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from sympy import Expr, Symbol
+
+from derive.algebra.expressions import TIME, rate
+from derive.witness.description import Description
+from derive.witness.geometry import AROUND, STEP, WEIGHTS, Place, Placed, Reals, State, formulas_of, placed
+from derive.witness.tape import Compiled, Tape
+
+NEAR = 1e-4  # of the points for second derivatives of a given Lagrangian, which may be singular at a close speed
+LEAST = 1e-12  # a row of the equations below this says nothing about the accelerations
+RANK = 1e-9  # singular values below this part of the largest count as zero
+
+
+class Singular(Exception):
+    """The accelerations are not determined at this state: some mass or gradient vanishes there."""
+
+
+@dataclass(frozen=True)
+class Response:
+    """What follows at a state: accelerations, and the multipliers of the conditions, in their order.
+
+    rank   the number of conditions of which none follows from the others
+    """
+
+    a: Reals
+    multipliers: Reals
+    rank: int
+
+
+class Blueprint:
+    """The formulas of a description as operations, before the letters have numbers."""
+
+    def __init__(self, description: Description):
+        self.of = description
+        q = [symbol for symbol, _ in description.coordinates]
+        self.coordinates = q
+        self.rates = [rate(symbol) for symbol in q]
+        self.places = Tape(formulas_of(description), [*q, TIME])
+        self.weights = Tape(_weights(description), [])
+        self.pulls = [Tape([pair.energy], [pair.distance]) for pair in description.pairs]
+        self.energies = Tape(list(description.energies), [*q, TIME])
+        self.multipliers = [c.multiplier or Symbol(f"multiplier_{i}") for i, c in enumerate(description.conditions)]
+        forces = [c for force in description.forces for c in force.components]
+        self.forces = Tape(forces, [*q, *self.rates, TIME, *self.multipliers])
+        self.conditions = Tape([c.residual for c in description.conditions], [*q, *self.rates, TIME])
+        given = [description.lagrangian] if description.lagrangian is not None else []
+        self.lagrangian = Tape(given, [*q, *self.rates, TIME])
+
+    @cached_property
+    def letters(self) -> set[Symbol]:
+        """Every constant that needs a number."""
+        tapes = [self.places, self.weights, *self.pulls, self.energies, self.forces, self.conditions, self.lagrangian]
+        return {letter for tape in tapes for letter in tape.letters}
+
+    def with_numbers(self, numbers: Mapping[Symbol, float]) -> Dynamics:
+        return Dynamics(self, numbers)
+
+
+def _weights(description: Description) -> list[Expr]:
+    """All constants of matter and of fields, in the order in which `Dynamics` reads them."""
+    found: list[Expr] = [particle.mass for particle in description.particles]
+    for body in description.bodies:
+        found += [body.mass, *body.arm, *(entry for row in body.spread for entry in row)]
+    found += [description.gravity] if description.gravity is not None else []
+    found += [drag.constant for drag in description.drags]
+    for charge in description.charges:
+        found += [charge.charge, *charge.electric, *charge.magnetic]
+    return found
+
+
+class Dynamics:
+    """A description whose letters have numbers."""
+
+    def __init__(self, blueprint: Blueprint, numbers: Mapping[Symbol, float]):
+        self.blueprint, self.numbers = blueprint, numbers
+        of = blueprint.of
+        self.count = len(blueprint.coordinates)
+        self._places = blueprint.places.bound(numbers)
+        weights = iter(np.real(blueprint.weights.bound(numbers)(np.empty((0, 1), dtype=complex))[:, 0]))
+        self._masses = [next(weights) for _ in of.particles]
+        self._bodies = [
+            (next(weights), np.array([next(weights) for _ in b.arm]), _square(weights, len(b.spread)))
+            for b in of.bodies
+        ]
+        self._gravity = next(weights) if of.gravity is not None else 0.0
+        self._drags = [next(weights) for _ in of.drags]
+        self._charges = [
+            (
+                next(weights),
+                np.array([next(weights) for _ in c.electric]),
+                np.array([next(weights) for _ in c.magnetic]),
+            )
+            for c in of.charges
+        ]
+        self._pulls = [tape.bound(numbers) for tape in blueprint.pulls]
+        self._energies = blueprint.energies.bound(numbers)
+        self._forces = blueprint.forces.bound(numbers)
+        self._conditions = blueprint.conditions.bound(numbers)
+        self._lagrangian = blueprint.lagrangian.bound(numbers) if of.lagrangian is not None else None
+
+    def placed(self, state: State) -> Placed:
+        """Everything of the description at a state."""
+        return placed(self.blueprint.of, self._places, [arm for _, arm, _ in self._bodies], state)
+
+    # --- the equations ----------------------------------------------------------------------------------------------
+
+    def inertia(self, state: State) -> tuple[Reals, Reals]:
+        """The mass matrix, and the generalized forces at zero acceleration and zero multipliers."""
+        if self._lagrangian is not None:
+            matrix, forces = self._of_lagrangian(state, self._lagrangian)
+            return matrix, forces + self._given(state, self.placed(state))[:, 0]
+        at = self.placed(state)
+        matrix, forces = self._matter(at)
+        forces = forces + self._stored(state, at) + self._given(state, at)[:, 0]
+        return matrix, forces
+
+    def response(self, state: State) -> Response:
+        """The accelerations and multipliers at a state; raises `Singular` where they are not determined."""
+        at = self.placed(state)
+        if self._lagrangian is not None:
+            matrix, forces = self._of_lagrangian(state, self._lagrangian)
+        else:
+            matrix, forces = self._matter(at)
+            forces = forces + self._stored(state, at)
+        given = self._given(state, at)
+        gradients, left = self._kept(state)
+        rows = len(left)
+        whole = np.zeros((self.count + rows, self.count + rows))
+        whole[: self.count, : self.count] = matrix
+        whole[: self.count, self.count :] = -gradients.T - given[:, 1:]
+        whole[self.count :, : self.count] = gradients
+        right = np.append(forces + given[:, 0], -left)
+        if not (np.all(np.isfinite(whole)) and np.all(np.isfinite(right))):
+            raise Singular
+        rank = int(np.linalg.matrix_rank(gradients, tol=RANK * (1 + np.max(np.abs(gradients))))) if rows else 0
+        return self._solved(whole, right, rank, rows)
+
+    def _solved(self, whole: Reals, right: Reals, rank: int, rows: int) -> Response:
+        scale = np.max(np.abs(whole), axis=1)
+        if np.any(scale < LEAST):
+            raise Singular
+        whole, right = whole / scale[:, None], right / scale
+        if rank == rows:
+            if np.linalg.cond(whole) > 1 / RANK:
+                raise Singular
+            found = np.linalg.solve(whole, right)
+        else:
+            found, *_ = np.linalg.lstsq(whole, right, rcond=RANK)
+            if np.linalg.matrix_rank(whole, tol=RANK) < self.count + rank:
+                raise Singular
+            if np.linalg.norm(whole @ found - right) > 1e-7 * (1 + np.linalg.norm(right)):
+                raise Singular
+        known = np.asarray(found, dtype=np.float64)
+        return Response(known[: self.count], known[self.count :], rank)
+
+    def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
+        """Masses with the places that carry them, and second moments with the pairs of axes that carry those."""
+        for mass, place in self._weighed(at):
+            yield mass, place, place
+        for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):
+            for i, one in body.axes.items():
+                for k, other in body.axes.items():
+                    yield spread[i, k], one, other
+
+    def _matter(self, at: Placed) -> tuple[Reals, Reals]:
+        """The mass matrix and the forces of masses: the weight, minus the inertia that the rates alone cause."""
+        matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
+        for weight, one, other in self._pairs_of_matter(at):
+            matrix += weight * one.jacobian.T @ other.jacobian
+            forces -= weight * one.jacobian.T @ other.turning
+        for mass, place in self._weighed(at):
+            forces -= mass * self._gravity * place.jacobian[-1]
+        return matrix, forces
+
+    def _weighed(self, at: Placed) -> Iterator[tuple[float, Place]]:
+        """Each mass with its place: of a body its centre of mass."""
+        yield from zip(self._masses, at.particles, strict=True)
+        for (mass, _, _), body in zip(self._bodies, at.bodies, strict=True):
+            yield mass, body.centre
+
+    def _stored(self, state: State, at: Placed) -> Reals:
+        """The forces of springs and other pairs, of potential energies and of charges in electric fields."""
+        forces = np.zeros(self.count)
+        for pull, (start, end) in zip(self._pulls, at.pairs, strict=True):
+            way = end.at - start.at
+            distance = max(float(np.linalg.norm(way)), 1e-9)
+            slope = float(np.imag(pull(np.array([[distance + 1j * STEP]]))[0, 0])) / STEP
+            forces -= (end.jacobian - start.jacobian).T @ way * (slope / distance)
+        if self.blueprint.of.energies:
+            points = np.tile(np.append(state.q, state.t).astype(complex)[:, None], (1, self.count))
+            points[: self.count] += 1j * STEP * np.eye(self.count)
+            forces -= np.sum(np.imag(self._energies(points)), axis=0) / STEP
+        return forces
+
+    def _given(self, state: State, at: Placed) -> Reals:
+        """The generalized forces of given forces, drag and charges: a column without multipliers, and one for each."""
+        rows, n = len(self.blueprint.multipliers), self.count
+        found = np.zeros((n, 1 + rows))
+        here = np.concatenate([state.q, state.v, [state.t], np.zeros(rows)])
+        points = np.tile(here.astype(complex)[:, None], (1, 1 + rows))
+        if rows:
+            points[-rows:, 1:] = np.eye(rows)
+        components = iter(np.real(self._forces(points)))
+        for force, place in zip(self.blueprint.of.forces, at.forces, strict=True):
+            acting = np.array([next(components) for _ in force.components])
+            acting[:, 1:] -= acting[:, :1]
+            found += _jacobian(force.body, place, at).T @ acting
+        for drag, constant, place in zip(self.blueprint.of.drags, self._drags, at.drags, strict=True):
+            velocity = place.velocity if drag.body is None else at.bodies[drag.body].velocity_at(place.at)
+            found[:, 0] -= _jacobian(drag.body, place, at).T @ velocity * constant
+        for (charge, electric, magnetic), place in zip(self._charges, at.charges, strict=True):
+            found[:, 0] += place.jacobian.T @ (charge * (electric + _across(place.velocity, magnetic)))
+        return found
+
+    def _kept(self, state: State) -> tuple[Reals, Reals]:
+        """The gradients of the conditions, A, and what is left of their second derivatives at zero acceleration, b."""
+        conditions, n = self.blueprint.of.conditions, self.count
+        gradients, left = np.zeros((len(conditions), n)), np.zeros(len(conditions))
+        if not conditions:
+            return gradients, left
+        by_places, by_rates, along = self._slopes_of_conditions(state)
+        for i, condition in enumerate(conditions):
+            gradients[i] = by_rates[i] if condition.in_rates else by_places[i]
+            left[i] = along[i, 0] if condition.in_rates else along[i, 1]
+        return gradients, left
+
+    def _slopes_of_conditions(self, state: State) -> tuple[Reals, Reals, Reals]:
+        """By coordinates, by rates, and along the motion with constant rates: the first derivative and the second."""
+        n = self.count
+        here = np.concatenate([state.q, state.v, [state.t]])
+        along = np.concatenate([state.v, np.zeros(n), [1.0]])
+        reach = state.reach
+        points = np.tile(here.astype(complex)[:, None], (1, 2 * n + 7))
+        points[: 2 * n, : 2 * n] += 1j * STEP * np.eye(2 * n)
+        points[:, 2 * n :] += 1j * STEP * along[:, None]
+        points[:, 2 * n + 1 :] += along[:, None] * AROUND * reach
+        slopes = np.imag(self._conditions(points)) / STEP
+        second = slopes[:, 2 * n + 1 :] @ WEIGHTS / reach
+        return slopes[:, :n], slopes[:, n : 2 * n], np.stack([slopes[:, 2 * n], second], axis=1)
+
+    def violation(self, state: State) -> tuple[Reals, Reals]:
+        """The conditions themselves, those in rates left out, and the rates at which all of them are violated."""
+        here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)[:, None]
+        residuals = np.real(self._conditions(here))[:, 0]
+        in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
+        _, _, along = self._slopes_of_conditions(state)
+        return np.where(in_rates, 0.0, residuals), np.where(in_rates, residuals, along[:, 0])
+
+    def gradients(self, state: State) -> tuple[Reals, Reals]:
+        """The gradients of the conditions on places, by coordinates, and of all conditions, by rates."""
+        by_places, by_rates, _ = self._slopes_of_conditions(state)
+        in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
+        on_places = by_places.copy()
+        on_places[in_rates] = 0.0
+        return on_places, np.where(in_rates[:, None], by_rates, by_places)
+
+    def momenta(self, state: State) -> Reals:
+        """The generalized momenta; a charge in a magnetic field has a share q A, with A = (1/2) B x r."""
+        if self._lagrangian is not None:
+            return self._slopes_of_lagrangian(state, self._lagrangian)[self.count :]
+        at = self.placed(state)
+        found = np.zeros(self.count)
+        for weight, one, other in self._pairs_of_matter(at):
+            found += weight * one.jacobian.T @ other.velocity
+        for (charge, _, magnetic), place in zip(self._charges, at.charges, strict=True):
+            found += place.jacobian.T @ (-0.5 * charge * _across(place.at, magnetic))
+        return found
+
+    def kinetic_energy(self, state: State) -> float:
+        """Half the sum of W v . v"""
+        pairs = self._pairs_of_matter(self.placed(state))
+        return sum(float(weight * one.velocity @ other.velocity) for weight, one, other in pairs) / 2
+
+    # --- a given Lagrangian -----------------------------------------------------------------------------------------
+
+    def _slopes_of_lagrangian(self, state: State, function: Compiled) -> Reals:
+        n = self.count
+        here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)
+        points = np.tile(here[:, None], (1, 2 * n))
+        points[: 2 * n] += 1j * STEP * np.eye(2 * n)
+        return np.asarray(np.imag(function(points)[0]) / STEP, dtype=np.float64)
+
+    def _of_lagrangian(self, state: State, function: Compiled) -> tuple[Reals, Reals]:
+        """The second derivatives of L by the rates, and dL/dq less what d(dL/dv)/dt has at zero acceleration."""
+        n = self.count
+        reach = NEAR / (1 + float(np.max(np.abs(state.v), initial=0.0)))
+        matrix = np.zeros((n, n))
+        for k in range(n):
+            unit = np.eye(n)[k] * reach
+            slopes = [self._slopes_of_lagrangian(State(state.q, state.v + s * unit, state.t), function) for s in AROUND]
+            matrix[k] = WEIGHTS @ np.array(slopes)[:, n:] / reach
+        along = [
+            self._slopes_of_lagrangian(State(state.q + s * reach * state.v, state.v, state.t + s * reach), function)
+            for s in AROUND
+        ]
+        changing = WEIGHTS @ np.array(along)[:, n:] / reach
+        return (matrix + matrix.T) / 2, self._slopes_of_lagrangian(state, function)[:n] - changing
+
+
+def _jacobian(body: int | None, place: Place, at: Placed) -> Reals:
+    """Of the place itself, or of the particle that a body has there."""
+    return place.jacobian if body is None else at.bodies[body].jacobian_at(place.at)
+
+
+def _square(values: Iterator[float], size: int) -> Reals:
+    return np.array([[next(values) for _ in range(size)] for _ in range(size)])
+
+
+def _across(velocity: Reals, field: Reals) -> Reals:
+    """v x B; in a plane B has one component, towards the reader."""
+    if len(velocity) == 2:
+        return np.array([velocity[1] * field[0], -velocity[0] * field[0]])
+    return np.cross(velocity, field)

@@ -1,0 +1,161 @@
+"""Where everything of a description is at a state, and how it moves: places with their derivatives.
+
+Complex steps give the first derivatives, along each coordinate and along the motion. The second derivative along the
+motion, at constant rates, is that of first derivatives at six points before and behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from sympy import Expr
+
+from derive.witness.description import Body, Description, Vector
+from derive.witness.tape import Compiled, Numbers
+
+Reals: TypeAlias = NDArray[np.float64]
+
+STEP = 1e-30  # of the imaginary part: it takes part in no sum, so that nothing cancels
+PATH = 0.004  # of the points on either side along the motion, for second derivatives
+AROUND = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
+WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60  # of a first derivative, to sixth order
+
+
+@dataclass(frozen=True)
+class State:
+    """Coordinates, their rates, and the time."""
+
+    q: Reals
+    v: Reals
+    t: float = 0.0
+
+    @property
+    def reach(self) -> float:
+        """How far along the motion the points for second derivatives are apart."""
+        return PATH / (1 + max(1.0, float(np.max(np.abs(self.v), initial=0.0))))
+
+
+@dataclass(frozen=True)
+class Place:
+    """A vector and its derivatives: by coordinates, by the time, and twice by the time at constant rates."""
+
+    at: Reals
+    jacobian: Reals
+    velocity: Reals
+    turning: Reals
+
+
+@dataclass(frozen=True)
+class PlacedBody:
+    """The centre of mass of a body, and its axes by their numbers."""
+
+    centre: Place
+    axes: dict[int, Place]
+
+    def jacobian_at(self, place: Reals) -> Reals:
+        """Of the particle of the body that is at a place."""
+        found = self.centre.jacobian.copy()
+        for axis in self.axes.values():
+            found += axis.jacobian * float(axis.at @ (place - self.centre.at))
+        return found
+
+    def velocity_at(self, place: Reals) -> Reals:
+        """Of that particle."""
+        found = self.centre.velocity.copy()
+        for axis in self.axes.values():
+            found += axis.velocity * float(axis.at @ (place - self.centre.at))
+        return found
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Everything of a description at a state, in its order."""
+
+    particles: list[Place]
+    bodies: list[PlacedBody]
+    pairs: list[tuple[Place, Place]]
+    forces: list[Place]
+    drags: list[Place]
+    charges: list[Place]
+
+
+def formulas_of(description: Description) -> list[Expr]:
+    """All components of places, and the angles of rotations, in the order in which `placed` reads them."""
+    found: list[Expr] = [c for particle in description.particles for c in particle.place]
+    for body in description.bodies:
+        found += [*body.place, *(angle for _, angle in body.turns)]
+    for pair in description.pairs:
+        found += [*pair.start, *pair.end]
+    for place in _acting_places(description):
+        found += place
+    return found
+
+
+def _acting_places(description: Description) -> list[Vector]:
+    """The places of forces, drag and charges."""
+    places = [force.place for force in description.forces] + [drag.place for drag in description.drags]
+    return places + [charge.place for charge in description.charges]
+
+
+def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], state: State) -> Placed:
+    """Everything at a state. `arms` go from the known points of bodies to their centres of mass."""
+    points, count = _points(state), len(state.q)
+    found = formulas(points)
+    rows = iter(found)
+
+    def vector(size: int) -> Place:
+        return _place(np.array([next(rows) for _ in range(size)]), count, state.reach)
+
+    particles = [vector(len(particle.place)) for particle in description.particles]
+    bodies = [
+        _body(body, arm, rows, found.shape[1], count, state.reach)
+        for body, arm in zip(description.bodies, arms, strict=True)
+    ]
+    pairs = [(vector(len(pair.start)), vector(len(pair.end))) for pair in description.pairs]
+    acting = iter([vector(len(place)) for place in _acting_places(description)])
+    forces, drags, charges = (
+        [next(acting) for _ in kind] for kind in (description.forces, description.drags, description.charges)
+    )
+    return Placed(particles, bodies, pairs, forces, drags, charges)
+
+
+def _points(state: State) -> Numbers:
+    """The state, a complex step along each coordinate, one along the motion, and six more before and behind it."""
+    n = len(state.q)
+    here, along = np.append(state.q, state.t), np.append(state.v, 1.0)
+    points = np.tile(here.astype(complex)[:, None], (1, n + 8))
+    points[:n, 1 : n + 1] += 1j * STEP * np.eye(n)
+    points[:, n + 1 :] += 1j * STEP * along[:, None]
+    points[:, n + 2 :] += along[:, None] * AROUND * state.reach
+    return points
+
+
+def _place(vector: Numbers, count: int, reach: float) -> Place:
+    slopes = np.imag(vector) / STEP
+    turning = slopes[:, count + 2 :] @ WEIGHTS / reach
+    return Place(np.real(vector[:, 0]), slopes[:, 1 : count + 1], slopes[:, count + 1], turning)
+
+
+def _body(body: Body, arm: Reals, rows: Iterator[Numbers], points: int, count: int, reach: float) -> PlacedBody:
+    known = np.array([next(rows) for _ in body.place])
+    axes = _axes(body, [next(rows) for _ in body.turns], points)
+    centre = known + sum(a * axis for a, axis in zip(arm, axes, strict=True))
+    by_number = zip(body.axes, axes, strict=True)
+    return PlacedBody(_place(centre, count, reach), {i: _place(axis, count, reach) for i, axis in by_number})
+
+
+def _axes(body: Body, angles: Sequence[Numbers], points: int) -> list[Numbers]:
+    """The axes of a body in space, or the two in the plane, as vectors at each point."""
+    if len(body.axes) == 2:
+        c, s = np.cos(angles[0]), np.sin(angles[0])
+        return [np.array([c, s]), np.array([-s, c])]
+    columns = [np.tile(np.eye(3, dtype=complex)[:, i : i + 1], (1, points)) for i in range(3)]
+    for (axis, _), angle in zip(body.turns, angles, strict=True):
+        c, s = np.cos(angle), np.sin(angle)
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        columns[j], columns[k] = columns[j] * c + columns[k] * s, columns[k] * c - columns[j] * s
+    return columns

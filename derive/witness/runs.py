@@ -1,0 +1,218 @@
+"""Motions followed from their start: speeds by conservation of energy, where contact is lost, periods, solutions.
+
+SciPy integrates the accelerations of the described system (Dormand and Prince, order 8) and finds where an event takes
+place: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections II.5 and II.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from sympy import Expr, Integer, Symbol, diff
+
+from derive.algebra.equality import Verdict
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.witness.claim import Claim, seen
+from derive.witness.dynamics import Singular
+from derive.witness.facts import Around
+from derive.witness.geometry import Reals, State
+from derive.witness.trial import Contradiction, Given, Trial
+
+LONG = 12.0  # the time for which a motion is followed, where masses, lengths and g are of order one
+CALLS = 6000  # of the accelerations in one motion
+MOMENTS, WATCHED = 12, 80  # steps at least, without and with an event that may be short
+CLEAR = 0.1  # by which a condition must be satisfied, or an event is too short to be seen
+FOLLOWED = 1e-5  # to which a followed motion and a formula agree
+MANY = 6  # motions from one start: whether they get somewhere may depend on the letters
+NUDGE = 2e-3  # part of the way by which a motion leaves an equilibrium in which it would stay
+Event = Callable[[State], float]
+
+
+class TooLong(Exception):
+    """The motion takes more evaluations than one test may."""
+
+
+class Run:
+    """One motion of the described system: its states, and the event that ended it, if one did."""
+
+    def __init__(self, trial: Trial, start: State, length: float, event: Event | None, step: float):
+        from scipy.integrate import solve_ivp
+
+        self.trial, self._calls = trial, 0
+        n = len(start.q)
+
+        def flow(t: float, y: Reals) -> Reals:
+            self._calls += 1
+            if self._calls > CALLS:
+                raise TooLong
+            return np.concatenate([y[n:], trial.dynamics.response(State(y[:n], y[n:], t)).a])
+
+        def watched(t: float, y: Reals) -> float:
+            assert event is not None
+            return event(State(y[:n], y[n:], t))
+
+        watched.terminal = True  # type: ignore[attr-defined]
+        watched.direction = -1  # type: ignore[attr-defined]
+        found = solve_ivp(
+            flow,
+            (start.t, start.t + length),
+            np.concatenate([start.q, start.v]),
+            method="DOP853",
+            rtol=1e-9,
+            atol=1e-10,
+            max_step=step,
+            events=[watched] if event is not None else None,
+        )
+        self.states = [State(y[:n], y[n:], float(t)) for t, y in zip(found.t, found.y.T, strict=True)]
+        ended = event is not None and len(found.t_events[0]) > 0
+        self.end = State(found.y_events[0][0][:n], found.y_events[0][0][n:], found.t_events[0][0]) if ended else None
+
+
+def followed(trial: Trial, start: State, length: float = LONG, event: Event | None = None) -> Run | None:
+    """The motion from a state; nothing where it meets a singularity or takes too long."""
+    try:
+        return Run(trial, start, length, event, length / (MOMENTS if event is None else WATCHED))
+    except (Singular, TooLong, np.linalg.LinAlgError, FloatingPointError):
+        return None
+
+
+def speed(claim: Claim) -> Verdict | None:
+    """The square of the rate, at every place that the motion from this start reaches."""
+    inputs = claim.judged.inputs
+    q = inputs.get("coordinate")
+    if not isinstance(q, Symbol) or q not in claim.blueprint.coordinates:
+        return None
+    start = [*claim.states_given, Given(q, inputs["start"]), Given(rate(q), inputs["start_rate"])]
+    count = 0
+    for trial in claim.trials():
+        try:
+            state = trial.state(_without_repeats(start))
+            formulas = trial.formulas([claim.value, rate(q) ** 2])
+        except Contradiction as contradiction:
+            if contradiction.of_rates and claim.blueprint.of.conditions:
+                return claim.refuted("the start contradicts the constraints", trial)
+            continue
+        run = followed(trial, state, LONG / 4)
+        if run is None:
+            continue
+        for each in run.states:
+            stated, found = formulas.at(each)
+            if not abs(stated - found) <= FOLLOWED * (1 + abs(found)):
+                return claim.refuted("the described motion from this start has another speed", trial, each)
+        count += 1
+    return seen(count, "motions")
+
+
+def _without_repeats(given: Sequence[Given]) -> list[Given]:
+    return list({each.target: each for each in given}.values())
+
+
+def leaves(claim: Claim) -> Verdict | None:
+    """The force vanishes there, and the motion gets there from the start."""
+    inputs = claim.judged.inputs
+    if "unknown" not in inputs or "start" not in inputs or not isinstance(claim.value, Relation):
+        return None
+    conditions = [each for each in inputs.values() if isinstance(each, Relation) and each.mark not in ("=", "!=")]
+    place = inputs["place"].right if claim.outcome == TURNS_BACK else claim.value.right
+    count = 0
+    for trial in claim.trials(MANY, also=conditions):
+        if any(abs(trial.value(each.residual)) < CLEAR for each in conditions):
+            continue
+        verdict = _leaves_in(claim, trial, inputs, explicit(place))
+        if isinstance(verdict, Verdict):
+            return verdict
+        count += verdict
+    return seen(count, "motions")
+
+
+TURNS_BACK = "turns_back"
+
+
+def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Expr) -> Verdict | int:
+    """What refutes the claim in one motion; else whether it was seen."""
+    unknown, begin = explicit(inputs["unknown"]), explicit(inputs["start"])
+    force = claim.judged.quantities.get("force")
+    watched = trial.formulas([unknown, explicit(force.symbol) if force is not None else Integer(0)])
+    if force is None or force.symbol not in claim.blueprint.multipliers:
+        return 0
+    stays = claim.outcome == TURNS_BACK
+    first, last = trial.value(begin), trial.value(place)
+    if not abs(last - first) > CLEAR:
+        return 0
+    try:
+        near = begin + (place - begin) * (
+            -NUDGE if stays and not _can_go_on(claim, trial, unknown, begin, place) else NUDGE
+        )
+        state = trial.state(_without_repeats([*claim.states_given, Given(unknown, near)]))
+    except Contradiction:
+        if stays or not _can_start(claim, trial, unknown, begin):
+            return 0
+        return claim.refuted("the described motion does not go there from this start", trial)
+    state = _towards(trial, unknown, state, last - first)
+
+    def pushing(here: State) -> float:
+        return float(watched.at(here, trial.dynamics.response(here))[1])
+
+    run = followed(trial, state, LONG, pushing)
+    if run is None:
+        return 0
+    if stays:
+        return 1 if run.end is None else claim.refuted("in the described motion the force does vanish", trial, run.end)
+    if run.end is None:
+        return claim.refuted("the described motion from this start does not get there", trial, state)
+    found = float(watched.at(run.end)[0])
+    if abs(found - last) > 10 * FOLLOWED + NUDGE * abs(last - first):
+        return claim.refuted(f"in the described motion the force vanishes at {found:.4g} instead", trial, state)
+    return 1
+
+
+def _can_start(claim: Claim, trial: Trial, unknown: Expr, at: Expr) -> bool:
+    """Whether there is a state of the motion with this value of the unknown."""
+    try:
+        trial.state(_without_repeats([*claim.states_given, Given(unknown, at)]))
+    except Contradiction:
+        return False
+    return True
+
+
+def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Expr) -> bool:
+    return _can_start(claim, trial, unknown, begin + (place - begin) * NUDGE)
+
+
+def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
+    """The state with all rates turned round, if the motion would start away from the place."""
+    from dataclasses import replace
+
+    response = trial.dynamics.response(state)
+    changing = float(trial.formulas([unknown]).rate_at(state, response)[0])
+    return replace(state, v=-state.v) if changing * sign < 0 else state
+
+
+def solution(claim: Claim) -> Verdict | None:
+    """The coordinate as this function of the time, where the other coordinates do what the described system does."""
+    (q,) = (claim.symbol,) if isinstance(claim.symbol, Symbol) else (None,)
+    is_about = any(each.fact(Around) is not None for each in claim.quantity.ancestors())
+    if q is None or q not in claim.blueprint.coordinates or is_about:  # to first order it is another motion
+        return None
+    motion = claim.value
+    start = [Given(q, motion.subs(TIME, 0)), Given(rate(q), diff(motion, TIME).subs(TIME, 0))]
+    count = 0
+    for trial in claim.trials():
+        try:
+            state = trial.state(_without_repeats([*claim.states_given, *start, Given(TIME, Integer(0))]))
+            formula = trial.formulas([motion])
+        except Contradiction:
+            continue
+        run = followed(trial, state, LONG / 6)
+        if run is None:
+            continue
+        i = claim.blueprint.coordinates.index(q)
+        size = max(float(np.max(np.abs([each.q[i] for each in run.states]))), 1e-3)
+        for each in run.states:
+            (stated,) = formula.at(each)
+            if not abs(stated - each.q[i]) <= FOLLOWED * size:
+                return claim.refuted("the described motion from this start is another one", trial, each)
+        count += 1
+    return seen(count, "motions")

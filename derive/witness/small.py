@@ -1,0 +1,221 @@
+"""Equilibria and small motions about them: what stays, what returns, what leaves, and with which frequencies.
+
+The described system is linearised in numbers on the manifold of its constraints, with the momenta of cyclic coordinates
+held constant. The eigenvalues s of the motion decide: Re s > 0 leaves, s = i omega oscillates.
+
+Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.1 and 6.2; Meirovitch, *Methods of Analytical
+Dynamics*, section 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from sympy import Expr, Integer, Symbol
+
+from derive.algebra.equality import Verdict
+from derive.algebra.expressions import Relation, rate
+from derive.witness.claim import Claim, seen
+from derive.witness.dynamics import Singular
+from derive.witness.facts import Around, Rest
+from derive.witness.geometry import Reals, State
+from derive.witness.tape import NotComputable
+from derive.witness.trial import Contradiction, Given, Trial
+
+SMALL = 1e-3  # a displacement, for derivatives to fourth order
+SURE = 1e-3  # an eigenvalue below this part of the largest counts as zero
+FREQUENCY = 1e-5  # to which squares of frequencies agree
+STAYS = 1e-7  # an acceleration below this, with numbers of order one, is none
+DRAWS = 8  # sets of numbers among which both sides of a condition are sought
+DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
+WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
+
+
+@dataclass(frozen=True)
+class Neighbourhood:
+    """States near one at which the system stays, by as many coordinates as it has freedoms.
+
+    free     the coordinates that may be displaced: all but the cyclic ones whose momenta are known
+    momenta  of the cyclic ones
+    """
+
+    trial: Trial
+    state: State
+    free: tuple[int, ...]
+    momenta: Mapping[int, float]
+
+    def basis(self) -> Reals:
+        """Directions that the constraints allow, as columns over the free coordinates."""
+        _, by_rates = self.trial.dynamics.gradients(self.state)
+        if not len(by_rates):
+            return np.eye(len(self.free))
+        _, sizes, rows = np.linalg.svd(by_rates[:, list(self.free)])
+        rank = int(np.sum(sizes > 1e-9 * max(1.0, float(np.max(sizes, initial=0.0)))))
+        return np.array(rows[rank:].T)
+
+    def at(self, basis: Reals, u: Reals, w: Reals) -> State:
+        """The state with these displacements along the basis and these rates of them."""
+        q, v = self.state.q.copy(), self.state.v.copy()
+        q[list(self.free)] += basis @ u
+        v[list(self.free)] = self.state.v[list(self.free)] + basis @ w
+        if self.trial.blueprint.of.conditions:
+            return self.trial.kept_at(State(q, v, self.state.t))
+        return self.trial.with_momenta(State(q, v, self.state.t), self.momenta)
+
+    def acceleration(self, basis: Reals, u: Reals, w: Reals) -> Reals:
+        response = self.trial.dynamics.response(self.at(basis, u, w))
+        return np.asarray(basis.T @ response.a[list(self.free)])
+
+    def eigenvalues(self) -> NDArray[np.complex128]:
+        """Of the linear motion d(u, w)/dt = (w, a(u, w))."""
+        basis = self.basis()
+        n = basis.shape[1]
+        matrix = np.zeros((2 * n, 2 * n))
+        matrix[:n, n:] = np.eye(n)
+        for k in range(2 * n):
+            unit = np.eye(2 * n)[k] * SMALL
+            slopes = [self.acceleration(basis, s * unit[:n], s * unit[n:]) for s in DISPLACED]
+            matrix[n:, k] = WEIGHTS @ np.array(slopes) / SMALL
+        return np.asarray(np.linalg.eigvals(matrix), dtype=np.complex128)
+
+
+def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
+    """What surrounds an equilibrium; nothing where it is not known what the other coordinates do."""
+    q = claim.blueprint.coordinates
+    cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
+    if cyclic and claim.blueprint.of.conditions:
+        return None
+    if any(symbol not in q for symbol in place):
+        return None
+    letters = {of: letter for letter, of in claim.momenta.items()}
+    given = [Given(symbol, value) for symbol, value in place.items()]
+    given += [Given(rate(symbol), Integer(0)) for i, symbol in enumerate(q) if i not in cyclic]
+    given += [Given(letters[q[i]], value) for i, value in cyclic.items()]
+    state = trial.state(given)
+    free = tuple(i for i in range(len(q)) if i not in cyclic)
+    return Neighbourhood(trial, state, free, {i: trial.value(value) for i, value in cyclic.items()})
+
+
+def _neighbourhoods(
+    claim: Claim, place: Mapping[Symbol, Expr], exists: Relation | None, count: int = 2
+) -> Iterator[Neighbourhood]:
+    for trial in claim.trials(count, [exists] if exists is not None else []):
+        try:
+            found = neighbourhood(claim, trial, place)
+        except (Contradiction, NotComputable):
+            continue
+        if found is not None:
+            yield found
+
+
+def rest(claim: Claim) -> Verdict | None:
+    """The system stays there."""
+    known = claim.quantity.fact(Rest)
+    if known is None:
+        return None
+    count = 0
+    for near in _neighbourhoods(claim, known.values, known.exists):
+        try:
+            response = near.trial.dynamics.response(near.state)
+        except Singular:
+            if near.momenta:  # a place at which the coordinates are singular, and the reduced ones are not
+                continue
+            return claim.refuted("the accelerations are not determined there", near.trial, near.state)
+        if np.max(np.abs(response.a[list(near.free)])) > STAYS * 10:
+            return claim.refuted("the described system does not stay there", near.trial, near.state)
+        count += 1
+    return seen(count, "states")
+
+
+STABLE = frozenset(["stable", "stable_by_higher_order", "level"])
+UNSTABLE = frozenset(["unstable", "unstable_along"])
+
+
+def stability(claim: Claim) -> Verdict | None:
+    """A small displacement stays small, or grows; where a condition decides, on its two sides."""
+    inputs = claim.judged.inputs
+    if "coordinates" not in inputs or "place" not in inputs:
+        return None
+    place = dict(zip(inputs["coordinates"], inputs["place"], strict=True))
+    condition = inputs.get("condition")
+    told = condition if isinstance(condition, Relation) else None
+    if claim.outcome in STABLE | UNSTABLE:
+        sides: Sequence[tuple[bool, list[Relation]]] = [(claim.outcome in STABLE, [])]
+    elif told is not None:
+        sides = [(True, [told]), (False, [_opposite(told)])]
+    else:
+        return None
+    exists = inputs.get("exists")
+    count = 0
+    for is_stable, also in sides:
+        for near in _neighbourhoods_with(claim, place, [*also, *([exists] if isinstance(exists, Relation) else [])]):
+            verdict = _goes_as_stated(claim, near, is_stable)
+            if isinstance(verdict, Verdict):
+                return verdict
+            count += verdict
+    return seen(count, "equilibria")
+
+
+def _neighbourhoods_with(
+    claim: Claim, place: Mapping[Symbol, Expr], conditions: Sequence[Relation]
+) -> Iterator[Neighbourhood]:
+    for trial in claim.trials(DRAWS, conditions):
+        try:
+            found = neighbourhood(claim, trial, place)
+        except (Contradiction, NotComputable):
+            continue
+        if found is not None:
+            yield found
+
+
+def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
+    """What refutes the statement; else whether it was seen."""
+    try:
+        growth = near.eigenvalues()
+    except (Singular, Contradiction, np.linalg.LinAlgError):
+        if near.momenta:  # a place at which the coordinates are singular, and the reduced ones are not
+            return 0
+        return claim.refuted("the accelerations are not determined near this state", near.trial, near.state)
+    size = max(float(np.max(np.abs(growth), initial=0.0)), 1e-3)
+    leaves = bool(np.max(growth.real) > SURE * size)
+    at_zero = bool(np.min(np.abs(growth), initial=size) < np.sqrt(SURE) * size)
+    if is_stable and leaves:
+        return claim.refuted("a small displacement grows", near.trial, near.state)
+    if not is_stable and not leaves and not at_zero:
+        return claim.refuted("every small displacement stays small", near.trial, near.state)
+    return 1
+
+
+def _opposite(relation: Relation) -> Relation:
+    turned = {">": "<", "<": ">", ">=": "<", "<=": ">"}
+    return Relation(relation.left, turned.get(relation.mark, relation.mark), relation.right)
+
+
+def frequency(claim: Claim) -> Verdict | None:
+    """A small displacement oscillates with this frequency, or grows at this rate."""
+    around = next((fact for each in claim.quantity.ancestors() if (fact := each.fact(Around)) is not None), None)
+    if around is None or claim.outcome == "neutral":
+        return None
+    grows = claim.outcome.startswith(("growing", "unstable"))
+    count = 0
+    for near in _neighbourhoods(claim, around.values, around.exists):
+        squares = _squares_of(near)
+        stated = near.trial.formulas([claim.value**2]).complex_at(near.state)
+        if squares is None or not np.isfinite(stated):
+            continue
+        wanted = stated if grows else -stated
+        size = max(float(np.max(np.abs(squares), initial=0.0)), 1e-3)
+        if np.min(np.abs(squares - wanted), initial=np.inf) > FREQUENCY * 10 * size:
+            return claim.refuted("small motions of the described system have other frequencies", near.trial, near.state)
+        count += 1
+    return seen(count, "equilibria")
+
+
+def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
+    try:
+        return np.asarray(near.eigenvalues() ** 2, dtype=np.complex128)
+    except (Singular, Contradiction, np.linalg.LinAlgError):
+        return None

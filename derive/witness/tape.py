@@ -1,0 +1,192 @@
+"""Formulas as a list of operations on numbers, so that they can be differentiated by complex steps.
+
+Equal parts of formulas are computed once. Operations that need constants only are done when numbers are bound to the
+letters; the others are done for a whole array of points at a time.
+
+Source: Squire, Trapp, *SIAM Review* 40 (1998), 110 (derivatives by complex steps).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Mul,
+    Pow,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    atan2,
+    cos,
+    cosh,
+    exp,
+    log,
+    sign,
+    sin,
+    sinh,
+    tan,
+    tanh,
+)
+
+from derive.algebra.expressions import explicit
+
+Numbers: TypeAlias = NDArray[np.complex128]
+Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
+
+LARGEST = 20_000  # operations of the formulas of one description
+
+
+class NotComputable(Exception):
+    """A formula has a function that the witness has no numbers for, or a letter without a number."""
+
+
+def _absolute(x: Any) -> Any:
+    return x * np.sign(np.real(x))
+
+
+def _angle(y: Any, x: Any) -> Any:
+    """The angle of a vector, with the derivative that a complex step needs."""
+    whole = np.arctan2(np.real(y), np.real(x))
+    square = np.real(x) ** 2 + np.real(y) ** 2
+    return whole + 1j * (np.imag(y) * np.real(x) - np.imag(x) * np.real(y)) / square
+
+
+FUNCTIONS: Mapping[Any, Callable[..., Any]] = {
+    sin: np.sin,
+    cos: np.cos,
+    tan: np.tan,
+    sinh: np.sinh,
+    cosh: np.cosh,
+    tanh: np.tanh,
+    asin: np.arcsin,
+    acos: np.arccos,
+    atan: np.arctan,
+    atan2: _angle,
+    exp: np.exp,
+    log: np.log,
+    Abs: _absolute,
+    sign: lambda x: np.sign(np.real(x)) + 0j,
+}
+
+
+class Tape:
+    """Formulas as operations, each on the results of earlier ones.
+
+    inputs   the letters whose values vary from point to point; all others are constants
+    """
+
+    def __init__(self, formulas: Sequence[Any], inputs: Sequence[Symbol]):
+        self.inputs = tuple(inputs)
+        self._nodes: list[Operation | complex | Symbol] = []
+        self._known: dict[Any, int] = {}
+        self._of_inputs = [self._letter(letter) for letter in self.inputs]
+        self._outputs = [self._node(explicit(each)) for each in formulas]
+
+    @property
+    def letters(self) -> set[Symbol]:
+        """The constants that need numbers."""
+        return {node for node in self._nodes if isinstance(node, Symbol)} - set(self.inputs)
+
+    def bound(self, numbers: Mapping[Symbol, float]) -> Compiled:
+        """The operations that are left once each constant has its number."""
+        values: list[complex | None] = []
+        varying: list[tuple[int, Callable[..., Any], tuple[int, ...]]] = []
+        inputs = set(self._of_inputs)
+        for i, node in enumerate(self._nodes):
+            if i in inputs:
+                values.append(None)
+            elif isinstance(node, Symbol):
+                if node not in numbers:
+                    raise NotComputable(node.name)
+                values.append(complex(numbers[node]))
+            elif isinstance(node, complex):
+                values.append(node)
+            else:
+                operation, args = node
+                given = [values[j] for j in args]
+                if any(each is None for each in given):
+                    varying.append((i, operation, args))
+                    values.append(None)
+                else:
+                    with np.errstate(all="ignore"):
+                        values.append(complex(operation(*given)))
+        return Compiled(values, varying, self._of_inputs, self._outputs)
+
+    def _letter(self, letter: Symbol) -> int:
+        return self._added(letter, letter)
+
+    def _added(self, of: Any, node: Operation | complex | Symbol) -> int:
+        if len(self._nodes) >= LARGEST:
+            raise NotComputable("the formulas are too long")
+        self._nodes.append(node)
+        self._known[of] = len(self._nodes) - 1
+        return self._known[of]
+
+    def _node(self, formula: Expr) -> int:
+        known = self._known.get(formula)
+        if known is not None:
+            return known
+        if isinstance(formula, Symbol):
+            return self._letter(formula)
+        if formula.is_Number or formula.is_NumberSymbol or formula.is_number and not formula.args:
+            return self._added(formula, complex(formula))
+        args = tuple(self._node(arg) for arg in formula.args)
+        return self._added(formula, self._operation(formula, args))
+
+    def _operation(self, formula: Expr, args: tuple[int, ...]) -> Operation:
+        if isinstance(formula, Add | Mul):
+            operation = np.add if isinstance(formula, Add) else np.multiply
+            last = args[0]
+            for arg in args[1:-1]:
+                last = self._added((formula, last, arg), (operation, (last, arg)))
+            return operation, (last, args[-1])
+        if isinstance(formula, Pow):
+            return self._power(formula, args)
+        function = FUNCTIONS.get(formula.func)
+        if function is None:
+            raise NotComputable(type(formula).__name__)
+        return function, args
+
+    def _power(self, formula: Pow, args: tuple[int, ...]) -> Operation:
+        exponent = formula.exp
+        if exponent.is_Integer and abs(int(exponent)) <= 64:
+            n = int(exponent)
+            return (lambda x: x**n), args[:1]
+        if exponent.is_Rational and exponent.q == 2 and exponent.p in (1, -1):
+            return (np.sqrt if exponent.p == 1 else lambda x: 1 / np.sqrt(x)), args[:1]
+        return np.power, args
+
+
+class Compiled:
+    """Operations with numbers bound to the constants, to be done at many points at once."""
+
+    def __init__(
+        self,
+        values: Sequence[complex | None],
+        varying: Sequence[tuple[int, Callable[..., Any], tuple[int, ...]]],
+        inputs: Sequence[int],
+        outputs: Sequence[int],
+    ):
+        self._values, self._varying = values, varying
+        self._inputs, self._outputs = inputs, outputs
+
+    def __call__(self, points: Numbers) -> Numbers:
+        """The value of each formula at each point: points are columns, one row an input; one row a formula."""
+        values: list[Any] = list(self._values)
+        for i, row in zip(self._inputs, points, strict=True):
+            values[i] = row
+        with np.errstate(all="ignore"):
+            for i, operation, args in self._varying:
+                values[i] = operation(*(values[j] for j in args))
+        count = points.shape[1]
+        found = np.empty((len(self._outputs), count), dtype=np.complex128)
+        for k, i in enumerate(self._outputs):
+            found[k] = values[i]
+        return found

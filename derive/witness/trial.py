@@ -1,0 +1,329 @@
+"""A description with numbers drawn for its letters, and states at which the conditions and what is given hold.
+
+Numbers are drawn by the names of letters and the number of the trial, so that every claim about one system meets the
+same numbers in every run. They lie in the ranges of their letters and satisfy what the page assumes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from random import Random
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+from sympy import Expr, Symbol
+
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.ranges import range_of
+from derive.witness.dynamics import Blueprint, Dynamics, Response
+from derive.witness.geometry import STEP, Reals, State
+from derive.witness.tape import NotComputable, Tape
+
+SALTS = 60  # sets of numbers among which one is sought that satisfies what is assumed
+ROUNDS = 25  # of Newton's method
+EXACT = 1e-10
+ATTEMPTS = 5  # states that are drawn before none is found
+
+HOLDS = {
+    "=": lambda x: abs(x) < EXACT,
+    "!=": lambda x: abs(x) > EXACT,
+    ">": lambda x: x > 0,
+    ">=": lambda x: x >= -EXACT,
+    "<": lambda x: x < 0,
+    "<=": lambda x: x <= EXACT,
+}
+
+
+class Contradiction(Exception):
+    """What is given cannot hold in the described system: `of_rates` if it is the rates that contradict each other."""
+
+    def __init__(self, of_rates: bool):
+        super().__init__()
+        self.of_rates = of_rates
+
+
+@dataclass(frozen=True)
+class Given:
+    """What holds at a state besides the conditions of the system: `target` has the value `value`."""
+
+    target: Expr
+    value: Expr
+
+
+class Drawn(Mapping[Symbol, float]):
+    """A number for every letter, by its name; those that are `fixed` have theirs."""
+
+    def __init__(self, trial: int, salt: int = 0, fixed: Mapping[Symbol, float] | None = None):
+        self.trial, self.salt, self.fixed = trial, salt, dict(fixed or {})
+
+    def __getitem__(self, letter: Symbol) -> float:
+        return self.fixed[letter] if letter in self.fixed else drawn(letter, self.trial, self.salt)
+
+    def __iter__(self) -> Iterator[Symbol]:
+        return iter(self.fixed)
+
+    def __len__(self) -> int:
+        return len(self.fixed)
+
+    def __contains__(self, letter: object) -> bool:
+        return isinstance(letter, Symbol)
+
+
+def drawn(letter: Symbol, trial: int, salt: int = 0, wide: float = 1.0) -> float:
+    """A number of ordinary size that the letter can have."""
+    source = Random(crc32(f"{letter.name} {trial} {salt}".encode()))
+    known = range_of(letter)
+    if known is not None:
+        way = Symbol("way", positive=True)
+        return float(known.at(way).xreplace({way: _fraction(source.uniform(0.1, 0.9))}))
+    if letter.is_integer:
+        return float(source.randint(1, 5))
+    size = source.uniform(0.4, 1.6) * wide
+    if letter.is_nonnegative or letter.is_positive:
+        return size
+    return -size if letter.is_nonpositive or source.random() < 0.5 else size
+
+
+def _fraction(number: float) -> Any:
+    from sympy import Rational
+
+    return Rational(round(number * 997), 997)
+
+
+class Trial:
+    """A description in numbers: one set of them.
+
+    given   values that letters have, `m = 2 M`; coordinates and rates are given at states
+    """
+
+    def __init__(
+        self,
+        blueprint: Blueprint,
+        number: int,
+        assumed: Sequence[Relation] = (),
+        fixed: Mapping[Symbol, float] | None = None,
+        letters: Sequence[Given] = (),
+        momenta: Mapping[Symbol, Symbol] | None = None,
+    ):
+        self.blueprint, self.number = blueprint, number
+        self.momenta = {letter: blueprint.coordinates.index(q) for letter, q in (momenta or {}).items()}
+        self.numbers = self._drawn(assumed, letters, dict(fixed or {}))
+        self.dynamics: Dynamics = blueprint.with_numbers(self.numbers)
+        moving = {*blueprint.coordinates, *blueprint.rates, TIME}
+        self._stays = [each for each in assumed if explicit(each.residual).free_symbols & moving]
+        self._staying = Tape([each.residual for each in self._stays], sorted(moving, key=str)).bound(self.numbers)
+        self._sorted = [[*blueprint.coordinates, *blueprint.rates, TIME].index(s) for s in sorted(moving, key=str)]
+
+    def _drawn(self, assumed: Sequence[Relation], letters: Sequence[Given], fixed: dict[Symbol, float]) -> Drawn:
+        moving = {*self.blueprint.coordinates, *self.blueprint.rates, TIME}
+        constant = [each for each in assumed if not explicit(each.residual).free_symbols & moving]
+        tape = Tape([each.residual for each in constant], [])
+        for salt in range(SALTS):
+            numbers = Drawn(self.number, salt, fixed)
+            for each in letters:
+                assert isinstance(each.target, Symbol)
+                numbers.fixed[each.target] = self.value(each.value, numbers)
+            residuals = np.real(tape.bound(numbers)(np.empty((0, 1), dtype=complex))[:, 0])
+            if all(HOLDS[each.mark](x) for each, x in zip(constant, residuals, strict=True)):
+                return numbers
+        raise NotComputable("no numbers were found that satisfy what is assumed")
+
+    @property
+    def used(self) -> set[Symbol]:
+        """The letters that have numbers here."""
+        return self.blueprint.letters
+
+    def value(self, formula: Expr, numbers: Mapping[Symbol, float] | None = None) -> float:
+        """A formula of constants."""
+        found = Tape([formula], []).bound(self.numbers if numbers is None else numbers)(np.empty((0, 1), dtype=complex))
+        return _real(found[0, 0])
+
+    # --- states -----------------------------------------------------------------------------------------------------
+
+    def states(self, count: int, given: Sequence[Given] = (), still: bool = False) -> Iterator[State]:
+        """States at which the conditions hold and what is given; raises `Contradiction` where there are none."""
+        for i in range(count):
+            yield self.state(given, i, still)
+
+    def state(self, given: Sequence[Given] = (), which: int = 0, still: bool = False) -> State:
+        last = Contradiction(of_rates=False)
+        for attempt in range(ATTEMPTS):
+            try:
+                found = self._projected(self._drawn_state(1000 * which + attempt, still, 0.5**attempt), given)
+            except Contradiction as contradiction:
+                last = contradiction
+                continue
+            if self._as_assumed(found):
+                return found
+        raise last
+
+    def _drawn_state(self, which: int, still: bool, wide: float) -> State:
+        """Not far from zero after some attempts, but for what is positive or lies in a range."""
+        q, v = [], []
+        for symbol, kind in self.blueprint.of.coordinates:
+            place = drawn(symbol, self.number, 7 + which)
+            known = range_of(symbol)
+            is_free = known is None and not symbol.is_positive
+            q.append(place * (0.8 if kind == "angle" else 1.0) * wide if is_free else place)
+            v.append(0.0 if still else drawn(rate(symbol), self.number, 7 + which) * wide)
+        time = drawn(TIME, self.number, 7 + which)
+        return State(np.array(q), np.array(v), abs(time))
+
+    def _projected(self, state: State, given: Sequence[Given]) -> State:
+        """The places first, then the rates, each moved as little as it takes."""
+        inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
+        kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
+        given = [g for g in given if g.target not in self.momenta]
+        residuals = [explicit(each.target) - explicit(each.value) for each in given]
+        of_rates = [bool(each.free_symbols & set(self.blueprint.rates)) for each in residuals]
+        tape = Tape(residuals, inputs).bound(self.numbers)
+        fast = np.array(of_rates, dtype=bool)
+
+        def at(q: Reals, v: Reals, t: float) -> tuple[Reals, Reals]:
+            """What is given, and its derivatives by places, rates and the time."""
+            n = len(q)
+            here = np.concatenate([q, v, [t]]).astype(complex)
+            points = np.tile(here[:, None], (1, 2 * n + 2))
+            points[:, 1:] += 1j * STEP * np.eye(2 * n + 1)
+            found = tape(points)
+            return np.real(found[:, 0]), np.imag(found[:, 1:]) / STEP
+
+        q, v, t = state.q.copy(), state.v.copy(), state.t
+        n = len(q)
+        needs_time = any(TIME in each.free_symbols for each in residuals) or self._depends_on_time
+        for _ in range(ROUNDS):
+            here = State(q, v, t)
+            left, slopes = at(q, v, t)
+            violation, _ = self.dynamics.violation(here)
+            on_places, _ = self.dynamics.gradients(here)
+            residual = np.concatenate([violation, left[~fast]])
+            if not np.all(np.isfinite(residual)):
+                raise Contradiction(of_rates=False)
+            if np.max(np.abs(residual), initial=0.0) < EXACT:
+                break
+            by_time = slopes[~fast][:, 2 * n :] * float(needs_time)
+            of_conditions = self._by_time(here)[:, None] * float(needs_time)
+            jacobian = np.block([[on_places, of_conditions], [slopes[~fast][:, :n], by_time]])
+            move, *_ = np.linalg.lstsq(jacobian, -residual, rcond=1e-10)
+            size = np.max(np.abs(move))
+            if size < EXACT:
+                raise Contradiction(of_rates=False)
+            move = move * min(1.0, 1.0 / size)
+            q, t = q + move[:n], t + float(move[n])
+        else:
+            raise Contradiction(of_rates=False)
+        if not self._allowed(q):
+            raise Contradiction(of_rates=False)
+        for _ in range(ROUNDS):
+            here = State(q, v, t)
+            left, slopes = at(q, v, t)
+            _, violation = self.dynamics.violation(here)
+            _, on_rates = self.dynamics.gradients(here)
+            residual = np.concatenate([violation, left[fast]])
+            rows = np.vstack([on_rates, slopes[fast][:, n : 2 * n]])
+            if kept:
+                momenta, (matrix, _) = self.dynamics.momenta(here), self.dynamics.inertia(here)
+                residual = np.append(residual, [momenta[k] - value for k, value in kept])
+                rows = np.vstack([rows, matrix[[k for k, _ in kept]]])
+            if not np.all(np.isfinite(residual)):
+                raise Contradiction(of_rates=True)
+            if np.max(np.abs(residual), initial=0.0) < EXACT:
+                return here
+            move, *_ = np.linalg.lstsq(rows, -residual, rcond=1e-10)
+            if np.max(np.abs(move)) < EXACT:
+                break
+            v = v + move
+        raise Contradiction(of_rates=True)
+
+    def kept_at(self, state: State) -> State:
+        """The state nearest to this one at which the conditions hold."""
+        return self._projected(state, [])
+
+    def with_momenta(self, state: State, momenta: Mapping[int, float]) -> State:
+        """The state with the rates of cyclic coordinates that these momenta require."""
+        if not momenta:
+            return state
+        rows = list(momenta)
+        matrix, _ = self.dynamics.inertia(state)
+        missing = np.array(list(momenta.values())) - self.dynamics.momenta(state)[rows]
+        v = state.v.copy()
+        v[rows] += np.linalg.solve(matrix[np.ix_(rows, rows)], missing)
+        return replace(state, v=v)
+
+    @cached_property
+    def _depends_on_time(self) -> bool:
+        return any(TIME in explicit(c.residual).free_symbols for c in self.blueprint.of.conditions if not c.in_rates)
+
+    def _by_time(self, state: State) -> Reals:
+        """How the conditions on places change as the time alone passes."""
+        at_rest = replace(state, v=np.zeros_like(state.v))
+        in_rates = np.array([c.in_rates for c in self.blueprint.of.conditions], dtype=bool)
+        _, violation = self.dynamics.violation(at_rest)
+        return np.where(in_rates, 0.0, violation)
+
+    def _as_assumed(self, state: State) -> bool:
+        """Whether what the page assumes of places and rates holds there."""
+        point = np.concatenate([state.q, state.v, [state.t]])[self._sorted].astype(complex)[:, None]
+        found = np.real(self._staying(point)[:, 0])
+        return all(HOLDS[each.mark](x) for each, x in zip(self._stays, found, strict=True))
+
+    def _allowed(self, q: Reals) -> bool:
+        """Whether every coordinate is where its letter can be."""
+        for symbol, place in zip(self.blueprint.coordinates, q, strict=True):
+            known = range_of(symbol)
+            if symbol.is_positive and place <= 0:
+                return False
+            if known is not None and not (float(known.least) - 1e-9 <= place <= float(known.greatest) + 1e-9):
+                return False
+        return True
+
+    # --- formulas at states -----------------------------------------------------------------------------------------
+
+    def formulas(self, formulas: Sequence[Any]) -> Formulas:
+        return Formulas(self, formulas)
+
+
+class Formulas:
+    """Formulas of places, rates, accelerations, multipliers and momenta, to be evaluated at states."""
+
+    def __init__(self, trial: Trial, formulas: Sequence[Any]):
+        self.trial = trial
+        blueprint = trial.blueprint
+        self._momenta = list(trial.momenta.items())
+        accelerations = [rate(q, 2) for q in blueprint.coordinates]
+        multipliers = list(blueprint.multipliers)
+        letters = [letter for letter, _ in self._momenta]
+        self._count = len(letters)
+        inputs = [*blueprint.coordinates, *blueprint.rates, *accelerations, *multipliers, *letters, TIME]
+        self._tape = Tape(formulas, inputs)
+        self._bound = self._tape.bound(trial.numbers)
+
+    def at(self, state: State, response: Response | None = None) -> Reals:
+        """The values at a state; without its response accelerations and multipliers count as zero."""
+        n, rows = len(state.q), len(self.trial.blueprint.multipliers)
+        a, kept = (response.a, response.multipliers) if response is not None else (np.zeros(n), np.zeros(rows))
+        momenta = self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
+        point = np.concatenate([state.q, state.v, a, kept, momenta, [state.t]]).astype(complex)
+        return np.array([_real(x) for x in self._bound(point[:, None])[:, 0]])
+
+    def complex_at(self, state: State) -> complex:
+        """The value of the first formula at a state, which may be imaginary."""
+        n, rows = len(state.q), len(self.trial.blueprint.multipliers)
+        momenta = self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
+        point = np.concatenate([state.q, state.v, np.zeros(n + rows), momenta, [state.t]]).astype(complex)
+        return complex(self._bound(point[:, None])[0, 0])
+
+    def rate_at(self, state: State, response: Response) -> Reals:
+        """How the values change along the motion; they may depend on places, rates and the time."""
+        rows = len(self.trial.blueprint.multipliers)
+        n = len(state.q)
+        here = np.concatenate([state.q, state.v, np.zeros(n + rows + self._count), [state.t]]).astype(complex)
+        along = np.concatenate([state.v, response.a, np.zeros(n + rows + self._count), [1.0]])
+        return np.imag(self._bound((here + 1j * STEP * along)[:, None])[:, 0]) / STEP
+
+
+def _real(x: complex) -> float:
+    return float(x.real) if abs(x.imag) <= 1e-9 * (1 + abs(x.real)) else float("nan")

@@ -1,0 +1,57 @@
+"""The witness is independent, and each of its tests belongs to a rule that there is."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+from derive.mechanics import Particle, System, coordinate, lagrangian, point, weight
+from derive.steps.outcomes import Judged
+from derive.steps.record import recorded
+from derive.witness import judges
+from tests.courses import ROOT
+from tests.witness.systems import PENDULUM, g, m
+
+WITNESS = sorted((ROOT / "derive" / "witness").glob("*.py"))
+# The letters of coordinates and rates, what a node stands for, the range of a letter, and the words of a verdict.
+ALLOWED = {
+    "derive.algebra.equality": {"Grade", "Verdict"},
+    "derive.algebra.expressions": {"TIME", "Relation", "explicit", "rate"},
+    "derive.algebra.ranges": {"range_of"},
+    "derive.steps.outcomes": {"Judged"},
+    "derive.steps.step": {"Fact", "Quantity"},
+}
+
+
+def imports(path: Path) -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("derive"):
+            found.setdefault(str(node.module), set()).update(alias.name for alias in node.names)
+    return found
+
+
+def test_the_witness_shares_no_algebra_and_no_mechanics_with_what_it_judges() -> None:
+    for path in WITNESS:
+        for module, names in imports(path).items():
+            assert module.startswith("derive.witness") or names <= ALLOWED[module], (path.name, module, names)
+
+
+def test_every_rule_that_is_judged_is_established_somewhere() -> None:
+    sources = [path.read_text(encoding="utf-8") for path in (ROOT / "derive" / "mechanics").rglob("*.py")]
+    for rule in judges.JUDGES:
+        assert any(f'"{rule}"' in source for source in sources), rule
+
+
+def test_a_formula_that_cannot_be_computed_is_not_witnessed() -> None:
+    def cannot(_: object) -> None:
+        raise judges.NotComputable("f")
+
+    with recorded():
+        x = coordinate("x")
+        L = lagrangian(System(Particle(m, point(x.symbol, 0)), weight(g)))
+        assert judges.testimony(cannot, PENDULUM, L, Judged(L.value), "generic", {}, ()) is None
+
+
+def test_one_description_is_compiled_once() -> None:
+    assert judges.blueprint(PENDULUM) is judges.blueprint(PENDULUM)
