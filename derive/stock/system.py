@@ -138,7 +138,6 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     sorts: tuple[Sequence[Any], ...] = (
         written.springs,
         written.central,
-        written.damping,
         written.charges,
         written.constraints,
     )
@@ -158,7 +157,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with faults:  # friction is in proportion to what keeps a condition
         with_multipliers = InLetters({**known.letters, **_multipliers(parts)})
         with_multipliers.numbers = known.numbers
-        parts += each([partial(one.part, places, with_multipliers) for one in written.forces])
+        acting: list[Any] = [*written.forces, *written.damping]
+        names = {str(name) for name in (*written.bodies, *written.particles)}
+        parts += each([partial(one.part, places, with_multipliers, names) for one in acting])
     given: tuple[Expr, str | None] | None = None
     with faults:
         given = read_lagrangian(written, known)

@@ -152,7 +152,7 @@ class Trial:
         last = Contradiction(of_rates=False)
         for attempt in range(ATTEMPTS):
             try:
-                found = self._projected(self._drawn_state(1000 * which + attempt, still, 0.5**attempt), given)
+                found = self._projected(self.drawn_state(1000 * which + attempt, still, 0.5**attempt), given)
             except Contradiction as contradiction:
                 last = contradiction
                 continue
@@ -160,7 +160,7 @@ class Trial:
                 return found
         raise last
 
-    def _drawn_state(self, which: int, still: bool, wide: float) -> State:
+    def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
         """Not far from zero after some attempts, but for what is positive or lies in a range."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:

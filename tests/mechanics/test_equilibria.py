@@ -114,7 +114,7 @@ def test_an_inverted_pendulum_held_by_a_spring_stands_if_the_spring_is_stiff() -
     """U = m g l cos theta + (1/2) k a^2 sin^2 theta: at 0 the curvature is k a^2 - m g l."""
     q = coordinate("theta")
     top, joint = point(l * sin(q), l * cos(q)), point(a * sin(q), 0)
-    U = potential_energy_of(System(Particle(m, top), weight(g), spring(k, point(0, 0), joint)))
+    U = potential_energy_of(System(Particle(m, top), weight(g), spring(k, point(0, 0), joint, massless=True)))
     up, down, *tilted = equilibria(U)
     assert values((up, down)) == [0, pi]
     found = stability(U, up, letter=k)
@@ -230,7 +230,9 @@ def wrong(case: str) -> Any:
         case "never":
             return equilibria(potential_energy_of(free))
         case "no closed form":
-            bead = System(Particle(m, point(a * p, a * cos(p))), weight(g), spring(k, point(0, 0), point(0, a * p)))
+            bead = System(
+                Particle(m, point(a * p, a * cos(p))), weight(g), spring(k, point(0, 0), point(0, a * p), massless=True)
+            )
             return equilibria(potential_energy_of(bead))
         case "no energy":
             return equilibria(let("v", lambda: a * p.symbol))

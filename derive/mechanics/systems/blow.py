@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff, sqrt
 
 from derive.algebra.expressions import At, Factors, Partial, Relation, TimeRate, explicit, rate
 from derive.algebra.ranges import strict_sign_within
@@ -15,23 +15,26 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import unknown
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
+from derive.mechanics.systems.described import places_that_move_alone
+from derive.mechanics.systems.material import material_point
 from derive.mechanics.systems.places import Location
-from derive.mechanics.systems.system import System
+from derive.mechanics.systems.system import ActsOnNothing, System
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import is_zero
 
 __all__ = ["Blow", "angular_impulse", "collision", "impulse"]
 
-ZERO = Integer(0)
+ZERO, ONE = Integer(0), Integer(1)
 Vector = tuple[Expr, ...]
 
 
 @dataclass(frozen=True)
 class Impulse:
-    """A given impulse at a place, N s; or on an angle, N m s."""
+    """A given impulse at a place, N s; or on an angle, N m s. `of` is the body that it acts on, if that is stated."""
 
     components: Vector
     at: Vector
+    of: Any = None
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,7 @@ class Collision:
     along         the common normal, along which the impulse acts; without one the two stay together
     restitution   the part of the speed of approach with which they part
     letter        of the impulse; that of each component has its axis as index where they stay together
+    of            the bodies or particles that meet, of the start and of the end, where that is stated
     """
 
     start: Location | None
@@ -48,14 +52,18 @@ class Collision:
     along: Vector
     restitution: Expr
     letter: str
+    of: tuple[Any, Any] = (None, None)
 
 
-def impulse(components: Any, at: Location) -> Impulse:
-    """A given impulse, the integral of a force over the short time of a blow, at a place, N s."""
+def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
+    """A given impulse, the integral of a force over the short time of a blow, at a place, N s.
+
+    of   the body or particle whose particle at that place it acts on, where the place does not move with it
+    """
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as that has"
         raise Rejected(Complaint("wrong-argument", message))
-    return Impulse(tuple(ZERO + c for c in components), at.components)
+    return Impulse(tuple(ZERO + c for c in components), at.components, of)
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
@@ -71,13 +79,16 @@ def collision(
     along: Sequence[Any] = (),
     restitution: Any = ZERO,
     letter: str = "K",
+    of: Any = None,
 ) -> Collision:
     """A collision of two places, or of one with what is at rest: smooth along a normal, or they stay together.
 
     start, end    the places, `start` none where the other meets what is at rest
-    along         the common normal, from `start` to `end`; without it the two have one velocity afterwards
+    along         a vector along the common normal, from `start` to `end`, of any length; without it the two have one
+                  velocity afterwards
     restitution   1 where it is elastic, 0 where they do not part; a number
     letter        of the impulse, N s, which acts on the end, and with the other sign on the start
+    of            the body or particle of the end, or those of start and end, where a place does not move with it
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
@@ -94,7 +105,10 @@ def collision(
         raise Rejected(
             Complaint("wrong-argument", f"a coefficient of restitution is between 0 and 1, but this is {part}")
         )
-    return Collision(start, end, normal, part, letter)
+    size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
+    unit = tuple(tidied(c / size_of_normal) for c in normal)
+    ends = (of[0], of[1]) if isinstance(of, tuple | list) and len(of) == 2 else (None, of)
+    return Collision(start, end, unit, part, letter, ends)
 
 
 @dataclass(frozen=True)
@@ -160,8 +174,12 @@ class Blow:
         if not acts:
             raise Rejected(Complaint("wrong-argument", "a `Blow` needs an impulse or a collision"))
         known = system.known
+        self._check_material_points(acts)
         self.impulses = [
-            Impulse(tuple(self.there(c) for c in act.components), tuple(c.subs(known) for c in act.at))
+            Impulse(
+                tuple(self.there(c) for c in act.components),
+                tuple(c.subs(known) for c in self._particle(act.of, act.at)),
+            )
             for act in acts
             if isinstance(act, Impulse)
         ]
@@ -171,6 +189,33 @@ class Blow:
         if len(set(letters)) < len(letters):
             message = "two impulses of this blow have one letter"
             raise Rejected(Complaint("letter-clash", message, help="give each a letter, `impulse: K_2`"))
+
+    def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
+        """An impulse acts on a particle of a body; a place that moves with none is not one."""
+        asked: list[tuple[Any, Vector]] = []
+        for act in acts:
+            if isinstance(act, Impulse):
+                asked += [(act, act.at)] if act.of is None and len(act.at) > 1 else []
+            else:
+                ends = zip((act.start, act.end), act.of, strict=True)
+                asked += [(act, at.components) for at, of in ends if at is not None and of is None]
+        for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
+            act, place = asked[i]
+            message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: that place moves with no body"
+            help_line = "name the body whose particle it acts on, `of: rod`; of a collision both, `of: [ball, rod]`"
+            raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
+
+    def _particle(self, of: Any, at: Vector) -> Vector:
+        """The particle of a body at a place, where it is in the moment of the blow: its place as the body moves."""
+        if of is None or len(at) < 2:
+            return at
+        point = material_point("impulse", of, Location(at))
+        arms = {name: tidied(self.there(value)) for name, value in point.held}
+        if moving := coordinates_in(ImmutableDenseMatrix([ZERO, *arms.values()])):
+            name = next(iter(moving)).name
+            message = f"where in the body the impulse acts depends on {name}"
+            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` in that moment under `at`"))
+        return tuple(c.xreplace(arms) for c in point.place)
 
     def _coordinate(self, q: Any) -> Symbol:
         symbol = q.symbol if isinstance(q, Coordinate) else q
@@ -197,8 +242,8 @@ class Blow:
     def _meetings(self, act: Collision) -> list[Meeting]:
         size = len(act.end.components)
         start, end = (
-            tuple(c.subs(self.system.known) for c in at.components) if at else (ZERO,) * size
-            for at in (act.start, act.end)
+            tuple(c.subs(self.system.known) for c in self._particle(of, at.components)) if at else (ZERO,) * size
+            for at, of in zip((act.start, act.end), act.of, strict=True)
         )
         way = [b - a for a, b in zip(start, end, strict=True)]
         along = tuple(self.there(c) for c in act.along)

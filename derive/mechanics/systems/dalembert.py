@@ -33,14 +33,23 @@ class MassPoint:
 
 @dataclass(frozen=True)
 class Load:
-    """A force, in N, that acts at a place, in m; or a torque, in N m, that acts on an angle."""
+    """A force, in N, that acts at a place, in m; or a torque, in N m, that acts on an angle.
+
+    held   letters in the place that are constant in every displacement, such as where in a body a particle is, with
+           their values
+    """
 
     force: Vector
     place: Vector
+    held: tuple[tuple[Symbol, Expr], ...] = ()
 
     def work_along(self, q: Symbol) -> Expr:
         """F . dr/dq"""
-        return _dot(self.force, _along(self.place, q))
+        return _dot(self.force, self.slopes(q))
+
+    def slopes(self, q: Symbol) -> Vector:
+        """dr/dq of what the force acts on."""
+        return tuple(c.xreplace(dict(self.held)) for c in _along(self.place, q))
 
 
 @dataclass(frozen=True)

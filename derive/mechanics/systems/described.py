@@ -79,6 +79,7 @@ def described(
 
     known   coordinates that a condition gives by others; here the condition is kept instead
     """
+    bodies = [part for part in parts if isinstance(part, PlacedBody)]
     charges = [part for part in parts if isinstance(part, Charge)]
     kept = [plain.Condition(q - function) for q, function in known.items()]
     return plain.Description(
@@ -88,12 +89,46 @@ def described(
         gravity=gravity,
         pairs=pairs,
         energies=tuple(part.energy for part in parts if isinstance(part, StoredEnergy)),
-        forces=tuple(plain.Force(part.components, part.at) for part in parts if isinstance(part, GivenForce)),
-        drags=tuple(plain.Drag(part.constant, part.at) for part in parts if isinstance(part, Damper)),
+        forces=tuple(_force(each, bodies) for part in parts if isinstance(part, GivenForce) for each in _pair(part)),
+        drags=tuple(
+            plain.Drag(part.constant, _plain(part), _number(part.of, bodies))
+            for part in parts
+            if isinstance(part, Damper)
+        ),
         charges=tuple(plain.Charge(c.charge, c.at.components, c.electric, _field(c)) for c in charges),
         conditions=(*kept, *(condition_of(part) for part in parts if isinstance(part, Constraint))),
         lagrangian=lagrangian,
     )
+
+
+def _pair(force: GivenForce) -> list[GivenForce]:
+    """The force and the one that acts back."""
+    return [force] if force.opposite is None else [force, force.opposite]
+
+
+def _force(force: GivenForce, bodies: Sequence[PlacedBody]) -> plain.Force:
+    return plain.Force(force.components, _plain(force), _number(force.of, bodies))
+
+
+def _plain(acting: GivenForce | Damper) -> plain.Vector:
+    """The place itself."""
+    return tuple(c.xreplace(dict(acting.held)) for c in acting.at)
+
+
+def _number(of: Any, bodies: Sequence[PlacedBody]) -> int | None:
+    """The number of the body whose particle it is."""
+    return next((i for i, body in enumerate(bodies) if body is of or body == of), None)
+
+
+def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
+    """The numbers of the places that move with no body, no particle and not with the ground."""
+    moving = {q for q, _ in of.coordinates}
+    asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
+    if not asked or of.lagrangian is not None:
+        return []
+    from derive.witness.material import moving_alone
+
+    return [asked[i] for i in moving_alone(of, [places[i] for i in asked])]
 
 
 def _field(charge: Charge) -> tuple[Expr, ...]:

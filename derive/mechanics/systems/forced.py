@@ -84,7 +84,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
         raise Rejected(Complaint("wrong-argument", "`dissipation_function` needs a system with `damping`"))
 
     def law() -> Expr:
-        terms = [Factors(Rational(1, 2), d.constant, squares_of_rates(d.at, moving)) for d in system.dampers]
+        terms = [Factors(Rational(1, 2), d.constant, squares_of_velocity(d, moving)) for d in system.dampers]
         return Terms(*terms) if len(terms) > 1 else terms[0]
 
     def by_power(found: Expr) -> tuple[Expr, Expr]:
@@ -104,6 +104,14 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
     )
 
 
+def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
+    """v^2 of what is damped; of a particle of a body by the components of its velocity."""
+    if not damper.held:
+        return squares_of_rates(damper.at, moving)
+    squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
+    return Terms(*squares) if len(squares) > 1 else squares[0] if squares else ZERO
+
+
 def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
     """(dx/dt)^2 + (dy/dt)^2 of the components that change."""
     fast = [TIME, *moving]
@@ -114,7 +122,7 @@ def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
 
 def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
     """F . v, the place of the force differentiated as a function of t."""
-    velocity = [by_functions_of_time(c, list(moving)) for c in load.place]
+    velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
 
 
@@ -132,12 +140,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     acted = of.needed(ActedOn)
     moving = list(acted.system.coordinates)
     loads = [f.load(moving) for f in acted.forces]
-    works = [
-        Factors(f, Partial(c, q.symbol))
-        for load in loads
-        for f, c in zip(load.force, load.place, strict=True)
-        if f != 0
-    ]
+    works = [term for load in loads for term in _works(load, q)]
 
     kept = of.fact(Kept)
     here = {s for f in acted.forces for c in f.components for s in c.free_symbols}
@@ -167,9 +170,18 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     )
 
 
+def _works(load: Load, q: Coordinate) -> list[Expr]:
+    """F_i dr_i/dq; for a particle of a body with the values of dr_i/dq."""
+    pairs = zip(load.force, load.place, load.slopes(q.symbol), strict=True)
+    if load.held:
+        slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
+        return [f if slope == 1 else Factors(f, slope) for f, slope in slopes if slope != 0]
+    return [Factors(f, Partial(c, q.symbol)) for f, c, _ in pairs if f != 0]
+
+
 def _slope(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> Expr:
     """What the power gains per unit of q_dot, the force being what it is."""
-    velocity = [by_functions_of_time(c, list(moving)) for c in load.place]
+    velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * diff(v, q.rate) for f, v in zip(load.force, velocity, strict=True)))
 
 

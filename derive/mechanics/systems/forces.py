@@ -16,6 +16,7 @@ from derive.algebra.expressions import TIME, TimeRate, explicit, rate
 from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Load, MagneticForce
+from derive.mechanics.systems.material import GROUND, Held, material_point
 from derive.mechanics.systems.places import Location
 from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import is_zero
@@ -28,27 +29,46 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class GivenForce:
-    """A force at a place, N, or along a coordinate what does the work Q dq: for an angle a couple, N m."""
+    """A force at a place, N, or along a coordinate what does the work Q dq: for an angle a couple, N m.
+
+    held   letters in the place that no displacement changes, with their values; see `material`
+    of     what it acts on, if that is stated: a body, a particle, or "massless"
+    by     what exerts it: a body or particle, on which the opposite force acts, or "ground"
+    """
 
     components: Vector
     at: Vector
+    held: Held = ()
+    of: Any = None
+    by: Any = None
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        return Load(self.components, self.at)
+        return Load(self.components, self.at, self.held)
+
+    @property
+    def opposite(self) -> GivenForce | None:
+        """The force on what exerts this one, at the same place."""
+        if self.by is None or self.by == GROUND:
+            return None
+        here = Location(tuple(c.xreplace(dict(self.held)) for c in self.at))
+        point = material_point("force", self.by, here)
+        return GivenForce(tuple(-c for c in self.components), point.place, point.held, self.by, self.of)
 
 
 @dataclass(frozen=True)
 class Damper:
-    """A drag -c v against the velocity of a place, or against the rate of a coordinate."""
+    """A drag -c v against the velocity of a place, or the rate of a coordinate; `held` and `of` as for forces."""
 
     constant: Expr
     at: Vector
+    held: Held = ()
+    of: Any = None
 
     def velocity(self, moving: Sequence[Symbol]) -> Vector:
-        return tuple(explicit(TimeRate(c, *moving)) for c in self.at)
+        return tuple(explicit(TimeRate(c, *moving)).xreplace(dict(self.held)) for c in self.at)
 
     def load(self, moving: Sequence[Symbol]) -> Load:
-        return Load(tuple(-self.constant * v for v in self.velocity(moving)), self.at)
+        return Load(tuple(-self.constant * v for v in self.velocity(moving)), self.at, self.held)
 
 
 @dataclass(frozen=True)
@@ -101,10 +121,17 @@ def _place(verb: str, at: Any) -> Location:
     return at
 
 
-def force(components: Any, at: Location) -> GivenForce:
-    """A given force at a place, N: constants, formulas of the coordinates, or of the time t."""
+def force(components: Any, at: Location, of: Any = None, by: Any = None) -> GivenForce:
+    """A given force at a place, N: constants, formulas of the coordinates, or of the time t.
+
+    of   the body or particle that it acts on, where the place does not move with it; "massless" for a part without mass
+    by   the body or particle that exerts it, on which the opposite force acts; or "ground"
+    """
     place = _place("force", at)
-    return GivenForce(_vector("force", "components", components, len(place.components)), place.components)
+    point = material_point("force", of, place)
+    return GivenForce(
+        _vector("force", "components", components, len(place.components)), point.place, point.held, of, by
+    )
 
 
 def couple(torque: Any, on: Any) -> GivenForce:
@@ -115,11 +142,15 @@ def couple(torque: Any, on: Any) -> GivenForce:
     return GivenForce((ZERO + torque,), (along,))
 
 
-def damping(constant: Any, at: Any) -> Damper:
-    """A drag against the velocity of a place, -c v with c in kg/s, or of a coordinate, -c q_dot."""
+def damping(constant: Any, at: Any, of: Any = None) -> Damper:
+    """A drag against the velocity of a place, -c v with c in kg/s, or of a coordinate, -c q_dot.
+
+    of   the body or particle whose particle at that place it acts on, where the place does not move with it
+    """
     require_constant("damping", "constant", constant)
     if isinstance(at, Location):
-        return Damper(constant, at.components)
+        point = material_point("damping", of, at)
+        return Damper(constant, point.place, point.held, of)
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(ZERO + at):
         message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
         raise Rejected(Complaint("wrong-argument", message))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor
 from sympy.matrices import ImmutableMatrix
@@ -12,12 +12,14 @@ from sympy.matrices import ImmutableMatrix
 from derive.algebra.collect import by_rates
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, TimeRate, column, explicit, rate, scalar, stand_in
+from derive.algebra.ranges import strict_sign_within
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
+from derive.mechanics.systems.material import MaterialPoint, at_rest_in, particle_of
 from derive.mechanics.systems.places import Axes, Location
 from derive.mechanics.systems.system import KnownCoordinate
 from derive.steps.establish import Lines, Scope, establish
@@ -27,12 +29,13 @@ from derive.steps.step import Fact, Form, Level, Quantity, is_zero
 __all__ = ["no_slip", "rolling_constraint"]
 
 ZERO = Integer(0)
+Ground: TypeAlias = Location | Axes
 
 
 def no_slip(
     body: PlacedBody,
     at: Location,
-    ground: Location | None = None,
+    ground: Ground | None = None,
     key: str = "no_slip",
     fixes: Coordinate | None = None,
 ) -> Quantity | tuple[Quantity, ...]:
@@ -40,7 +43,8 @@ def no_slip(
 
     body     a body that is placed or held; v is the velocity of the point r where that is
     at       where it touches the surface, m
-    ground   a place of the surface, where that moves without turning; by default it is at rest
+    ground   a place of the surface, where that moves without rotating, or the axes in which the surface is at rest, as
+             for a turntable; by default it is at rest
     fixes    the coordinate whose rate is to stand alone, if it can; by default that of the body's last turn
     One condition for each rate that it fixes. Given to a `System` as one of its
     parts, it gives a coordinate by others where it can be integrated.
@@ -57,7 +61,7 @@ def no_slip(
 
 
 def rolling_constraint(
-    body: PlacedBody, at: Location, force: str = "lambda", ground: Location | None = None
+    body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
     """The conditions of rolling, each kept by a force: F, or F_1, F_2 where there are several."""
     conditions = list(_independent(body, at, ground))
@@ -69,7 +73,7 @@ def rolling_constraint(
     )
 
 
-def _check_against_particle(body: PlacedBody, at: Location, ground: Location | None, conditions: list[Expr]) -> None:
+def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
     """No line of a page shows that these say neither more nor less than that the particle at the contact is at rest."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     at_rest = velocity_of_particle(body, at, ground)
@@ -86,7 +90,7 @@ class Rolling(Fact):
     missing = "is not a condition of rolling"
     body: PlacedBody
     at: Location
-    ground: Location | None
+    ground: Ground | None
 
 
 class _Condition:
@@ -105,7 +109,7 @@ class _Condition:
 
 
 def _independent(
-    body: PlacedBody, at: Location, ground: Location | None, fixes: Coordinate | None = None
+    body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None = None
 ) -> Iterator[_Condition]:
     """Conditions of which none follows from the others."""
     _check(body, at, ground)
@@ -128,13 +132,31 @@ def _independent(
         raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is at rest in any case"))
 
 
-def _check(body: Any, at: Location, ground: Location | None) -> None:
+def _check(body: Any, at: Location, ground: Ground | None) -> None:
     if not isinstance(body, PlacedBody):
         message = "`no_slip` needs a body that is placed or held"
         raise Rejected(Complaint("wrong-argument", message, help="put it somewhere with `.placed` or `.held`"))
     for place in (at, ground):
-        if place is not None and (not isinstance(place, Location) or len(place.components) != len(body.at.components)):
+        if (
+            place is not None
+            and not isinstance(place, Axes)
+            and (not isinstance(place, Location) or len(place.components) != len(body.at.components))
+        ):
             raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact with as many components as the body"))
+    _check_reaches(body, at)
+
+
+def _check_reaches(body: PlacedBody, at: Location) -> None:
+    """A round body touches what is not beyond its radius."""
+    radius = getattr(body.body, "radius", None)
+    if not isinstance(radius, Expr) or not body.is_plane:
+        return
+    way = (at - body.centre).components
+    beyond = tidied(Add(*(c**2 for c in way)) - radius**2)
+    if not coordinates_in(ImmutableDenseMatrix([beyond])) and strict_sign_within(beyond) == 1:
+        where = ", ".join(map(str, at.components))
+        message = f"{body.body.name} of radius {radius} does not reach ({where}), so it does not touch anything there"
+        raise Rejected(Complaint("no-contact", message, help="give the place where it touches as `at`"))
 
 
 def _order(body: PlacedBody, at: Location) -> list[Symbol]:
@@ -147,7 +169,7 @@ def _order(body: PlacedBody, at: Location) -> list[Symbol]:
     return list(dict.fromkeys([*turning, *everything]))
 
 
-def contact_velocity(body: PlacedBody, at: Location, ground: Location | None) -> ImmutableMatrix:
+def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> ImmutableMatrix:
     """Of the particle of the body at the contact, as seen from the surface: v + omega x (r_contact - r)."""
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     arm = ImmutableDenseMatrix((at - body.at).components)
@@ -163,8 +185,17 @@ def contact_velocity(body: PlacedBody, at: Location, ground: Location | None) ->
         speed = explicit(TimeRate(body.turned, *moving))
         v = v + ImmutableDenseMatrix([-speed * arm[1], speed * arm[0]])
     if ground is not None:
-        v = v - ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
+        v = v - _velocity_of_ground(ground, at)
     return ImmutableDenseMatrix(v.applyfunc(tidied))
+
+
+def _velocity_of_ground(ground: Ground, at: Location) -> ImmutableMatrix:
+    """Of the surface at the contact: of axes that turn, omega x r with omega from R_dot R^T."""
+    if isinstance(ground, Location):
+        return ImmutableDenseMatrix([explicit(TimeRate(c, *coordinates_in(c))) for c in ground.components])
+    turn, moving = ground.in_space, list(coordinates_in(ground.in_space))
+    turning = turn.applyfunc(lambda entry: explicit(TimeRate(entry, *moving))) * turn.T
+    return ImmutableDenseMatrix(turning * ImmutableDenseMatrix(at.components))
 
 
 def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
@@ -183,7 +214,7 @@ def _rates_alone(component: Expr) -> Expr:
 
 
 def _solved(
-    body: PlacedBody, at: Location, ground: Location | None, condition: _Condition, key: str, fixes: Coordinate | None
+    body: PlacedBody, at: Location, ground: Ground | None, condition: _Condition, key: str, fixes: Coordinate | None
 ) -> Quantity:
     """The condition as the rate that it fixes."""
     q, found = condition.q, condition.rate
@@ -241,7 +272,7 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
     return int(rows.xreplace(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
 
 
-def _all_rates(body: PlacedBody, at: Location, ground: Location | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:
+def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:
     found: dict[Symbol, Expr] = {}
     for condition in _independent(body, at, ground, fixes):
         found = {fixed: value.subs(rate(condition.q), condition.rate) for fixed, value in found.items()}
@@ -249,21 +280,14 @@ def _all_rates(body: PlacedBody, at: Location, ground: Location | None, fixes: C
     return found
 
 
-def velocity_of_particle(body: PlacedBody, at: Location, ground: Location | None) -> list[Expr]:
+def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) -> list[Expr]:
     """The particle is where the contact is: held fast in the body, its place is differentiated as a function of t."""
-    arm = ImmutableDenseMatrix((at - body.at).components)
-    names = [stand_in(f"rho_{i}") for i in range(len(arm))]
-    if isinstance(body.turned, Axes):
-        turn = body.turned.in_space
-        carried = turn * ImmutableDenseMatrix(names)
-    else:
-        turn = after(((2, body.turned),))[:2, :2]
-        carried = turn * ImmutableDenseMatrix(names)
-    place = [a + b for a, b in zip(body.at.components, carried, strict=True)]
+    point = particle_of(body, at)
+    place = list(point.place)
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
-    fast = [by_functions_of_time(c, moving) for c in place]
-    if ground is not None:
-        slow = [by_functions_of_time(c, list(coordinates_in(c))) for c in ground.components]
-        fast = [a - b for a, b in zip(fast, slow, strict=True)]
-    held = dict(zip(names, turn.T * arm, strict=True))
-    return [v.subs(held) for v in fast]
+    fast = [by_functions_of_time(c, moving).subs(point.values) for c in place]
+    if ground is None:
+        return fast
+    surface = at_rest_in(ground, at) if isinstance(ground, Axes) else MaterialPoint(ground.components)
+    slow = [by_functions_of_time(c, list(coordinates_in(c))).subs(surface.values) for c in surface.place]
+    return [a - b for a, b in zip(fast, slow, strict=True)]

@@ -20,7 +20,7 @@ from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.dalembert import Load, MassPoint, Matter, Reaction
-from derive.mechanics.systems.described import Described, described
+from derive.mechanics.systems.described import Described, described, places_that_move_alone
 from derive.mechanics.systems.forces import Charge, Damper, GivenForce, StoredEnergy, is_nothing
 from derive.mechanics.systems.places import Location
 from derive.steps.record import assume, coordinates_in, require_constant
@@ -67,6 +67,7 @@ class Central:
     distance: Symbol
     energy: Expr
     pull: Expr
+    massless: bool = False
 
     @property
     def is_spring(self) -> bool:
@@ -99,21 +100,27 @@ def weight(gravity: Expr) -> Weight:
     return Weight(gravity)
 
 
-def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO) -> Central:
-    """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m."""
+def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO, massless: bool = False) -> Central:
+    """A spring without mass between two places, U = (1/2) k (r - l)^2, k in N/m and its natural length l in m.
+
+    massless   whether it may end at a joint without mass; else each end moves with a body, a particle or the ground
+    """
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
     energy = Factors(HALF, constant, Pow(Terms(DISTANCE, -natural) if natural != 0 else DISTANCE, 2))
-    return Central(start, end, DISTANCE, energy, constant * DISTANCE - constant * natural)
+    return Central(start, end, DISTANCE, energy, constant * DISTANCE - constant * natural, massless)
 
 
-def central(energy: Expr, distance: Symbol, start: Location, end: Location) -> Central:
-    """A potential energy U(r) of the distance r between two places: `central(-G*M*m/r, r, sun, planet)`."""
+def central(energy: Expr, distance: Symbol, start: Location, end: Location, massless: bool = False) -> Central:
+    """A potential energy U(r) of the distance r between two places: `central(-G*M*m/r, r, sun, planet)`.
+
+    massless   as for `spring`
+    """
     if TIME in energy.free_symbols:
         raise Rejected(
             Complaint("changes", "`central` needs an energy of the distance alone, but it depends on the time t")
         )
-    return Central(start, end, distance, energy, diff(energy, distance))
+    return Central(start, end, distance, energy, diff(energy, distance), massless)
 
 
 PartOfSystem: TypeAlias = (
@@ -137,6 +144,26 @@ class Eliminated(Fact):
 
     missing = "has no coordinate that is given by others"
     eliminates: tuple[Symbol, ...]
+
+
+WHICH_BODY = {
+    "force": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
+    "drag": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
+    "spring": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
+    "central force": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
+}
+
+
+class ActsOnNothing(Rejected):
+    """A part of a system that acts on no particle, or of which the other side is not stated."""
+
+    part: Any = None
+
+    @classmethod
+    def of(cls, part: Any, complaint: Complaint) -> ActsOnNothing:
+        found = cls(complaint)
+        found.part = part
+        return found
 
 
 class System:
@@ -171,7 +198,8 @@ class System:
         charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
         self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
         self.fields = tuple(c.deflected for c in self.charges if not is_nothing(c.magnetic))
-        self.given_forces: tuple[GivenForce, ...] = tuple(part for part in parts if isinstance(part, GivenForce))
+        given = [part for part in parts if isinstance(part, GivenForce)]
+        self.given_forces: tuple[GivenForce, ...] = (*given, *(each.opposite for each in given if each.opposite))
         self.dampers = tuple(part for part in parts if isinstance(part, Damper))
         self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
         self._check()
@@ -191,6 +219,8 @@ class System:
             message = "nothing in this `System` moves: its places depend on no coordinate"
             raise Rejected(Complaint("wrong-argument", message, help='name what varies with `coordinate("theta")`'))
         self._check_what_acts()
+        self._check_material_points()
+        self._check_partners()
         for condition in self.conditions:
             _check_kept(condition)
         letters = [each.force.name for each in self.constraints]
@@ -208,6 +238,38 @@ class System:
                 if q not in self.coordinates:
                     message = f"a force or constraint of this `System` depends on {q.name}, but nothing in it moves so"
                     raise Rejected(Complaint("wrong-argument", message))
+
+    def _check_material_points(self) -> None:
+        """What acts on a body acts on one of its particles: each place moves with a body, a particle or the ground."""
+        acting: list[tuple[Any, str, tuple[Expr, ...]]] = []
+        for each in (part for part in self._described if isinstance(part, GivenForce | Damper)):
+            if each.of is None and len(each.at) > 1:
+                acting.append((each, "force" if isinstance(each, GivenForce) else "drag", each.at))
+        for between in (part for part in self._described if isinstance(part, Central)):
+            if not between.massless:
+                what = "spring" if between.is_spring else "central force"
+                acting += [(between, what, end.components) for end in (between.start, between.end)]
+        for i in places_that_move_alone(self.described.description, [place for _, _, place in acting]):
+            part, what, place = acting[i]
+            where = ", ".join(map(str, place))
+            message = f"the {what} at ({where}) acts on no particle: that place moves with no body and no particle here"
+            raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHICH_BODY[what]))
+
+    def _check_partners(self) -> None:
+        """A force in proportion to a force of constraint acts between two: the opposite one acts on the other."""
+        letters = {each.force for each in self.constraints}
+        touching = [f for f in self.given_forces if any(c.free_symbols & letters for c in f.components)]
+        open_ = [f for f in touching if f.by is None]
+        if len(self.masses) < 2 or not open_:
+            return
+        size = len(open_[0].components)
+        resultant = [Add(*(f.components[i] for f in touching if len(f.components) == size)) for i in range(size)]
+        if all(is_zero(c) for c in resultant):
+            return
+        (letter, *_) = sorted({s.name for c in open_[0].components for s in c.free_symbols & letters})
+        message = f"a force with {letter} acts between two bodies, but it is not stated which body exerts it"
+        help_line = "name the body on which the opposite force acts, `by: plank`, or write `by: ground`"
+        raise ActsOnNothing.of(open_[0], Complaint("which-body", message, help=help_line))
 
     @property
     def places(self) -> list[Location]:
@@ -308,7 +370,10 @@ def _with_known(part: Any, known: Mapping[Symbol, Expr]) -> Any:
     if isinstance(part, StoredEnergy):
         return StoredEnergy(part.energy.subs(known))
     if isinstance(part, GivenForce | Damper):
-        return replace(part, at=tuple(c.subs(known) for c in part.at))
+        moved = {"at": tuple(c.subs(known) for c in part.at), "of": _with_known(part.of, known)}
+        moved["held"] = tuple((name, value.subs(known)) for name, value in part.held)
+        moved |= {"by": _with_known(part.by, known)} if isinstance(part, GivenForce) else {}
+        return replace(part, **moved)
     return part
 
 

@@ -17,6 +17,7 @@ from derive.mechanics import (
     rates_after,
     work_of_impulses,
 )
+from derive.mechanics.systems.system import ActsOnNothing
 from derive.steps.step import Quantity
 from derive.stock.keys.blows import DescribedBlow
 
@@ -25,6 +26,7 @@ class BlowAnswers:
     """The quantities of a blow, each derived when it is first asked for.
 
     system, kinetic   what yields the system and its kinetic energy
+    bodies            what yields its bodies and particles by name
     """
 
     def __init__(
@@ -33,18 +35,24 @@ class BlowAnswers:
         coordinates: Mapping[str, Coordinate],
         system: Callable[[], System],
         kinetic: Callable[[], Quantity],
+        bodies: Callable[[], Mapping[str, Any]],
     ):
         self.described, self.coordinates = described, coordinates
-        self._system, self._kinetic = system, kinetic
+        self._system, self._kinetic, self._bodies = system, kinetic, bodies
         self._jumps: dict[str, Quantity] = {}
 
     @cached_property
     def blow(self) -> Blow:
-        acts = [act.made() for act in self.described.acts]
+        acts = [act.made(self._bodies()) for act in self.described.acts]
         at = {self.coordinates[name]: value for name, value in self.described.at}
         before = {self.coordinates[name]: value for name, value in self.described.before}
         with told_at(self.described.place):
-            return Blow(self._system(), *acts, at=at, before=before)
+            try:
+                return Blow(self._system(), *acts, at=at, before=before)
+            except ActsOnNothing as error:
+                pairs = zip(self.described.acts, acts, strict=True)
+                with told_at(next((act.place for act, made in pairs if made is error.part), None)):
+                    raise
 
     @property
     def moving(self) -> list[str]:

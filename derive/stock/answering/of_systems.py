@@ -42,6 +42,7 @@ from derive.mechanics import (
     stability,
     weight,
 )
+from derive.mechanics.systems.system import ActsOnNothing
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
@@ -109,11 +110,27 @@ class Answers:
         if described.given is not None:
             message = "this needs bodies and forces, but the Lagrangian is given in place of them"
             raise Rejected(Complaint("given-lagrangian", message))
-        parts = [part.made() for part in described.parts if part.maker not in ("body", "rolling")]
-        if described.gravity is not None:
-            parts.append(weight(described.gravity))
+        others = [part for part in described.parts if part.maker not in ("body", "rolling", "particle")]
+        made = [part.made(self.parts_by_name) for part in others]
+        weights = [weight(described.gravity)] if described.gravity is not None else []
         with told_at(described.place):
-            return System(*self.bodies.values(), *parts, *self.rolling)
+            try:
+                return System(*self.bodies.values(), *self.particles.values(), *made, *weights, *self.rolling)
+            except ActsOnNothing as error:
+                place = next((p.place for p, part in zip(others, made, strict=True) if part is error.part), None)
+                with told_at(place):
+                    raise
+
+    @cached_property
+    def particles(self) -> dict[str, Any]:
+        """Particles by name."""
+        own = [part for part in self.described.parts if part.maker == "particle"]
+        return {str(dict(part.named)["name"]): part.made() for part in own}
+
+    @property
+    def parts_by_name(self) -> dict[str, Any]:
+        """The particles and bodies that what acts may name."""
+        return {**self.particles, **self.bodies}
 
     @cached_property
     def bodies(self) -> dict[str, Any]:
@@ -239,6 +256,13 @@ class Answers:
         """States of rest; where forces keep conditions, the places and the forces that the equations tell."""
         if self.described.given is not None or not self.system.constraints:
             return self.equilibria
+        letters = {each.force for each in self.system.constraints}
+        if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
+            message = "sliding friction does not act at rest, where friction has any value up to its greatest"
+            help_line = (
+                "ask for the equilibria without friction; with static friction there is a range of them around each"
+            )
+            raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         return rest_with_forces(self.motions, self.independent, [each.force for each in self.system.constraints])
 
     @cached_property
@@ -355,7 +379,13 @@ class Answers:
 
     def blow_of(self, described: DescribedBlow) -> BlowAnswers:
         if self._blow is None:
-            self._blow = BlowAnswers(described, self.coordinates, lambda: self.system, lambda: self.kinetic_energy)
+            self._blow = BlowAnswers(
+                described,
+                self.coordinates,
+                lambda: self.system,
+                lambda: self.kinetic_energy,
+                lambda: self.parts_by_name,
+            )
         return self._blow
 
     def check_letters(self) -> None:

@@ -12,9 +12,10 @@ from sympy import Expr, Integer
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
+from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more, record_of
 from derive.course.stock import InLetters, each, told_at
-from derive.course.yaml_tree import Tree, Word
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import Place, did_you_mean, rejected
 from derive.mechanics import angular_impulse, collision, impulse
 from derive.mechanics.systems.coordinates import kind_of_rate
@@ -32,10 +33,14 @@ class Act:
     maker: str
     of: tuple[Any, ...]
     place: Place | None = field(default=None, repr=False, compare=False)
+    bodies: tuple[str, ...] = ()
 
-    def made(self) -> Any:
+    def made(self, known: Mapping[str, Any]) -> Any:
+        """By its verb; `known` are the bodies and particles of the system by name."""
         with told_at(self.place):
-            return MAKERS[self.maker](*self.of)  # type: ignore[operator]
+            named = [known.get(name, name) for name in self.bodies]
+            more = {"of": named[0] if len(named) == 1 else tuple(named)} if named else {}
+            return MAKERS[self.maker](*self.of, **more)  # type: ignore[operator]
 
 
 @dataclass(frozen=True)
@@ -44,13 +49,15 @@ class ImpulseKeys(Record):
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place on which it acts", PLACE)
+    of: Word | None = key("the body or particle that it acts on, where the place does not move with it", TEXT)
     angular: Tree | None = key("in place of them, an angular impulse", SCALAR)
     on: Tree | None = key("the angle by which that turns something", SCALAR)
 
     def act(self, places: Places, letters: InLetters) -> Act:
         if self.components and self.at and not (self.angular or self.on):
             found = each([partial(letters.of_kind, node, "a component", "momentum") for node in self.components])
-            return Act("impulse", (tuple(found), places.at(self.at, "at")), self.places[""])
+            bodies = (str(self.of),) if self.of is not None else ()
+            return Act("impulse", (tuple(found), places.at(self.at, "at")), self.places[""], bodies)
         if self.angular and self.on and not (self.components or self.at):
             amount = letters.of_kind(self.angular, "angular", "angular momentum")
             return Act("angular", (amount, letters.of_kind(self.on, "on", "angle")), self.places[""])
@@ -64,8 +71,14 @@ class CollisionKeys(Record):
     start: WrittenPlace | None = key("one of the places that meet", PLACE, called="from")
     end: WrittenPlace | None = key("the other one", PLACE, called="to")
     at: WrittenPlace | None = key("in place of both, the place that meets what is at rest", PLACE)
+    of: Tree | None = key(
+        "the bodies or particles that meet, where a place does not move with its body: `of: [ball, rod]` for `from` "
+        "and `to`, or one name for `at`",
+        as_written(one_or_more(TEXT.schema), "a body, or a list of two"),
+    )
     along: tuple[Tree, ...] = key(
-        "components of the common normal, along which the impulse acts; without it the two stay together", COMPONENTS
+        "components of a vector along the common normal, the line of the impulse; by default the two stay together",
+        COMPONENTS,
     )
     restitution: Tree | None = key(
         "with `along`, the part of the speed of approach with which they part: 1 where the collision is elastic", SCALAR
@@ -91,7 +104,16 @@ class CollisionKeys(Record):
         part = found.pop() if self.restitution else Integer(0)
         start = found.pop(0) if self.start else None
         end, *along = found
-        return Act("collision", (start, end, tuple(along), part, self.name), self.places[""])
+        return Act("collision", (start, end, tuple(along), part, self.name), self.places[""], self._bodies())
+
+    def _bodies(self) -> tuple[str, ...]:
+        written = self.of.items if isinstance(self.of, Listed) else [self.of] if self.of is not None else []
+        found = tuple(" ".join(name.text.split()) for name in written if isinstance(name, Scalar))
+        count = 2 if self.start is not None else 1
+        if found and len(found) != count:
+            wanted = "two names, of `from` and of `to`" if count == 2 else "one name"
+            rejected("wrong-length", f"`of` needs {wanted}, not {len(found)}", self.places["of"])
+        return found
 
     @property
     def name(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -25,8 +25,9 @@ from derive.course.schema import (
 )
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Faults, Place, rejected
+from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import Particle, central, charge, constraint, couple, damping, force, potential, spring
+from derive.mechanics.systems.material import GROUND, MASSLESS
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
 
 ONE_OR_MORE_COMPONENTS = as_written(
@@ -55,9 +56,11 @@ class Part:
     place: Place | None = field(default=None, repr=False, compare=False)
     name: str = ""
 
-    def made(self) -> Any:
+    def made(self, bodies: Mapping[str, Any] | None = None) -> Any:
+        """By its verb; `bodies` are the particles and bodies that it may name."""
         with told_at(self.place):
-            return MAKERS[self.maker](*self.of, **dict(self.named))
+            named = {name: bodies[str(value)] if bodies and value in bodies else value for name, value in self.named}
+            return MAKERS[self.maker](*self.of, **named)
 
 
 @dataclass(frozen=True)
@@ -83,11 +86,12 @@ class SpringKeys(Record):
     start: WrittenPlace | None = key("where it begins", PLACE, called="from", required=True)
     end: WrittenPlace | None = key("where it ends", PLACE, called="to", required=True)
     length: Tree | None = key("its natural length; without it zero", SCALAR)
+    massless: Word | None = key("`true` where it may end at a joint without mass", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
         length = letters.value(self.length, "length", "length", or_zero=True) if self.length else Integer(0)
         constant = letters.value(_there(self.constant), "constant", "spring constant")
-        return Part("spring", (constant, *_ends(self, places), length), place=self.places[""])
+        return Part("spring", (constant, *_ends(self, places), length), massless(self.massless), self.places[""])
 
 
 @dataclass(frozen=True)
@@ -98,6 +102,7 @@ class CentralKeys(Record):
     distance: Word | None = key("the letter that it has for the distance", TEXT, required=True)
     start: WrittenPlace | None = key("one of the places", PLACE, called="from", required=True)
     end: WrittenPlace | None = key("the other place", PLACE, called="to", required=True)
+    massless: Word | None = key("`true` where one of the places may be a joint without mass", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Part:
         name = letters.unused(_there(self.distance), "give the distance a letter of its own")
@@ -105,7 +110,8 @@ class CentralKeys(Record):
         with_distance = InLetters({**letters.letters, name: Declared(name, own, "length")})
         energy = with_distance.of_kind(_there(self.energy), "energy", "energy")
         letter = scalar(name, positive=True)
-        return Part("central", (energy.xreplace({own: letter}), letter, *_ends(self, places)), place=self.places[""])
+        of = (energy.xreplace({own: letter}), letter, *_ends(self, places))
+        return Part("central", of, massless(self.massless), self.places[""])
 
 
 @dataclass(frozen=True)
@@ -114,13 +120,27 @@ class ForceKeys(Record):
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place on which it acts", PLACE)
+    of: Word | None = key(
+        "the body or particle that it acts on, where the place does not move with it: a contact of a ball that slides; "
+        "`massless` for a part without mass",
+        TEXT,
+    )
+    by: Word | None = key(
+        "the body or particle that exerts it, on which the opposite force acts: the plank that a block slides on; "
+        "`ground` where nothing described does",
+        TEXT,
+    )
     torque: Tree | None = key("in place of them, a torque", SCALAR)
     on: Tree | None = key("the angle by which that turns something", SCALAR)
 
-    def part(self, places: Places, letters: InLetters) -> Part:
+    def part(self, places: Places, letters: InLetters, bodies: Collection[str] = ()) -> Part:
         if self.components and self.at and not (self.torque or self.on):
             found = each([partial(letters.of_kind, node, "a component", "force") for node in self.components])
-            return Part("force", (tuple(found), places.at(self.at, "at")), place=self.places[""])
+            named = [*named_body("of", self.of, bodies, MASSLESS), *named_body("by", self.by, bodies, GROUND)]
+            return Part("force", (tuple(found), places.at(self.at, "at")), tuple(named), self.places[""])
+        if self.of or self.by:
+            message = "`of` and `by` belong to a force at a place, but this is a torque"
+            rejected("unused-key", message, (self.of or self.by).place, "leave them out")  # type: ignore[union-attr]
         if self.torque and self.on and not (self.components or self.at):
             angle = letters.of_kind(self.on, "on", "angle")
             return Part("couple", (letters.of_kind(self.torque, "torque", "torque"), angle), place=self.places[""])
@@ -133,14 +153,19 @@ class DampingKeys(Record):
 
     constant: Tree | None = key("its constant, kg/s at a place and for a length", SCALAR, required=True)
     at: WrittenPlace | None = key("the place whose velocity it is against", PLACE)
+    of: Word | None = key("the body or particle that it acts on, where the place does not move with it", TEXT)
     on: Tree | None = key("in place of it, the coordinate whose rate it is against", SCALAR)
 
-    def part(self, places: Places, letters: InLetters) -> Part:
+    def part(self, places: Places, letters: InLetters, bodies: Collection[str] = ()) -> Part:
         if (self.at is None) == (self.on is None):
             rejected("missing-key", "damping needs either `at` or `on`", self.places[""])
         if self.at is not None:
             constant = letters.value(_there(self.constant), "constant", "damping constant")
-            return Part("damping", (constant, places.at(self.at, "at")), place=self.places[""])
+            named = named_body("of", self.of, bodies, MASSLESS)
+            return Part("damping", (constant, places.at(self.at, "at")), tuple(named), self.places[""])
+        if self.of is not None:
+            message = "`of` belongs to drag at a place, but this acts on a coordinate"
+            rejected("unused-key", message, self.of.place, "leave it out")
         constant, on = (
             letters.read(_there(node), name)[0] for node, name in ((self.constant, "constant"), (self.on, "on"))
         )
@@ -197,6 +222,25 @@ def force_letter(name: Word | None, letters: InLetters) -> str:
     if not is_letter(name):
         rejected("symbol", f"`{name}` is no letter for a force", name.place, "write `force: F`")
     return letters.unused(name, "leave it out of `symbols`, or give the force another letter")
+
+
+def named_body(key_name: str, name: Word | None, bodies: Collection[str], otherwise: str) -> list[tuple[str, str]]:
+    """The body or particle that a key names, or the word that stands for none."""
+    if name is None:
+        return []
+    if name not in bodies and name != otherwise:
+        help_line = did_you_mean(name, [*bodies, otherwise]) or f"or write `{key_name}: {otherwise}`"
+        rejected("no-such-body", f"there is no body and no particle `{name}`", name.place, help_line)
+    return [(key_name, str(name))]
+
+
+def massless(word: Word | None) -> tuple[tuple[str, bool], ...]:
+    """Whether a joint without mass is allowed."""
+    if word is None:
+        return ()
+    if word not in ("true", "false"):
+        rejected("wrong-type", f"`massless` must be `true` or `false`, not `{word}`", word.place)
+    return (("massless", word == "true"),)
 
 
 def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:

@@ -14,7 +14,7 @@ from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import did_you_mean, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
-from derive.mechanics.systems.places import Axes
+from derive.mechanics.systems.places import Axes, Location
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.parts import Part, force_letter, list_of_parts
 from derive.stock.keys.places import PLACE, Places, WrittenPlace
@@ -103,7 +103,9 @@ class RollingKeys(Record):
 
     body: Word | None = key("the body, by its name", TEXT, required=True)
     at: WrittenPlace | None = key("where it touches what it rolls on", PLACE, required=True)
-    ground: WrittenPlace | None = key("a place of what it rolls on, where that moves", PLACE)
+    ground: WrittenPlace | None = key(
+        "a place of what it rolls on, where that moves; or the axes in which that is at rest, as for a turntable", PLACE
+    )
     force: Word | None = key("the letter of the force that keeps it from slipping, where that is wanted", TEXT)
 
     def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Part:
@@ -111,9 +113,20 @@ class RollingKeys(Record):
         assert self.at is not None
         if self.body not in names:
             rejected("no-such-body", f"there is no body `{self.body}`", self.body.place, did_you_mean(self.body, names))
-        ground = places.at(self.ground, "ground") if self.ground else None
+        ground = self._ground(places) if self.ground else None
         force = (("force", force_letter(self.force, letters)),) if self.force else ()
         return Part("rolling", (str(self.body), places.at(self.at, "at"), ground), force, self.places[""])
+
+    def _ground(self, places: Places) -> Location | Axes:
+        """A place of the surface; one along axes that rotate is at rest in these, as on a turntable."""
+        assert self.ground is not None
+        way = self.ground.way
+        if self.ground.name is not None and str(self.ground.name) in {str(name) for name in places.turns}:
+            return places.axes(self.ground.name)
+        if way is not None and way.axes is not None and way.start is None:
+            places.at(self.ground, "ground")
+            return places.axes(way.axes)
+        return places.at(self.ground, "ground")
 
 
 BODIES = mapping_of(record_of(MovingBodyKeys, "a body", "a mapping with `shape` or `moments`", "the body `{}`"))

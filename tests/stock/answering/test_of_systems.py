@@ -235,8 +235,8 @@ given:
   places: {O: [0, 0, 0], carriage: {in: beam, by: [r, 0, 0]}, mass: {in: beam, by: [r, y, 0]}}
   particles: {mass: {mass: m, at: mass}}
   springs:
-    - {constant: k, length: r_0, from: O, to: carriage}
-    - {constant: K, from: carriage, to: mass}
+    - {constant: k, length: r_0, from: O, to: carriage, massless: true}
+    - {constant: K, from: carriage, to: mass, massless: true}
 statement: A carriage.
 parts:
   - ask: Where is it at rest?
