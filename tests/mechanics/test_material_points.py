@@ -87,7 +87,7 @@ def test_the_plank_is_pulled_along_by_what_slows_the_block(tmp_path: Path) -> No
 
 def test_between_two_masses_it_is_stated_which_exerts_friction(tmp_path: Path) -> None:
     (said,) = messages(tmp_path, edited(PLANK, (", by: plank", "")))
-    assert "one.yaml:11:" in said and "which body exerts it" in said
+    assert said.startswith("11:") and "which body exerts it" in said
     steps = solved(tmp_path, edited(PLANK, ("by: plank", "by: ground")))
     assert steps["acceleration_X"].value == 0
 
@@ -101,17 +101,15 @@ def test_sliding_friction_turns_a_ball(tmp_path: Path) -> None:
 
 def test_the_contact_of_a_ball_that_slides_asks_for_its_body(tmp_path: Path) -> None:
     (said,) = messages(tmp_path, edited(BALL, (", of: ball", "")))
-    assert "one.yaml:9:" in said and "moves with no body" in said and "`of: ball`" in said
+    assert said.startswith("9:") and "moves with no body" in said
     steps = solved(tmp_path, edited(BALL, ("of: ball", "of: massless")))
     assert steps["acceleration_phi"].value == 0
 
 
-@pytest.mark.parametrize(
-    ("name", "said"), [("bal", "did you mean `ball`"), ("floor", "no body and no particle `floor`")]
-)
-def test_a_body_that_is_not_there_is_not_acted_on(name: str, said: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["bal", "floor"])
+def test_a_body_that_is_not_there_is_not_acted_on(name: str, tmp_path: Path) -> None:
     (found,) = messages(tmp_path, edited(BALL, ("of: ball", f"of: {name}")))
-    assert said in found
+    assert found == f"9: there is no body and no particle `{name}`"
 
 
 def test_a_ball_on_a_turntable_goes_round_at_two_sevenths_of_its_rate(tmp_path: Path) -> None:
@@ -131,7 +129,7 @@ def test_the_end_of_a_rod_that_is_hit_is_a_particle_of_the_rod(tmp_path: Path) -
     assert equal(steps["x_dot_after"].value, 2 * m * v / (M + 4 * m))
     assert equal(steps["phi_dot_after"].value, -12 * m * v / ((M + 4 * m) * l))
     (said,) = messages(tmp_path, edited(HIT, (", of: [p, rod]", "")))
-    assert "moves with no body" in said and "`of: [ball, rod]`" in said
+    assert "moves with no body" in said
     (said,) = messages(tmp_path, edited(HIT, ("of: [p, rod]", "of: rod")))
     assert "two names" in said
 
