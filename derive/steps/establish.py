@@ -207,10 +207,12 @@ def establish(
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
     """The quantity with the evidence of the described system, where it belongs to one system and there is a test."""
-    systems = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
-    if len(systems) != 1:
-        return quantity
-    verdict = systems.pop().testimony(quantity, judged, quantity.step.outcome)
+    found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
+    by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
+    if any(len(facts) > 1 for facts in by_kind.values()):
+        return quantity  # it is about several systems
+    said = [facts[0].testimony(quantity, judged, quantity.step.outcome) for facts in by_kind.values()]
+    verdict = next((each for each in sorted((s for s in said if s is not None), key=bool)), None)
     if verdict is None:
         return quantity
     if not verdict:

@@ -118,3 +118,35 @@ class Description:
     def multipliers(self) -> tuple[Symbol, ...]:
         """The letters of what keeps the conditions."""
         return tuple(each.multiplier for each in self.conditions if each.multiplier is not None)
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Two particles that meet, or one that meets what is at rest.
+
+    start, end    their places, as those of forces
+    normal        along which the impulse acts on the end; empty where the two stay together
+    restitution   the part of the speed of approach with which they part
+    letters       of the impulse, or of its components
+    """
+
+    start: Force | None
+    end: Force
+    normal: Vector
+    restitution: Expr
+    letters: tuple[Symbol, ...]
+
+
+@dataclass(frozen=True)
+class Impact:
+    """What happens to a system in a moment: given impulses and meetings.
+
+    at       coordinate -> its value in that moment
+    before   rate -> its value just before; the others are zero
+    """
+
+    system: Description
+    impulses: tuple[Force, ...]
+    meetings: tuple[Meeting, ...]
+    at: tuple[tuple[Symbol, Expr], ...]
+    before: tuple[tuple[Symbol, Expr], ...]

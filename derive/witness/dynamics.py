@@ -223,10 +223,10 @@ class Dynamics:
         for force, place in zip(self.blueprint.of.forces, at.forces, strict=True):
             acting = np.array([next(components) for _ in force.components])
             acting[:, 1:] -= acting[:, :1]
-            found += _jacobian(force.body, place, at).T @ acting
+            found += jacobian_of(force.body, place, at).T @ acting
         for drag, constant, place in zip(self.blueprint.of.drags, self._drags, at.drags, strict=True):
             velocity = place.velocity if drag.body is None else at.bodies[drag.body].velocity_at(place.at)
-            found[:, 0] -= _jacobian(drag.body, place, at).T @ velocity * constant
+            found[:, 0] -= jacobian_of(drag.body, place, at).T @ velocity * constant
         for (charge, electric, magnetic), place in zip(self._charges, at.charges, strict=True):
             found[:, 0] += place.jacobian.T @ (charge * (electric + _across(place.velocity, magnetic)))
         return found
@@ -316,7 +316,7 @@ class Dynamics:
         return (matrix + matrix.T) / 2, self._slopes_of_lagrangian(state, function)[:n] - changing
 
 
-def _jacobian(body: int | None, place: Place, at: Placed) -> Reals:
+def jacobian_of(body: int | None, place: Place, at: Placed) -> Reals:
     """Of the place itself, or of the particle that a body has there."""
     return place.jacobian if body is None else at.bodies[body].jacobian_at(place.at)
 

@@ -15,12 +15,13 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import unknown
 from derive.mechanics.systems.constraint import Constraint
 from derive.mechanics.systems.coordinates import Coordinate, by_functions_of_time
-from derive.mechanics.systems.described import places_that_move_alone
+from derive.mechanics.systems.described import Struck, places_that_move_alone
 from derive.mechanics.systems.material import material_point
 from derive.mechanics.systems.places import Location
 from derive.mechanics.systems.system import ActsOnNothing, System
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import is_zero
+from derive.witness import description as plain
 
 __all__ = ["Blow", "angular_impulse", "collision", "impulse"]
 
@@ -174,6 +175,7 @@ class Blow:
         if not acts:
             raise Rejected(Complaint("wrong-argument", "a `Blow` needs an impulse or a collision"))
         known = system.known
+        self.acts = acts
         self._check_material_points(acts)
         self.impulses = [
             Impulse(
@@ -216,6 +218,30 @@ class Blow:
             message = f"where in the body the impulse acts depends on {name}"
             raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` in that moment under `at`"))
         return tuple(c.xreplace(arms) for c in point.place)
+
+    @property
+    def described(self) -> Struck:
+        """What the witness is given of it: the parts as they were described."""
+        acts = self.acts
+        given = [plain.Force(a.components, a.at, self._number(a.of)) for a in acts if isinstance(a, Impulse)]
+        meetings = [self._described_meeting(act) for act in acts if isinstance(act, Collision)]
+        system = self.system.described.description
+        impact = plain.Impact(system, tuple(given), tuple(meetings), tuple(self.at.items()), tuple(self.before.items()))
+        return Struck(impact)
+
+    def _number(self, of: Any) -> int | None:
+        return next((i for i, body in enumerate(self.system.described_bodies) if body == of), None)
+
+    def _described_meeting(self, act: Collision) -> plain.Meeting:
+        start, end = (
+            None if at is None else plain.Force((ZERO,) * len(at.components), at.components, self._number(of))
+            for at, of in zip((act.start, act.end), act.of, strict=True)
+        )
+        assert end is not None
+        axes = "xyz"[: len(end.place)]
+        names = [act.letter] if act.along else [f"{act.letter}_{axis}" for axis in axes]
+        letters = tuple(unknown(name, "momentum") for name in names)
+        return plain.Meeting(start, end, act.along, act.restitution, letters)
 
     def _coordinate(self, q: Any) -> Symbol:
         symbol = q.symbol if isinstance(q, Coordinate) else q

@@ -19,6 +19,7 @@ from derive.steps.step import Quantity, Witness
 from derive.witness import description as plain
 
 XYZ = (0, 1, 2)
+SOLVED = "solving.solved_for"
 CONSERVED = "effective.conserved"  # the rule of momenta that keep their value
 
 
@@ -40,6 +41,21 @@ class Described(Witness):
             if each.step.rule == CONSERVED and isinstance(each.symbol, Symbol):
                 momenta[each.symbol] = dict(each.step.roles)["coordinate"]
         return judges.testimony(judge, self.description, quantity, judged, outcome, momenta, assumed())
+
+
+@dataclass(frozen=True)
+class Struck(Witness):
+    """The impact that a quantity follows from, as the witness sees it."""
+
+    missing = "does not follow from an impact"
+    impact: plain.Impact
+
+    def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
+        if quantity.step.rule != SOLVED:
+            return None
+        from derive.witness import impact
+
+        return impact.testimony(self.impact, quantity)
 
 
 def letter_of_momentum(q: Symbol) -> Symbol:

@@ -74,7 +74,7 @@ def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None 
             judged_by={"slope": diff(blow.power(), q.rate)},
         ),
         key=key or f"jump_{symbol.name}",
-        facts=[OfCoordinate(q)],
+        facts=[OfCoordinate(q), blow.described],
         scope=Scope(coordinates={m.letter: "momentum" for m in blow.meetings}, about=Subject(body=blow.system)),
     )
 

@@ -298,6 +298,11 @@ class System:
         entries = [c for place in self.places for c in place.components]
         return coordinates_in(ImmutableDenseMatrix([*entries, *(e for b in self.bodies for e in b.depends_on)]))
 
+    @property
+    def described_bodies(self) -> list[PlacedBody]:
+        """Its bodies as they were described, in the order in which the witness has them."""
+        return [part for part in self._described if isinstance(part, PlacedBody)]
+
     @cached_property
     def described(self) -> Described:
         """What the witness is given of it: its parts before coordinates that conditions give by others are left out."""
