@@ -166,3 +166,29 @@ parts:
     (said,) = messages(tmp_path, far)
     assert "does not reach (x, -R)" in said
     assert "no_slip" in solved(tmp_path, edited(far, ("[x, -R]", "[x, 0]")))
+
+
+@pytest.mark.parametrize(
+    ("condition", "length"),
+    [("condition: x**2 + y**2, equals: l**2", "2*l"), ("condition: 3*y - x", "sqrt(10)"), ("condition: y", "")],
+)
+def test_a_multiplier_is_a_force_where_its_condition_has_a_gradient_of_length_one(
+    condition: str, length: str, tmp_path: Path
+) -> None:
+    """lambda grad f is the force: for f = x^2 + y^2 - l^2 it is 2 l lambda."""
+    text = f"""\
+title: A bob
+solve: system
+symbols: {{m: mass, l: length, g: acceleration}}
+given:
+  coordinates: {{x: length, y: length}}
+  particles: {{bob: {{mass: m, at: [x, y]}}}}
+  gravity: g
+  constraints: {{{condition}, force: Lambda}}
+statement: A bob.
+parts:
+  - {{ask: Find the multiplier., answer: multipliers}}
+"""
+    found = solved(tmp_path, text)["Lambda"].step
+    assert found.outcome == ("multiplier" if length else "generic")
+    assert str(dict(found.roles).get("length", "")) == length

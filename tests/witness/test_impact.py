@@ -10,8 +10,9 @@ from sympy import Integer, Rational, symbols
 
 from derive.algebra.expressions import rate
 from derive.mechanics.systems.described import Struck
+from derive.witness import impact
 from derive.witness.description import Body, Description, Force, Impact, Meeting, Particle
-from derive.witness.impact import _blueprint, after, testimony
+from derive.witness.impact import _blueprint, after
 from derive.witness.trial import Trial
 from tests.mechanics.test_material_points import HIT
 from tests.stock.described import solved
@@ -34,8 +35,8 @@ def test_a_ball_bounces_off_a_slope_whatever_the_length_of_the_normal() -> None:
     ball = Force((ZERO, ZERO), (x, y))
     for size in (1, 7):
         meeting = Meeting(None, ball, (Integer(3 * size), Integer(4 * size)), Integer(1), (K,))
-        impact = Impact(of, (), (meeting,), ((x, ZERO), (y, ZERO)), ((rate(y), -v),))
-        trial, found = result(impact)
+        hit = Impact(of, (), (meeting,), ((x, ZERO), (y, ZERO)), ((rate(y), -v),))
+        trial, found = result(hit)
         assert found[K] == pytest.approx(8 / 5 * trial.numbers[m] * trial.numbers[v], rel=1e-10)
 
 
@@ -55,8 +56,8 @@ def test_two_that_stay_together_have_one_velocity() -> None:
     of = Description(((x, "length"), (y, "length")), (Particle(m, (x, ZERO)), Particle(M, (y, ZERO))))
     one, other = Force((ZERO, ZERO), (x, ZERO)), Force((ZERO, ZERO), (y, ZERO))
     letters = symbols("K_x K_y", real=True)
-    impact = Impact(of, (), (Meeting(one, other, (), ZERO, letters),), ((x, ZERO), (y, ZERO)), ((rate(x), v),))
-    trial, found = result(impact)
+    hit = Impact(of, (), (Meeting(one, other, (), ZERO, letters),), ((x, ZERO), (y, ZERO)), ((rate(x), v),))
+    trial, found = result(hit)
     share = trial.numbers[m] / (trial.numbers[m] + trial.numbers[M])
     assert found[rate(x)] == pytest.approx(found[rate(y)]) == pytest.approx(share * trial.numbers[v])
     assert Rational(1) and letters[0] in found
@@ -67,6 +68,6 @@ def test_a_wrong_rate_after_an_impact_is_refused_and_the_right_one_is_witnessed(
     rate_after = steps["phi_dot_after"]
     assert [e.detail for e in rate_after.step.evidence if e.compared == "witness"] == ["2 impacts"]
     (struck,) = {fact for each in rate_after.ancestors() for fact in each.facts if isinstance(fact, Struck)}
-    assert testimony(struck.impact, rate_after)
-    wrong = testimony(struck.impact, replace(rate_after, value=rate_after.value / 2))
+    assert impact.testimony(struck.impact, rate_after)
+    wrong = impact.testimony(struck.impact, replace(rate_after, value=rate_after.value / 2))
     assert wrong is not None and wrong.detail.startswith("the momenta balance with")

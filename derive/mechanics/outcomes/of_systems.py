@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from sympy import Expr, eye
+from itertools import islice
+
+from sympy import Expr, ImmutableDenseMatrix, Matrix, Rational, diff, eye
 
 from derive.algebra.expressions import rate
+from derive.algebra.samples import letters_of, points, seed_of
 from derive.mechanics.outcomes.signs import lasts, vanishes
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import coordinates_in
@@ -41,6 +44,24 @@ def _of_a_spring(facts: Judged, several: bool) -> bool:
     return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
 
 
+def _is_stretched(facts: Judged) -> bool:
+    """Whether a small displacement along the steepest way changes the condition by another amount than its length, with
+    numbers for the letters: that way is what virtual work makes of the condition, (J J^T)^-1 J a."""
+    place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
+    if not place or condition is None:
+        return False
+    moving = sorted(coordinates_in(ImmutableDenseMatrix([*place, condition])), key=str)
+    J = Matrix([[diff(c, q) for q in moving] for c in place])
+    a = Matrix([diff(condition, q) for q in moving])
+    for point in islice(points(letters_of(condition) | set().union(*map(letters_of, place)), seed_of(condition)), 4):
+        there = {letter: value.evalf(30) for letter, value in point.items()}
+        jacobian, slopes = J.xreplace(there).evalf(30), a.xreplace(there).evalf(30)
+        steepest = (jacobian * jacobian.T).inv() * jacobian * slopes
+        if abs(steepest.norm() - 1) > Rational(1, 10**9):
+            return True
+    return False
+
+
 _TABLE: dict[str, dict[str, Predicate]] = {
     "combination.combination": {
         "generic": lambda facts: bool(facts.inputs),
@@ -62,7 +83,11 @@ _TABLE: dict[str, dict[str, Predicate]] = {
         "in_rates": lambda facts: _has_rates(facts.inputs["condition"]),
         "in_coordinates": lambda facts: not _has_rates(facts.inputs["condition"]),
     },
-    "kept.multiplier": {"generic": lasts, "zero": vanishes},
+    "kept.multiplier": {
+        "generic": lambda facts: lasts(facts) and not _is_stretched(facts),
+        "multiplier": lambda facts: lasts(facts) and _is_stretched(facts),
+        "zero": vanishes,
+    },
     "kept.acceleration": {"generic": lasts, "zero": vanishes},
     "forced.applied_force": {"generic": lasts, "zero": vanishes},
     "forced.equation_of_motion": {

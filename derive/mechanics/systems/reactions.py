@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol
+from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, sqrt
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
@@ -22,6 +22,7 @@ from derive.mechanics.systems.constraint import Constraint, Kept
 from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate, by_functions_of_time
 from derive.mechanics.systems.dalembert import Matter, Reaction
 from derive.mechanics.systems.forced import ForcedMotion
+from derive.mechanics.systems.gradients import gradient_length
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.mechanics.systems.rigid import by_squares
 from derive.steps.establish import Lines, Telling, establish
@@ -148,6 +149,8 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     keeping     coordinates whose accelerations stay in the forces: their equations are then left for the motion
     Keys: the letters of the forces.
     Second route: as `accelerations`.
+    Outcomes: generic (the force of constraint itself), multiplier (the gradient of the condition on the particle has
+    another length than 1, which is stated), zero.
     Errors: no constraint is kept by a force; else as `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -230,6 +233,9 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
 
 def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) -> Quantity:
     found = _solution(problem)
+    length = gradient_length(each, problem.lagrangian)
+    is_force = length is None or is_zero(length - 1)
+    shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
     return establish(
         "kept.multiplier",
         each.force,
@@ -237,12 +243,22 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         {},
         lines=Lines(put_in=None, arranged=lambda value: value),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
-        outcome=lambda value: "zero" if value == 0 else "generic",
+        outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
+        telling=Telling(
+            formulas=shown,
+            judged_by={"condition": each.residual, "place": _places(problem) if length is not None else ()},
+        ),
         key=each.force.name,
         kind=each.kind_of_force,
         parents=[*problem.used, *rates],
         facts=[ForceOf(each, problem)],
     )
+
+
+def _places(problem: _Problem) -> tuple[Expr, ...]:
+    """Where its one particle is; nothing where there are several masses."""
+    points = problem.lagrangian.needed(Matter).points
+    return points[0].place if len(points) == 1 else ()
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
