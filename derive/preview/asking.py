@@ -65,7 +65,7 @@ class Warm:
             self.end()
         if self._process is None:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "derive.preview.worker", str(self.root)],
+                [sys.executable, "-P", "-m", "derive.preview.worker", str(self.root)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 text=True,

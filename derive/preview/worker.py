@@ -3,7 +3,7 @@
 It keeps what it has loaded and printed, so that an edit of words costs little more than the words; and it can be killed
 at any moment, since it writes nothing but what builds keep of their work.
 
-    python -m derive.preview.worker ROOT     a question a line on standard input, an answer a line on standard output
+    python -P -m derive.preview.worker ROOT     a question a line on standard input, an answer a line on standard output
 """
 
 from __future__ import annotations

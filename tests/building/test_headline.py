@@ -43,5 +43,5 @@ def test_a_plain_title_needs_no_mathematics(tmp_path: Path) -> None:
         "import sys; from pathlib import Path; from derive.building.headline import headline; "
         "print(headline(Path(sys.argv[1]), 'hw9/block'), 'sympy' in sys.modules)"
     )
-    run = subprocess.run([sys.executable, "-c", program, str(root)], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-P", "-c", program, str(root)], cwd=ROOT, capture_output=True, text=True)
     assert (run.stdout, run.stderr) == ("('10', 'A block') False\n", "")

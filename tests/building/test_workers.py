@@ -102,7 +102,7 @@ def test_an_interrupt_during_a_fork_is_not_lost() -> None:
         "try: done(Job('x', lambda: 1)); print('lost')\n"
         "except KeyboardInterrupt: print('heard')\n"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT)
+    run = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, cwd=ROOT)
     assert run.stdout == "heard\n"
 
 
@@ -110,7 +110,7 @@ def test_a_worker_does_not_hold_the_lock_of_its_build(tmp_path: Path) -> None:
     held: list[bool] = []
     with open(tmp_path / "lock", "w") as lock:
         code = "import fcntl, sys; fcntl.lockf(open(sys.argv[1], 'w'), fcntl.LOCK_EX | fcntl.LOCK_NB)"
-        probe = [sys.executable, "-c", code, str(tmp_path / "lock")]
+        probe = [sys.executable, "-P", "-c", code, str(tmp_path / "lock")]
 
         def while_it_works(_: list[str]) -> None:
             fcntl.lockf(lock, fcntl.LOCK_EX)
@@ -211,7 +211,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
         "    time.sleep(60)\n"
         "done(Job('sleeper', work))\n"
     )
-    parent = subprocess.Popen([sys.executable, "-c", code, str(note)])
+    parent = subprocess.Popen([sys.executable, "-P", "-c", code, str(note)])
     for _ in range(500):
         if note.is_file() and note.read_text():
             break

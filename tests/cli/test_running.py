@@ -19,7 +19,7 @@ def test_help_and_version_import_no_heavy_package() -> None:
         "except SystemExit: print(sorted({'sympy', 'jinja2', 'yaml'} & set(sys.modules)), file=sys.stderr)"
     )
     for option in ("--help", "--version"):
-        done = subprocess.run([sys.executable, "-c", code, option], capture_output=True, text=True, cwd=PACKAGE)
+        done = subprocess.run([sys.executable, "-P", "-c", code, option], capture_output=True, text=True, cwd=PACKAGE)
         assert done.stderr == "[]\n"
         assert "derive" in done.stdout
 

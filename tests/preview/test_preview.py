@@ -29,7 +29,7 @@ class Preview:
     """The command while it runs, and where it serves."""
 
     def __init__(self, root: Path):
-        command = [sys.executable, "-m", "derive", "--root", str(root), "preview", "hw9/block", "--port", "0"]
+        command = [sys.executable, "-P", "-m", "derive", "--root", str(root), "preview", "hw9/block", "--port", "0"]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT, env=os.environ)
         assert self.process.stdout
         self.address = self.process.stdout.readline().split()[0]
