@@ -15,8 +15,8 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, file_digest
-from derive.building.files import folder, shown_path, write, writing
+from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
+from derive.building.files import folder, write, writing
 from derive.building.loaded import load
 from derive.building.lock import alone
 from derive.building.manifest import Manifest, Papers, outputs_of, outputs_of_paper
@@ -24,7 +24,9 @@ from derive.building.named import check_asked, set_folder
 from derive.building.papers import named_papers, still_there, with_asked
 from derive.building.preamble import at_hand, beginning
 from derive.building.recipe import EVIDENCE, PAPERS, recipe_digest, recipe_of
+from derive.building.scratch import sweep
 from derive.building.sealed import regular_content
+from derive.building.staleness import left_older
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
 from derive.course.names import INDEX, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
@@ -106,6 +108,7 @@ def built_set(
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
     with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+        sweep(outputs, outputs / CACHE)
         return _Build(root, set_id, options, engine, outputs, tell, edits, ended).report()
 
 
@@ -154,24 +157,23 @@ class _Build:
         result.problems = len(self.names)
         if not result.failed:
             if self._is_current(self.papers):
-                self._stamp()
-            result.warnings += self._older()
+                self._keep(self._stamp)
+            names = [*self.names, *(file for _, file in self.papers)]
+            result.warnings += left_older(manifest, self.set_id, names, self.made_by, cache(self._digest))
+        result.warnings += dict.fromkeys(self.cache.unkept)
         result.seconds = (time.time_ns() - self.started) / 1e9
         return result
+
+    def _keep(self, saved: Callable[[], None]) -> None:
+        """Save what only spares the next build some work; if that cannot be, this one is no worse for it."""
+        try:
+            saved()
+        except DeriveError as error:
+            self.cache.unkept.extend(map(not_kept, error.complaints))
 
     def _is_current(self, papers: Papers) -> bool:
         there = papers == still_there(papers, self.manifest, self.options.papers)
         return there and self.manifest.is_current(self.made_by, self.engine.identity, cache(self._digest), papers)
-
-    def _older(self) -> list[Complaint]:
-        """A warning about what this build was not asked for, and left as it was."""
-        read, names = cache(self._digest), [*self.names, *(file for _, file in self.papers)]
-        older = [name for name in names if self.manifest.is_older(name, self.made_by, read)]
-        if not older:
-            return []
-        listed = ", ".join(f"`{name}.pdf`" for name in older)
-        message = f"older than the problems, and not made again: {listed} in `{shown_path(self.outputs)}`"
-        return [Complaint("older", message, help=f"`derive build {self.set_id}` makes them again", severity="warning")]
 
     def _rebuild(self) -> None:
         from derive.course.problem_set import problem_set
@@ -215,7 +217,7 @@ class _Build:
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
                 # An interrupted build saves what it has finished, and is not complete.
-                self.manifest.save()
+                self._keep(self.manifest.save)
                 self.cache.let_go()
 
     def _papers_told(self) -> str:
@@ -296,7 +298,8 @@ class _Build:
         self.result.derived += 1
         inputs = sorted({*page.inputs, f"problems/{self.set_id}/reference.yaml"})
         self.manifest.inputs[name] = dict.fromkeys(inputs, "")
-        self.cache.keep_data(self.manifest.made(name, self.made_by, self._input_digest), page.to_data())
+        kept = replace(page, warnings=tuple(each for each in page.warnings if each.code != NOT_KEPT))
+        self.cache.keep_data(self.manifest.made(name, self.made_by, self._input_digest), kept.to_data())
         self._take(name, page, page.warnings)
         self._whole()
 

@@ -53,6 +53,17 @@ class Staleness:
         return "\n".join([f"{self.of} is out of date:", *(f"  {each}" for each in told), *self.mends])
 
 
+def left_older(
+    record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
+) -> list[Complaint]:
+    """A warning about documents that are older than their problems, since the last build was not asked for them."""
+    older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
+    if not older:
+        return []
+    message = f"older than the problems, and not made again: {', '.join(older)} in `{shown_path(record.folder)}`"
+    return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
+
+
 def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
     """The set and the outputs that a path below build/, a problem's id or a set's name stands for."""
     built = _below_build(root, what)

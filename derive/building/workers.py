@@ -28,7 +28,8 @@ from multiprocessing.context import ForkProcess
 from pathlib import Path
 from typing import Any
 
-from derive.building.files import of_system, writing
+from derive.building.files import of_system
+from derive.building.scratch import Scratch
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Place
 
 TIME_LIMIT = 120.0
@@ -114,8 +115,7 @@ class Crew:
         self._fork = multiprocessing.get_context("fork")
 
     def __enter__(self) -> Crew:
-        with writing(Path(tempfile.gettempdir())):
-            self._scratch = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
+        self._scratch = Scratch()
         self._lifeline = _pipe()
         return self
 
