@@ -45,7 +45,9 @@ def exit_code(arguments: argparse.Namespace) -> int:
     """Carry out a command; whatever stops it is told in a few lines, and is not a traceback."""
     try:
         _open_streams()
-        signal.signal(signal.SIGTERM, _terminated)
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` has it
+                signal.signal(number, _terminated)
         code = _command(arguments.command)(arguments)
         sys.stdout.flush()
         return code
@@ -57,13 +59,13 @@ def exit_code(arguments: argparse.Namespace) -> int:
         return 130
     except BrokenPipeError:
         # Whoever read our output has had enough; the interpreter must not complain about it once more.
-        _silence(1)
+        silence(1)
         return 141
     except MemoryError:
         return _told(BuildFailed(Complaint("system", "the system refuses: memory is short")))
     except Exception as error:
         if isinstance(error, OSError) and error.filename is None and error.errno in _UNWRITTEN:
-            _silence(1)
+            silence(1)
             return _told(cannot_write(Path("standard output"), error))
         known = of_system(error) if isinstance(error, OSError) else None
         if known:
@@ -86,7 +88,7 @@ def _told(error: DeriveError) -> int:
     return error.exit_code
 
 
-def _silence(descriptor: int) -> None:
+def silence(descriptor: int) -> None:
     """What is still to be written there goes nowhere."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
 

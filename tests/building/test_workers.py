@@ -201,14 +201,16 @@ def test_killing_a_worker_takes_its_programs_along(tmp_path: Path) -> None:
     assert is_gone(int(note.read_text()))
 
 
-def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+@pytest.mark.parametrize("body", ["time.sleep(60)", "3 ** (10**9)"])
+def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path, body: str) -> None:
+    """Also in the middle of one instruction, beside which no thread of Python runs."""
     note = tmp_path / "pid"
     code = (
         "import os, pathlib, sys, time\n"
         "from derive.building.workers import Job, done\n"
         "def work():\n"
         "    pathlib.Path(sys.argv[1]).write_text(str(os.getpid()))\n"
-        "    time.sleep(60)\n"
+        f"    {body}\n"
         "done(Job('sleeper', work))\n"
     )
     parent = subprocess.Popen([sys.executable, "-P", "-c", code, str(note)])
@@ -221,8 +223,8 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     assert is_gone(int(note.read_text()))
 
 
-def is_gone(pid: int) -> bool:
-    for _ in range(500):
+def is_gone(pid: int, seconds: float = 10) -> bool:
+    for _ in range(max(1, round(seconds / 0.02))):
         try:
             os.kill(pid, 0)
         except ProcessLookupError:
