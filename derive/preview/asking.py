@@ -51,6 +51,7 @@ class _Worker:
                 command,
                 stdin=subprocess.DEVNULL,
                 pass_fds=theirs,
+                env={**os.environ, "PYTHONIOENCODING": "utf-8:backslashreplace"},  # of what a script prints
                 start_new_session=True,  # Ctrl-C is for the server, which ends it
             )
         except OSError:
