@@ -237,7 +237,17 @@ def _outcome(worker: _Worker) -> Outcome | None:
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str) -> BuildFailed:
     """The complaint about a worker that gave no answer, at the line of the script that it was in."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
+    if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
+        place, help_ = Place(reference, 1), f"look at what it states of {job.name}"
     return BuildFailed(Complaint(code, message, place, help=help_))
+
+
+def _reference_in(trace: str, job: Job) -> str:
+    """The file of what a document states, if the worker was reading that, or comparing with it."""
+    path = f"{'/'.join(job.shown_as.split('/')[:2])}/reference.yaml"
+    compares = re.search(r'^  File ".+/derive/course/reference/', trace, re.MULTILINE)
+    there = compares and job.file and (job.file.parents[job.shown_as.count("/")] / path).is_file()
+    return path if there else ""
 
 
 def too_long(job: Job, trace: str) -> BuildFailed:
@@ -389,7 +399,8 @@ def told_to(trace: int, error: MemoryError | RecursionError) -> str:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')
         trail = trail.tb_next
     with contextlib.suppress(OSError):
-        os.write(trace, "".join(reversed(lines[-100:])).encode()[: select.PIPE_BUF * 8])
+        ends = [*lines[-80:][::-1], *lines[:-80][:20][::-1]]  # the last lines, and where it all began
+        os.write(trace, "".join(ends).encode()[: select.PIPE_BUF * 8])
     return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
 
 

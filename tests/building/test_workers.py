@@ -16,7 +16,19 @@ from typing import Any
 
 import pytest
 
-from derive.building.workers import Bug, Crew, Job, done, job_of, memory_limit, under_way, verb_in
+from derive.building.workers import (
+    Bug,
+    Crew,
+    Job,
+    done,
+    job_of,
+    memory_limit,
+    overtaxed,
+    told_to,
+    too_long,
+    under_way,
+    verb_in,
+)
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from tests.courses import ROOT
 
@@ -73,6 +85,46 @@ def test_what_took_too_long_is_named_where_the_engine_itself_has_the_script() ->
     trace = "".join(f'  File "/somewhere/derive/{file}", line 7 in {name}\n' for file, name in lines)
     assert verb_in(trace) == "hamiltonian"
     assert verb_in(trace.replace("/stock/", "/course/")) is None
+
+
+def test_what_a_document_states_is_blamed_on_its_own_file(tmp_path: Path) -> None:
+    """And a script that is run for what a document gives still on its own line."""
+    folder = tmp_path / "problems" / "hw1" / "topic"
+    folder.mkdir(parents=True)
+    (folder / "block.yaml").write_text("")
+    job = job_of(tmp_path, "hw1/block", lambda: None, 1)
+    lines = ("/x/sympy/core/mul.py", "/x/derive/course/reference/agreement.py")
+    trace = "".join(f'  File "{line}", line 7 in x\n' for line in lines)
+
+    def blamed(trace: str) -> list[str]:
+        told = [too_long(job, trace), overtaxed(job, "too-deep", trace), overtaxed(job, "memory-limit", trace)]
+        return sorted({complaint.place.path for each in told for complaint in each.complaints if complaint.place})
+
+    own = "problems/hw1/topic/block.yaml"
+    assert blamed(trace) == [own], "it states something in its own file"
+    (folder.parent / "reference.yaml").write_text("")
+    assert blamed(trace) == ["problems/hw1/reference.yaml"]
+    assert blamed("") == [own]
+    assert blamed(f'  File "{folder}/block.py", line 1 in solve\n{trace}') == ["problems/hw1/topic/block.py"]
+
+
+def test_a_recursion_says_where_it_began() -> None:
+    def deep(n: int) -> int:
+        return deep(n + 1)
+
+    def where_it_began() -> int:
+        return deep(0)
+
+    ours, theirs = os.pipe()
+    with pytest.raises(RecursionError) as caught:
+        where_it_began()
+    assert told_to(theirs, caught.value) == "too-deep"
+    told = os.read(ours, 1 << 16).decode()
+    assert told.count("test_workers.py") > 80
+    lines = [line for line in told.splitlines() if "test_workers.py" in line]
+    assert lines[0] != lines[-1]
+    os.close(ours)
+    os.close(theirs)
 
 
 def test_a_worker_that_is_killed_is_told_with_its_file(tmp_path: Path) -> None:
