@@ -94,7 +94,7 @@ def rendered(
     )
 
 
-def headline(root: Path, problem_id: str) -> tuple[str, str]:
+def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     found = rendered(root, problem_id, None)
     return found.points, found.title
 

@@ -73,9 +73,9 @@ class Job:
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
     """Work on a problem, whose file is named if it gives no answer; that of which most is said begins first."""
-    from derive.course.problem_set import problem_paths
+    from derive.course.problem_set import found_path
 
-    path = problem_paths(root).get(problem_id, f"problems/{problem_id}.yaml")
+    path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
     file = root / path
     length = sum(each.stat().st_size for each in (file, file.with_suffix(".py")) if each.is_file())
     return Job(f"`{problem_id}`", work, limit, file, path, rank=-length)
