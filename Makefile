@@ -40,41 +40,43 @@ help:
 	@echo 'make clean    empty build/; .venv stays'
 	@echo 'DERIVE_ENGINE=latexmk (or pdflatex, lualatex, tectonic) chooses another TeX; .venv/bin/derive doctor shows them'
 
-# An output that was deleted, or made with other options, is made again although its stamp is new.
+# An output that was deleted, or made with other options, is made again although its stamp is new. A set may use a script
+# of another set. What the environment says of the engine is text.
 define RULES_OF_A_SET
 record_of_$(1) := $$(shell test -f build/$(1)/.outputs && while read -r word; do \
     case "$$$$word" in (*[!A-Za-z0-9._/=-]*) ;; (*) echo "$$$$word" ;; esac; done < build/$(1)/.outputs)
 $(1): build/$(1)/.built
 build/$(1)/%: build/$(1)/.built ;
 build/$(1)/.built: .venv/.runtime $$(ENGINE) $$(TEMPLATES) $$(call files_in,problems/$(1)) \
+    $$(wildcard $$(filter problems/%,$$(record_of_$(1)))) \
     $$(if $$(filter-out $$(wildcard $$(record_of_$(1))),$$(wordlist 2,9999,$$(record_of_$(1)))),always) \
-    $$(if $$(filter-out $$(firstword $$(record_of_$(1))),engine=$$(DERIVE_ENGINE)/detail=),always)
-	@$$(PYTHON) -m derive build $(1)
+    $$(if $$(filter-out $$(firstword $$(record_of_$(1))),engine=$$(value DERIVE_ENGINE)/detail=),always)
+	@$$(PYTHON) -P -m derive build $(1)
 endef
 $(foreach set,$(SETS),$(eval $(call RULES_OF_A_SET,$(set))))
 
 check: .venv/.runtime
-	@$(PYTHON) -m derive check
+	@$(PYTHON) -P -m derive check
 
 bench: .venv/.runtime
-	@$(PYTHON) bench/ratios.py
-	@$(PYTHON) bench/pages.py
-	@$(PYTHON) bench/systems.py
-	@$(PYTHON) bench/equality.py
-	@$(PYTHON) bench/scale.py
+	@$(PYTHON) -P -m bench.ratios
+	@$(PYTHON) -P -m bench.pages
+	@$(PYTHON) -P -m bench.systems
+	@$(PYTHON) -P -m bench.equality
+	@$(PYTHON) -P -m bench.scale
 
 test: .venv/.tests
-	@$(PYTHON) -m ruff check --quiet .
-	@$(PYTHON) -m ruff format --quiet --check .
-	@$(PYTHON) -m mypy --no-error-summary
-	@$(PYTHON) -m pytest -n 2 --dist worksteal
+	@$(PYTHON) -P -m ruff check --quiet .
+	@$(PYTHON) -P -m ruff format --quiet --check .
+	@$(PYTHON) -P -m mypy --no-error-summary
+	@$(PYTHON) -P -m pytest -n 2 --dist worksteal
 
 schemas: .venv/.runtime
-	@$(PYTHON) -m tools.schemas
+	@$(PYTHON) -P -m tools.schemas
 
 mutants: .venv/.tests
-	@$(PYTHON) -m tests.perturbation
-	@$(PYTHON) -m tests.mutation
+	@$(PYTHON) -P -m tests.perturbation
+	@$(PYTHON) -P -m tests.mutation
 
 clean:
 	@rm -rf build/*/
@@ -82,7 +84,7 @@ clean:
 # A link to a Python that is gone does not count as one.
 .venv/.runtime .venv/.tests: $(ENVIRONMENT) $(if $(wildcard $(PYTHON)),,always)
 	@for python in python3 python3.14 python3.13 python3.12 python3.11; do \
-	  if $$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+	  if $$python -I -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
 	    exec $$python -I tools/bootstrap.py $(@F); \
 	  fi; \
 	done; \

@@ -26,8 +26,7 @@ from http.client import HTTPConnection
 from pathlib import Path
 from typing import Any
 
-from ratios import PROBLEM, ROUNDS, SET, Edited, copied_tree, seconds
-
+from bench.ratios import PROBLEM, ROUNDS, SET, Edited, copied_tree, seconds
 from derive.building.cache import Cache, Kept, digest
 from derive.building.loaded import load
 from derive.building.set_document import index_page, problem_document, problem_page, the_document
@@ -48,7 +47,7 @@ LIMIT = 1000.0  # seconds that one stage may take
 @contextmanager
 def previewed(tree: Path) -> Iterator[Callable[[], str]]:
     """`derive preview` at work, and a function that waits until its page is another, and says which."""
-    command = [sys.executable, "-m", "derive", "preview", f"{SET}/{PROBLEM}", "--port", "0"]
+    command = [sys.executable, "-P", "-m", "derive", "preview", f"{SET}/{PROBLEM}", "--port", "0"]
     with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout
         host = process.stdout.readline().split("/")[2]

@@ -6,7 +6,7 @@
     edit of a given to PDF    the same                                                        aim 2.5
     the same word, warm       over that pass alone, until `derive build --watch` wrote it     aim 1.2
     make, nothing changed     in milliseconds                                                 aim 30
-    derive --help             over `python -c pass`                                           aim 3
+    derive --help             over `python -P -c pass`                                        aim 3
 
 Everything is measured side by side in one run, in a copy of the tree, each figure the median of several (the library is
 built once), so that a slow machine changes the seconds and hardly the ratios. These are figures to look at; no test
@@ -81,7 +81,7 @@ class Edited:
 @contextmanager
 def watched(tree: Path) -> Iterator[Callable[[str], None]]:
     """`derive build --watch` at work, and a function that waits until it says something."""
-    command = [sys.executable, "-m", "derive", "build", "--watch", SET]
+    command = [sys.executable, "-P", "-m", "derive", "build", "--watch", SET]
     with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout
         lines = iter(process.stdout.readline, "")
@@ -127,14 +127,14 @@ def main() -> None:
 
         pass_ = seconds(lambda: typeset(page, Path(folder) / "scratch.pdf", chosen_engine(None)))
         passes = two_passes(outputs / SET / "solutions.tex", Path(folder))
-        sympy = seconds(run(python, "-c", "import sympy"))
+        sympy = seconds(run(python, "-P", "-c", "import sympy"))
         cold = seconds(make, before=clean)
         word = seconds(make, before=edited.word)
         given = seconds(make, before=edited.given)
         idle = seconds(make, rounds=4 * ROUNDS)
         warm_word = warm(tree, edited.word)
-        usage = seconds(run(python, "-m", "derive", "--help"), rounds=2 * ROUNDS)
-        empty = seconds(run(python, "-c", "pass"), rounds=2 * ROUNDS)
+        usage = seconds(run(python, "-P", "-m", "derive", "--help"), rounds=2 * ROUNDS)
+        empty = seconds(run(python, "-P", "-c", "pass"), rounds=2 * ROUNDS)
         library = seconds(make_library, rounds=1)
         library_passes = two_passes(outputs / LIBRARY / "solutions.tex", Path(folder))
 
@@ -144,11 +144,11 @@ def main() -> None:
         ("edit of a word to PDF", word, pass_ + sympy, "1 pass + sympy", "1.5"),
         ("edit of a given to PDF", given, pass_ + sympy, "1 pass + sympy", "2.5"),
         ("edit of a word, warm", warm_word, pass_, "1 pass", "1.2"),
-        ("derive --help", usage, empty, "python -c pass", "3"),
+        ("derive --help", usage, empty, "python -P -c pass", "3"),
     ):
         print(f"{name:25}{took:6.2f} s {took / least:6.2f} x {of:18} aim {aim}")
     print(f"{'make, nothing to do':25}{1000 * idle:6.0f} ms{'':28} aim 30 ms")
-    print(f"(one pass {pass_:.2f} s, import sympy {sympy:.2f} s, python -c pass {empty:.3f} s)")
+    print(f"(one pass {pass_:.2f} s, import sympy {sympy:.2f} s, python -P -c pass {empty:.3f} s)")
 
 
 if __name__ == "__main__":

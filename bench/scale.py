@@ -27,7 +27,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from systems import exponent
+from bench.systems import exponent
 
 ROOT = Path(__file__).resolve().parent.parent
 SETS, PARTS, ANGLES = (12, 25, 50), (10, 18, 32, 56, 100), range(2, 9)
@@ -78,7 +78,7 @@ def course(folder: Path, size: int) -> Path:
 def of_sets() -> None:
     def build(at: Path) -> float:
         paths = {"PATH": f"{at / 'bin'}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT), "XDG_STATE_HOME": str(at)}
-        command = [sys.executable, "-m", "derive", "build", "many"]
+        command = [sys.executable, "-P", "-m", "derive", "build", "many"]
         environment = {**os.environ, **paths, "DERIVE_ENGINE": "pdflatex"}
         return seconds(lambda: subprocess.run(command, cwd=at, env=environment, check=True, capture_output=True))
 

@@ -153,7 +153,7 @@ WAYS: dict[str, Callable[[str, int], float]] = {"derive": derived, "laws": laws_
 
 def timed_apart(way: str, kind: str, n: int) -> float:
     """The least time of several processes, each beginning with nothing known."""
-    command = [sys.executable, __file__, way, kind, str(n)]
+    command = [sys.executable, "-P", __file__, way, kind, str(n)]
     return min(float(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(ROUNDS))
 
 

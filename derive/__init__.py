@@ -1,6 +1,14 @@
 """Worked solutions of mechanics problems: derived, checked line by line, typeset."""
 
 import os
+import sys
+
+# `python -m derive` without `-P` puts the folder that the user is in first on the path: a file there that is called as
+# a module, such as random.py, would be run in its place.
+if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and sys.path:
+    if os.path.realpath(sys.path[0]) != os.path.dirname(os.path.dirname(os.path.realpath(__file__))):
+        del sys.path[0]
+
 from pathlib import Path
 
 # SymPy forgets all but the last 1,000 results of each of its functions; a derivation of ours has more. It reads this

@@ -1,4 +1,4 @@
-"""`python -m derive` is the command `derive`."""
+"""`python -P -m derive` is the command `derive`."""
 
 from __future__ import annotations
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 from collections.abc import Generator, Iterator
 
 import pytest
@@ -11,6 +12,11 @@ from hypothesis import settings
 
 import derive  # noqa: F401  before SymPy is imported, whose cache it sets
 from tests.browser import chromium
+
+# A shell that starts `make test` in the background of a script has whatever it starts ignore an interrupt: processes of
+# the tests would inherit that, and some are interrupted.
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile("any machine", deadline=None)  # how long one example takes goes by what else runs
 settings.load_profile("any machine")

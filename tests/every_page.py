@@ -1,4 +1,4 @@
-"""Every page that builds have written, in a real Chromium, for releases: `python -m tests.every_page build/library`.
+"""Every page that builds have written, in a real Chromium, for releases: `python -P -m tests.every_page build/library`.
 
 Each is looked at on a desk and, in the dark, on a phone, with all unfolded: axe-core finds no barrier, nothing is wider
 than its window or hidden beside it, and the browser has nothing to complain of.

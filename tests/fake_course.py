@@ -51,7 +51,7 @@ def rendered(
     papers: tuple[str, ...] = (),
 ) -> Rendered:
     path = path_of(root, problem_id)
-    said = (root / path).read_text().strip()
+    said = (root / path).read_text(encoding="utf-8").strip()
     if said == "loop":
         while True:
             pass
@@ -94,7 +94,7 @@ def rendered(
     )
 
 
-def headline(root: Path, problem_id: str) -> tuple[str, str]:
+def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     found = rendered(root, problem_id, None)
     return found.points, found.title
 
@@ -158,7 +158,7 @@ class Course:
         (self.folder / "set.yaml").write_text(f"course: Physics\ntitle: Homework\nproblems:\n{listed}")
 
     def problem(self, name: str, said: str) -> None:
-        (self.folder / f"{name}.yaml").write_text(said + "\n")
+        (self.folder / f"{name}.yaml").write_text(said + "\n", encoding="utf-8")
 
     def derived(self) -> list[str]:
         """The problems derived since the last call."""

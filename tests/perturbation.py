@@ -1,6 +1,6 @@
 """Every result of a run, changed a little: some second route must refuse it.
 
-`python -m tests.perturbation` does so for all results of all runs; the suite for a sample.
+`python -P -m tests.perturbation` does so for all results of all runs; the suite for a sample.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 `variants/variants.yaml` has problems for phrases that no other page has, one a document. `phrases_used.yaml` says of
 each page which phrases it answers for, and of phrases without a page why there is none. After a change that is meant,
-`python -m tests.test_phrases_used` writes it anew: read the difference first.
+`python -P -m tests.test_phrases_used` writes it anew: read the difference first.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The plain-text page of each pinned problem, whole, as a reviewer reads it.
 
-After a change that is meant, `python -m tests.test_transcripts` writes them anew: read the difference first.
+After a change that is meant, `python -P -m tests.test_transcripts` writes them anew: read the difference first.
 """
 
 from __future__ import annotations

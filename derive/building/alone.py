@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from derive.building.named import set_folder
+from derive.building.scratch import Scratch
 from derive.building.tex import chosen_engine, typeset
 from derive.building.workers import Job, done
 from derive.course.names import REPORT
@@ -17,7 +17,7 @@ from derive.render.rendered import Files, Rendered
 
 def typeset_alone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
     """The PDF of a document; the log of one that fails is kept beside the set's outputs."""
-    with TemporaryDirectory() as folder:
+    with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", beside=files)
         done(Job(f"the pages of `{outputs.name}/{name}`", work, limit + 10))

@@ -10,7 +10,7 @@ import functools
 import json
 import os
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -18,9 +18,12 @@ from typing import Any
 
 from derive import FOLDER
 from derive.building import sealed
+from derive.building.files import shown_path
+from derive.errors import BuildFailed, Complaint
 
 PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc", "matplotlib")
 LIMIT = 256 * 1024 * 1024
+NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
@@ -65,6 +68,13 @@ def package_version(name: str) -> str | None:
         return None
 
 
+def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
+    """The warning that the next build will have to do some work again."""
+    said = f"cannot write in `{shown_path(folder)}`{refused.message[refused.message.rindex(': ') :]}" if folder else ""
+    message = f"nothing is kept for the next build: {said or refused.message}"
+    return Complaint(NOT_KEPT, message, severity="warning")
+
+
 @dataclass(frozen=True)
 class Cache:
     """The values kept in a folder, if there is one; `fresh` finds none of them, and all is made anew and kept again."""
@@ -72,6 +82,9 @@ class Cache:
     folder: Path | None = None
     fresh: bool = False
     limit: int = LIMIT
+    unkept: list[Complaint] = field(
+        default_factory=list, compare=False, repr=False
+    )  # warnings of what the disk refused
 
     def recalled(self, key: str) -> bytes | None:
         """What was kept under that digest; nothing if it is not there as it was kept."""
@@ -89,14 +102,21 @@ class Cache:
 
     def keep(self, key: str, content: bytes) -> None:
         if self.folder is not None:
-            sealed.seal(self.folder / key, key, content)
+            try:
+                sealed.seal(self.folder / key, key, content)
+            except BuildFailed as refused:  # the next build has more to do, and this one its answer
+                self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def let_go(self) -> None:
         """Let go what was used longest ago, if there is too much; once for a build, for it lists all that is there."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit
-        for _, size, file in sorted(map(_facts, self.folder.iterdir()), reverse=True):
+        try:
+            facts = sorted(map(_facts, self.folder.iterdir()), reverse=True)
+        except OSError:
+            return
+        for _, size, file in facts:
             if size <= room:
                 room -= size
             else:

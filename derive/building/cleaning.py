@@ -8,8 +8,9 @@ from functools import partial
 from pathlib import Path
 
 from derive.building.files import writing
+from derive.building.lock import alone
 from derive.building.named import set_names
-from derive.building.sets import CACHE, alone
+from derive.building.sets import CACHE
 from derive.errors import Complaint, Misused, did_you_mean
 
 

@@ -7,13 +7,16 @@ the new. What the disk refuses becomes one complaint.
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from derive.errors import BuildFailed, Complaint
+
+UNFINISHED = ".part"  # of the name of a file that is being written
 
 _REASONS = {
     errno.ENOSPC: "the disk is full",
@@ -81,18 +84,37 @@ def write(path: Path, content: str | bytes) -> bool:
     with writing(path):
         if path.is_file() and path.read_bytes() == raw:
             return False
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        handle, name = _unfinished(path)
         try:
             with open(handle, "wb") as temporary:
                 temporary.write(raw)
                 temporary.flush()
                 os.fsync(handle)
-            os.chmod(name, 0o666 & ~_umask())
-            os.replace(name, path)
+                os.chmod(name, 0o666 & ~_umask())
+                os.replace(name, path)
         except BaseException:
             Path(name).unlink(missing_ok=True)
             raise
     return True
+
+
+def _unfinished(path: Path) -> tuple[int, str]:
+    """A file beside `path` that this process holds."""
+    while True:
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=UNFINISHED, dir=path.parent)
+        if is_held(handle, Path(name)):
+            return handle, name
+        os.close(handle)  # in this moment a build took it for one that nobody holds
+
+
+def is_held(handle: int, path: Path) -> bool:
+    """Lock an open file until it is closed or the process ends; whether it is still the file of that path."""
+    with suppress(OSError):  # where the disk has no locks
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    try:
+        return os.path.samestat(os.fstat(handle), os.lstat(path))
+    except FileNotFoundError:
+        return False
 
 
 def _umask() -> int:

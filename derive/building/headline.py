@@ -5,18 +5,58 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from derive.course.parts import points_text
-from derive.course.written import written_problem
-from derive.errors import Faults
+from derive.course.parts import POINTS, Question, points_in_all, points_text
+from derive.course.problem_set import mapping_in, path_of
+from derive.course.prose import Prose
+from derive.course.schema import check_keys, keys_of
+from derive.course.written import ProblemKeys, written_problem
+from derive.course.yaml_tree import Mapping, Sequence, Tree
+from derive.errors import DeriveError, Faults
+
+_OF_POINTS = ("points", "extra", "rubric")
 
 
-def headline(root: Path, problem_id: str) -> tuple[str, str]:
+def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     """A problem's points and title; a step that the title mentions is named by its key.
 
-    Mathematics is loaded only for a title that mentions something, and to tell of a file what is wrong with it first.
+    Of a file that is at that path and has all its keys no more is read than these. The rest is read, and mathematics
+    loaded, only for a title that mentions something, and to tell of a file what is wrong with it first.
     """
+    return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
+
+
+def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
+    """What a plain title and the points say; nothing if there is more to read, or anything is wrong."""
     faults = Faults()
-    written = written_problem(root, problem_id, faults)
+    try:
+        node = mapping_in(root, path, "a problem", quickly=True)
+    except DeriveError:
+        return None
+    keys, listed = keys_of(ProblemKeys), node.get("parts")
+    check_keys(node, keys, "a problem", faults)
+    parts = [_glanced(part, faults) for part in (listed.items if isinstance(listed, Sequence) else ())]
+    named, stated = node.get("title"), node.get("points")
+    title = keys["title"].reader.read(named, "title", faults) if named is not None else None
+    points = POINTS.read(stated, "points", faults) if stated is not None else None
+    total = points_in_all(points, None, parts, faults)
+    if faults or not isinstance(title, Prose) or title.mentions:
+        return None
+    return "" if total is None else points_text(total), " ".join(title.text.split())
+
+
+def _glanced(node: Tree, faults: Faults) -> Question:
+    """A part, of which only the points are read."""
+    if not isinstance(node, Mapping):
+        return Question({}, {})
+    keys = keys_of(Question)
+    check_keys(node, keys, "a part", faults)
+    found = {name: keys[name].reader.read(under, name, faults) for name in _OF_POINTS if (under := node.get(name))}
+    return Question({}, {}, **{name: value for name, value in found.items() if value is not None})
+
+
+def _in_full(root: Path, problem_id: str) -> tuple[str, str]:
+    faults = Faults()
+    written = written_problem(root, problem_id, faults, quickly=True)
     points = written.points_in_all(faults)
     if faults or not written.title or written.title.mentions:
         title = _title_with_mathematics(root, problem_id)

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 from derive.building import sealed
 from derive.building.cache import digest, file_digest
-from derive.building.recipe import Recipe, recipe_digest
+from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
+
+Papers = Sequence[Sequence[str]]  # each with the name of its files
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -29,7 +31,6 @@ class Manifest:
     folder: Path
     problems: list[str] = field(default_factory=list)
     complete: bool = False  # whether the last build came to its end without a fault
-    tex_engine: str = ""
     engine: str = ""  # digest of the modules that derived its problems
     set_inputs: dict[str, str] = field(default_factory=dict)
     inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of what it was derived from
@@ -37,8 +38,11 @@ class Manifest:
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     papers: list[list[str]] = field(default_factory=list)  # each with the name of its files
+    asked: list[str] = field(default_factory=list)  # papers that the set does not name, but `--only` did
     evidence: str = ""  # how much the set says that its solutions tell of how they were checked
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
+    typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its files
+    typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
     recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest -> its ingredients
 
     @classmethod
@@ -48,7 +52,7 @@ class Manifest:
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
     def save(self) -> None:
-        used = set(self.made_by.values())
+        used = {*self.made_by.values(), *self.typeset_by.values()}
         self.recipes = {key: recipe for key, recipe in self.recipes.items() if key in used}
         recorded = {name: value for name, value in asdict(self).items() if name != "folder"}
         sealed.seal(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
@@ -60,12 +64,20 @@ class Manifest:
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
 
-    def forget(self, problem: str) -> None:
-        """Take away what was made of a problem that the set no longer has."""
-        for output in self.outputs_of(problem):
+    def forget(self, name: str) -> None:
+        """Take away what was made of a problem, or the document, that the set no longer has."""
+        for output in self.outputs_of(name):
             self.remove(output)
-        for table in (self.pages, self.inputs, self.drawings, self.made_by):
-            table.pop(problem, None)
+        for table in (self.pages, self.inputs, self.drawings, self.made_by, self.typeset_from, self.typeset_by):
+            table.pop(name, None)
+
+    def replace_papers(self, papers: list[list[str]]) -> None:
+        """Take away the documents that are not among these papers, which the set has from now on."""
+        files = {file for _, file in papers}
+        for paper, file in self.papers:
+            if [paper, file] not in papers and file not in files:
+                self.forget(file)
+        self.papers = papers
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
         """What its page is kept under: a digest of how it was made, and of what `read` tells of each of its inputs."""
@@ -81,14 +93,38 @@ class Manifest:
         self.pages[problem] = self.page_key(problem, made_by, self.inputs[problem].__getitem__)
         return self.pages[problem]
 
-    def is_current(self, recipe: str, read: Callable[[str], str]) -> bool:
-        """Whether nothing at all need be done for the set."""
+    def was_typeset(self, name: str, recipe: Recipe, engine: str) -> None:
+        """Note what the document of a problem, or of the whole set, was made from, besides what the set says."""
+        recipe = of_documents(recipe, engine)
+        self.typeset_by[name] = recipe_digest(recipe)
+        self.recipes[self.typeset_by[name]] = recipe
+        self.typeset_from[name] = dict(self.set_inputs)
+        for problem in [name] if name in self.pages else self.problems:
+            self.typeset_from[name] |= self.inputs[problem]
+
+    def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], papers: Papers) -> bool:
+        """Whether nothing at all need be done for the problems of the set, and for these papers."""
+        page, document = recipe_digest(recipe), recipe_digest(of_documents(recipe, engine))
+        documents = [*self.problems, *(file for _, file in papers), INDEX]
+        of_papers = [output for paper, file in papers for output in outputs_of_paper(paper, file)]
         return (
             self.complete
             and all(read(path) == content for path, content in self.set_inputs.items())
-            and all(self.pages.get(name) == self.page_key(name, recipe, read) for name in self.problems)
-            and all(self.holds(name) for name in self.all_outputs())
+            and all(self.pages.get(name) == self.page_key(name, page, read) for name in self.problems)
+            and all(self.typeset_by.get(name) == document and self._reads_so(name, read) for name in documents)
+            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_papers, f"{INDEX}.html"])
         )
+
+    def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
+        """Whether every file that a document was made from is as it was then."""
+        return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
+
+    def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
+        """Whether a document is there that was made from other files, words or modules than there are now; with which
+        options is another question."""
+        before = self.recipes.get(self.typeset_by.get(document, ""), {})
+        was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
+        return (self.folder / f"{document}.pdf").is_file() and not (was == is_now and self._reads_so(document, read))
 
     @property
     def documents(self) -> list[str]:
@@ -98,7 +134,10 @@ class Manifest:
     def all_outputs(self) -> list[str]:
         """Those of every problem, of every paper, and of the set for a browser."""
         of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
-        return [*(output for name in self.problems for output in self.outputs_of(name)), *of_papers, f"{INDEX}.html"]
+        return [*self._outputs_of_problems(), *of_papers, f"{INDEX}.html"]
+
+    def _outputs_of_problems(self) -> list[str]:
+        return [output for name in self.problems for output in self.outputs_of(name)]
 
     def outputs_of(self, name: str) -> list[str]:
         """All outputs of a problem, with its drawings; or of a paper of the set, by the name of its files."""
@@ -125,9 +164,9 @@ def _is_record(recorded: Any) -> bool:
         return False
     if any(type(value) is not type(getattr(empty, name)) for name, value in recorded.items()):
         return False
-    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "made_by")]
-    tables += [*recorded["inputs"].values(), *recorded["recipes"].values()]
-    lists = [recorded["problems"], *recorded["papers"], *recorded["drawings"].values()]
+    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "made_by", "typeset_by")]
+    tables += [each for name in ("inputs", "recipes", "typeset_from") for each in recorded[name].values()]
+    lists = [recorded["problems"], recorded["asked"], *recorded["papers"], *recorded["drawings"].values()]
     if not all(isinstance(each, dict) for each in tables):
         return False
     texts = [text for table in tables for text in table.values()]

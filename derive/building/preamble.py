@@ -15,13 +15,13 @@ import gzip
 import os
 import shutil
 import subprocess
-import tempfile
 import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from derive.building.cache import Cache, digest
 from derive.building.files import write
+from derive.building.scratch import Scratch
 
 __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 
@@ -43,9 +43,9 @@ def beginning(templates: Path, detail: str | None) -> str:
 
 
 @functools.cache
-def at_hand() -> tempfile.TemporaryDirectory[str]:
+def at_hand() -> Scratch:
     """The formats that this process and its workers have used, as files for TeX; gone when this process ends."""
-    return tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
+    return Scratch()
 
 
 def without_preamble(

@@ -12,7 +12,7 @@ from derive import FOLDER
 from derive.building.cache import PACKAGES, digest, engine_digest, file_digest, package_version
 
 MODULES = "the modules of derive"
-DETAIL, EVIDENCE, PAPERS = "--detail", "--evidence", "--only"
+OPTIONS = DETAIL, EVIDENCE, PAPERS, ENGINE = "--detail", "--evidence", "--only", "--engine"
 OWN = "templates of derive"
 
 Recipe = Mapping[str, str]
@@ -22,6 +22,11 @@ def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
     """Every ingredient by its name."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
     return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
+
+
+def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
+    """The recipe of a document of the set: typeset by this engine, whatever else is made of the problems."""
+    return {**recipe, PAPERS: "", ENGINE: engine}
 
 
 def recipe_digest(recipe: Recipe) -> str:

@@ -1,18 +1,20 @@
-"""A course as a revision of git has it: the files of one set and the templates, put into a folder of their own."""
+"""A course as a revision of git has it: the files of one set and the templates, put into a folder of their own.
+
+Files are read as git keeps them, not as it would put them into a working tree: a repository may name programs for that.
+"""
 
 from __future__ import annotations
 
-import io
 import os
 import shutil
 import subprocess
-import tarfile
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 
 from derive.building.files import writing
+from derive.building.scratch import Scratch
 from derive.errors import Complaint, Misused
 
 TEMPLATES = "templates"
@@ -31,12 +33,38 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
         raise Misused(
             Complaint("no-such-set", message, help=f"`git log -- {wanted[0]}` lists the revisions that have it")
         )
-    packed = _git(root, "archive", "--format=tar", commit, "--", *there)
-    if packed.returncode:
-        raise Misused(_unreadable(revision, packed.stderr))
-    with writing(Path(tempfile.gettempdir())), tempfile.TemporaryDirectory(prefix="derive-") as folder:
-        _unpack(packed.stdout, Path(folder))
+    files = _files(root, revision, commit, there)
+    contents = _contents(root, revision, [name for name, _ in files])
+    with Scratch() as folder, writing(Path(folder)):
+        for (_, path), content in zip(files, contents, strict=True):
+            target = Path(folder, os.fsdecode(path))
+            if target.resolve().is_relative_to(Path(folder).resolve()):
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(content)
         yield Path(folder)
+
+
+def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
+    """The name of each object that is a plain file, and its path: a link would lead out of the revision."""
+    found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
+    if found.returncode:
+        raise Misused(_unreadable(revision, found.stderr))
+    listed = found.stdout.split(b"\0")
+    entries = [(*facts.split(), path) for facts, _, path in (entry.partition(b"\t") for entry in listed if entry)]
+    return [(name, path) for mode, _, name, path in entries if mode in (b"100644", b"100755")]
+
+
+def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
+    """What each object has, in their order: behind a line that ends with its size."""
+    found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
+    said = BytesIO(found.stdout)
+    for name in names:
+        head = said.readline().rstrip(b"\n")
+        size = head.rpartition(b" ")[2]
+        if found.returncode or not head.startswith(name) or not size.isdigit():
+            raise Misused(_unreadable(revision, found.stderr or head))
+        yield said.read(int(size))
+        said.readline()
 
 
 def _commit(root: Path, revision: str) -> str:
@@ -63,7 +91,7 @@ def _unreadable(revision: str, told: bytes) -> Complaint:
     return Complaint("revision-unreadable", f"git cannot read the files of `{revision}`: {said}")
 
 
-def _git(root: Path, *arguments: str) -> subprocess.CompletedProcess[bytes]:
+def _git(root: Path, *arguments: str, told: bytes = b"") -> subprocess.CompletedProcess[bytes]:
     command: Sequence[str] = ["git", "-C", str(root), "-c", "protocol.allow=never", *arguments]
     try:
         return subprocess.run(
@@ -71,19 +99,8 @@ def _git(root: Path, *arguments: str) -> subprocess.CompletedProcess[bytes]:
             capture_output=True,
             check=False,
             env={**os.environ, **_NEVER_ASKS},
-            stdin=subprocess.DEVNULL,
+            input=told,
             timeout=_TIME_LIMIT,
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Misused(Complaint("no-git", f"git gives no answer: {error}")) from None
-
-
-def _unpack(packed: bytes, folder: Path) -> None:
-    """Plain files only: a link would lead out of the revision."""
-    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-        for member in archive:
-            target = folder / member.name
-            content = archive.extractfile(member) if member.isfile() else None
-            if content and target.resolve().is_relative_to(folder.resolve()):
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(content.read())

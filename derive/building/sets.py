@@ -6,29 +6,31 @@ problem that fails keeps its earlier outputs and stops no other; the document of
 
 from __future__ import annotations
 
-import fcntl
 import os
-import stat
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.building.cache import PACKAGES, Cache, Kept, digest, engine_digest, file_digest
-from derive.building.files import folder, shown_path, write, writing
+from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
+from derive.building.files import folder, write, writing
 from derive.building.loaded import load
-from derive.building.manifest import Manifest, outputs_of
+from derive.building.lock import alone
+from derive.building.manifest import Manifest, Papers, outputs_of, outputs_of_paper
 from derive.building.named import check_asked, set_folder
+from derive.building.papers import named_papers, still_there, with_asked
 from derive.building.preamble import at_hand, beginning
 from derive.building.recipe import EVIDENCE, PAPERS, recipe_digest, recipe_of
+from derive.building.scratch import sweep
 from derive.building.sealed import regular_content
+from derive.building.staleness import left_older
 from derive.building.tex import Engine, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
 from derive.course.names import INDEX, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
-from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from derive.errors import Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
 
@@ -106,26 +108,8 @@ def built_set(
     check_asked(root, set_id, options.only)
     outputs = folder(set_folder(root, set_id))
     with alone(outputs, lambda: tell(f"waiting for another build of `{set_id}`")):
+        sweep(outputs, outputs / CACHE)
         return _Build(root, set_id, options, engine, outputs, tell, edits, ended).report()
-
-
-@contextmanager
-def alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
-    """One build of a set at a time. A lock of this kind is not inherited by workers, and dies with its process."""
-    path = outputs / ".lock"
-    with writing(path):  # neither through a link, nor waiting for the other end of a pipe
-        lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
-    try:
-        if not stat.S_ISREG(os.fstat(lock).st_mode):
-            raise BuildFailed(Complaint("cannot-write", f"`{shown_path(path)}` is not a file", help="remove it"))
-        try:
-            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            waiting()
-            fcntl.lockf(lock, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(lock)
 
 
 class _Build:
@@ -147,7 +131,7 @@ class _Build:
         self.started = time.time_ns()
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
-        self.papers = self.manifest.papers
+        self.papers = with_asked(self.manifest.papers, options.papers)
         self.made_by = recipe_of(root, options.detail, options.evidence or self.manifest.evidence)
         self.made_by[PAPERS] = self._papers_told()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
@@ -166,30 +150,47 @@ class _Build:
 
     def report(self) -> Report:
         manifest, result = self.manifest, self.result
-        current = manifest.tex_engine == self.engine.identity and manifest.is_current(self.recipe, self._digest)
-        if current and not self.options.force:
+        if self._is_current(self._wanted()) and not self.options.force:
             self.names = manifest.problems
         else:
             self._rebuild()
         result.problems = len(self.names)
-        if manifest.complete and not result.failed:
-            self._stamp()
+        if not result.failed:
+            if self._is_current(self.papers):
+                self._keep(self._stamp)
+            names = [*self.names, *(file for _, file in self.papers)]
+            result.warnings += left_older(manifest, self.set_id, names, self.made_by, cache(self._digest))
+        result.warnings += dict.fromkeys(self.cache.unkept)
         result.seconds = (time.time_ns() - self.started) / 1e9
         return result
+
+    def _keep(self, saved: Callable[[], None]) -> None:
+        """Save what only spares the next build some work; if that cannot be, this one is no worse for it."""
+        try:
+            saved()
+        except DeriveError as error:
+            self.cache.unkept.extend(map(not_kept, error.complaints))
+
+    def _is_current(self, papers: Papers) -> bool:
+        there = papers == still_there(papers, self.manifest, self.options.papers)
+        return there and self.manifest.is_current(self.made_by, self.engine.identity, cache(self._digest), papers)
 
     def _rebuild(self) -> None:
         from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
+        with writing(self.outputs):  # until all is as it should be, `make` has something to do
+            (self.outputs / ".built").unlink(missing_ok=True)
         self.prepares = not os.listdir(at_hand().name)  # which all workers have from here
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
         self.manifest.evidence = heading.evidence
-        self.manifest.papers = self.papers = [list(pair) for pair in self._wanted(heading.papers)]
+        self.papers = named_papers(heading, self.manifest, self.options.papers)
         self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
         self.made_by[PAPERS] = self._papers_told()
         shown = EvidenceShown(self.made_by[EVIDENCE])
-        self.heading = replace(heading, evidence=shown, papers=self._wanted(heading.papers))
+        there = [(paper, file) for paper, file in self.papers if [paper, file] in self._wanted() or self._has(file)]
+        self.heading = replace(heading, evidence=shown, papers=tuple(there))
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -198,6 +199,8 @@ class _Build:
             try:
                 for name in self.manifest.pages.keys() - set(self.names):
                     self.manifest.forget(name)
+                self.manifest.problems = self.names
+                self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
                 asked = [name for name in self.names if name in self.options.only or not self.options.only]
                 keys = {name: self.manifest.page_key(name, self.recipe, self._digest) for name in asked}
                 edited = {name: key for name, key in keys.items() if self.manifest.pages.get(name) != key}
@@ -210,24 +213,23 @@ class _Build:
                 if self.whole_failed and not self.result.failed:  # else a problem's own document said the same
                     self._took(self.whole_failed)
                 if not self.result.failed:
-                    self.manifest.set_inputs = {path: self._input_digest(path) for path in heading.inputs}
-                    self.manifest.problems = self.names
-                    self.manifest.tex_engine = self.engine.identity
                     self.manifest.engine = engine_digest(*PACKAGES)
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
                 # An interrupted build saves what it has finished, and is not complete.
-                self.manifest.save()
+                self._keep(self.manifest.save)
                 self.cache.let_go()
 
     def _papers_told(self) -> str:
-        """Those that are asked for, and the names of their files."""
-        return ",".join([*self.options.papers, *(f"{paper}={file}" for paper, file in self.papers)])
+        """What is made of each problem besides its solution."""
+        return ",".join(sorted(paper for paper, _ in self.papers if paper in ON_A_PAGE))
 
-    def _wanted(self, named: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
-        """The papers that are asked for, each with the name of its files: the set's own, or itself."""
-        asked = self.options.papers or [paper for paper, _ in named]
-        return tuple((paper, dict(named).get(paper, paper)) for paper in asked)
+    def _has(self, file: str) -> bool:
+        return self.manifest.holds(f"{file}.pdf")
+
+    def _wanted(self) -> list[list[str]]:
+        """The papers that are made now: all that the set has, or those that are asked for."""
+        return [pair for pair in self.papers if not self.options.papers or pair[0] in self.options.papers]
 
     def _finish(self) -> None:
         """All that is under way, and what follows from it."""
@@ -296,7 +298,8 @@ class _Build:
         self.result.derived += 1
         inputs = sorted({*page.inputs, f"problems/{self.set_id}/reference.yaml"})
         self.manifest.inputs[name] = dict.fromkeys(inputs, "")
-        self.cache.keep_data(self.manifest.made(name, self.made_by, self._input_digest), page.to_data())
+        kept = replace(page, warnings=tuple(each for each in page.warnings if each.code != NOT_KEPT))
+        self.cache.keep_data(self.manifest.made(name, self.made_by, self._input_digest), kept.to_data())
         self._take(name, page, page.warnings)
         self._whole()
 
@@ -310,7 +313,8 @@ class _Build:
     def _check_files(self, name: str, derived: Rendered) -> None:
         """Drawings that the problem no longer has are removed; a name is not given to two outputs."""
         files = [file for file, _ in derived.files]
-        others = {output for other in self.names for output in outputs_of(other)}
+        of_papers = [output for paper, file in self.papers for output in outputs_of_paper(paper, file)]
+        others = {*(output for other in self.names for output in outputs_of(other)), *of_papers, f"{INDEX}.html"}
         for file in self.manifest.drawings.get(name, []):
             if file not in {*files, *others}:
                 self.manifest.remove(file)
@@ -346,8 +350,9 @@ class _Build:
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
-        self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts)))
-        for paper, file in self.papers:
+        if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
+            self._was_made(INDEX)
+        for paper, file in self._wanted():
             numbers = Kept(self.cache, digest("numbers", paper, self.engine.identity))  # one run is enough next time
             document = partial(the_document(paper), self.root, self.heading, parts)
             of_set = partial(paper_page, self.root, self.heading, parts, paper)
@@ -383,7 +388,8 @@ class _Build:
         texts = {f"{name}.tex": tex, **texts}
         kept = self.cache.recalled(source)
         if kept is not None:
-            self._record({pdf: kept, **texts})
+            if self._record({pdf: kept, **texts}):
+                self._was_made(name)
             return
         limit = self.options.limit
         beside = [file for file in files if file[0].endswith(".pdf")]
@@ -397,7 +403,8 @@ class _Build:
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
         """The text and the source follow their PDF, so that what lies side by side belongs together."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
-        if pdf.removesuffix(".pdf") in [file for _, file in self.papers] and outcome.error:
+        name = pdf.removesuffix(".pdf")
+        if name in [file for _, file in self.papers] and outcome.error:
             self.whole_failed = outcome
             return
         if not self._took(outcome):
@@ -407,7 +414,11 @@ class _Build:
         with suppress(OSError):  # of somebody who takes it away in this moment
             self.cache.keep(source, regular_content(self.outputs / pdf))
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
-        self._record(texts)
+        if self._record(texts):
+            self._was_made(name)
+
+    def _was_made(self, name: str) -> None:
+        self.manifest.was_typeset(name, self.made_by, self.engine.identity)
 
     def _changed(self, output: str) -> None:
         self.result.changed.append(self.outputs / output)
@@ -427,9 +438,12 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Tell `make` what there is, with which options, and that all of it is as new as this build's beginning."""
+        """Tell `make` what there is, with which options, which files of other sets it was made from, and that all of it
+        is as new as this build's beginning."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
-        write(self.outputs / ".outputs", "\n".join([options, *outputs, ""]))
+        read = {path for inputs in self.manifest.inputs.values() for path in inputs}
+        elsewhere = sorted(path for path in read if not path.startswith(f"problems/{self.set_id}/"))
+        write(self.outputs / ".outputs", "\n".join([options, *outputs, *elsewhere, ""]))
         write(self.outputs / ".built", "")
         os.utime(self.outputs / ".built", ns=(self.started, self.started))

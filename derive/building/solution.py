@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -85,7 +86,8 @@ def rendered(
     _check_characters(problem)
     phrases(template_folder(root))  # or what is wrong with them, before anything is derived
     solved, failures = _solved(problem, cache)
-    return printed(problem, solved, failures, detail, cache, draws, only, evidence, papers)
+    page = printed(problem, solved, failures, detail, cache, draws, only, evidence, papers)
+    return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
 
 def printed(

@@ -8,15 +8,17 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from derive.building.cache import PACKAGES, file_digest
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
 from derive.building.named import check_asked, set_folder, set_names
-from derive.building.recipe import DETAIL, EVIDENCE, MODULES, PAPERS, Recipe, recipe_of
+from derive.building.recipe import DETAIL, ENGINE, EVIDENCE, MODULES, PAPERS, Recipe, recipe_of
 from derive.building.tex import chosen_engine
-from derive.course.names import NAME
+from derive.course.names import INDEX, NAME
+from derive.course.names import PAPERS as KINDS_OF_PAPERS
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # of what builds write
@@ -51,6 +53,17 @@ class Staleness:
         return "\n".join([f"{self.of} is out of date:", *(f"  {each}" for each in told), *self.mends])
 
 
+def left_older(
+    record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
+) -> list[Complaint]:
+    """A warning about documents that are older than their problems, since the last build was not asked for them."""
+    older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
+    if not older:
+        return []
+    message = f"older than the problems, and not made again: {', '.join(older)} in `{shown_path(record.folder)}`"
+    return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
+
+
 def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
     """The set and the outputs that a path below build/, a problem's id or a set's name stands for."""
     built = _below_build(root, what)
@@ -66,7 +79,7 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
     if built and name in known:
         return set_id, (name,)
     stem = Path(name).stem if built else name
-    if stem in manifest.documents:
+    if stem in manifest.documents or stem in KINDS_OF_PAPERS:
         check_asked(root, set_id)
     elif built and Path(name).suffix.removeprefix(".") not in SUFFIXES:
         help_line = did_you_mean(name, sorted(known)) or _SUCH_AS
@@ -95,43 +108,60 @@ def staleness(asked: Asked) -> Staleness:
     outputs = asked.outputs or tuple(file for part in parts for file in manifest.outputs_of(part))
     of = shown_path(folder / outputs[0]) if len(outputs) == 1 else _named(asked, manifest)
     if not manifest.pages:
-        return Staleness(of, (f"`{asked.set_id}` has not been built here yet",), (_built_by(asked, manifest),))
+        why = f"`{asked.set_id}` has not been built here yet"
+        return Staleness(of, (why,), (_built_by(asked, manifest, outputs),))
     found = tuple(dict.fromkeys(_reasons(asked, manifest, outputs)))
     return Staleness(of, found, tuple(_mends(asked, manifest, outputs)) if found else ())
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
     """Of files first, which somebody edits; then of what is rarer."""
-    problems = _problems_of(manifest, outputs)
-    read: Callable[[str], str] = lambda path: file_digest(asked.root / path)  # noqa: E731
-    for path, before in manifest.set_inputs.items():
-        yield from _of_file(path, before, read(path))
+    read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
-    for problem in problems:
-        for path, before in manifest.inputs.get(problem, {}).items():
+    documents = _documents(manifest, outputs)
+    made = [name for name in documents if name in manifest.typeset_by]
+    for name in made:
+        for path, before in manifest.typeset_from[name].items():
             yield from _of_file(path, before, read(path))
-    for problem in problems:
-        if problem not in manifest.pages:
-            yield f"the problem `{asked.set_id}/{problem}` has not been built"
-        else:
-            recipe = manifest.recipes.get(manifest.made_by.get(problem, ""), {})
-            yield from _of_recipe(recipe, {**now, PAPERS: recipe.get(PAPERS, "")})
-    if any(name.endswith(".pdf") for name in outputs):
-        yield from _of_engine(manifest.tex_engine, asked.engine)
+    for name in documents:
+        if name not in made:
+            yield _not_made(asked, manifest, name)
+    recipes = {name: manifest.recipes.get(manifest.typeset_by[name], {}) for name in made}
+    for recipe in recipes.values():
+        yield from _of_recipe(recipe, now)
     for name in outputs:
-        if set(_problems_of(manifest, [name])) <= manifest.pages.keys():
+        recipe = recipes.get(_document_of(manifest, name), {})
+        if name.endswith(".pdf") and recipe:
+            yield from _of_engine(recipe.get(ENGINE, ""), asked.engine)
+    for name in outputs:
+        if _document_of(manifest, name) in made:
             yield from _of_output(manifest, name)
-    if not manifest.complete and any(Path(name).stem in manifest.documents for name in outputs):
+    if not manifest.complete and any(name in manifest.documents for name in documents):
         yield f"the last build of `{asked.set_id}` was not of all its problems, was interrupted or found a fault"
 
 
-def _problems_of(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
-    """Those whose pages or drawings the outputs are; all, for a document of the set."""
-    own = {name: problem for problem in manifest.pages for name in manifest.outputs_of(problem)}
-    parts = dict.fromkeys(own.get(name, Path(name).stem) for name in outputs)
-    if parts.keys() & {*manifest.documents}:
-        return list(dict.fromkeys([*manifest.problems, *manifest.pages]))
-    return list(parts)
+def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
+    if name in manifest.documents or name in KINDS_OF_PAPERS:
+        return f"the document `{name}` of `{asked.set_id}` has not been made"
+    if _is_unlisted(asked, manifest, name):
+        return f"the set `{asked.set_id}` does not list `{name}`"
+    return f"the problem `{asked.set_id}/{name}` has not been built"
+
+
+def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
+    """Whether the set as it is now has no such problem; it is not read again, so that is known of one not edited."""
+    edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
+    return not edited and name not in [*manifest.problems, *manifest.documents, *KINDS_OF_PAPERS]
+
+
+def _documents(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
+    """The problems and documents of the set whose outputs these are."""
+    return list(dict.fromkeys(_document_of(manifest, name) for name in outputs))
+
+
+def _document_of(manifest: Manifest, output: str) -> str:
+    of_drawings = (problem for problem, files in manifest.drawings.items() if output in files)
+    return next(of_drawings, Path(output).stem)
 
 
 def _of_file(path: str, before: str, now: str) -> Iterator[str]:
@@ -150,7 +180,7 @@ def _of_file(path: str, before: str, now: str) -> Iterator[str]:
 def _of_recipe(before: Recipe, now: Recipe) -> Iterator[str]:
     for name in sorted({*before, *now}):
         was, is_now = before.get(name, ""), now.get(name, "")
-        if was == is_now:
+        if was == is_now or name in (PAPERS, ENGINE):
             continue
         if name in (DETAIL, EVIDENCE):
             yield f"it was made with {_option(name, was)}, and would be with {_option(name, is_now)}"
@@ -173,9 +203,9 @@ def _of_engine(before: str, named: str | None) -> Iterator[str]:
         yield error.complaints[0].message
         return
     was = before.partition(":")[0]
-    if was and was != now.name:
+    if was != now.name:
         yield f"it was typeset by {was}, and would be by {now.name}"
-    elif before and before != now.identity:
+    elif before != now.identity:
         yield f"the program of the TeX engine {was} has changed"
 
 
@@ -189,27 +219,32 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
 
 
 def _mends(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
-    yield _built_by(asked, manifest)
-    problems = _problems_of(manifest, outputs)
+    yield _built_by(asked, manifest, outputs)
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     options: dict[str, str] = {}
-    for problem in problems:
-        before: Mapping[str, str] = manifest.recipes.get(manifest.made_by.get(problem, ""), {})
+    for name in _documents(manifest, outputs):
+        before: Mapping[str, str] = manifest.recipes.get(manifest.typeset_by.get(name, ""), {})
         options |= {name: before[name] for name in (DETAIL, EVIDENCE) if before.get(name) and before[name] != now[name]}
     if options:
         said = " ".join(f"{name} {value}" for name, value in options.items())
         yield f"to build as before: `derive build {_named(asked, manifest)} {said}`"
 
 
-def _built_by(asked: Asked, manifest: Manifest) -> str:
-    options = {DETAIL: asked.detail, EVIDENCE: asked.evidence, "--engine": asked.engine}
+def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
+    """The command that makes these outputs, among all that a build of their problem or their set makes."""
+    documents = _documents(manifest, outputs)
+    papers = [name for name in documents if name in KINDS_OF_PAPERS and name not in manifest.documents]
+    only = ",".join(papers) if papers and manifest.pages else ""
+    options = {DETAIL: asked.detail, EVIDENCE: asked.evidence, ENGINE: asked.engine, PAPERS: only}
     said = "".join(f" {name} {value}" for name, value in options.items() if value)
-    return f"to bring it up to date: `derive build {_named(asked, manifest)}{said}`"
+    unlisted = [name for name in documents if _is_unlisted(asked, manifest, name)] if manifest.pages else []
+    first = f"list `{unlisted[0]}` in `problems/{asked.set_id}/set.yaml`, then " if unlisted else ""
+    return f"to bring it up to date: {first}`derive build {_named(asked, manifest)}{said}`"
 
 
 def _named(asked: Asked, manifest: Manifest) -> str:
     """The problem alone where the outputs are of one."""
-    known = {name: problem for problem in manifest.pages for name in manifest.outputs_of(problem)}
-    stems = {known.get(name, Path(name).stem) for name in asked.outputs}
-    (one,) = stems if len(stems) == 1 else ("",)
-    return f"{asked.set_id}/{one}" if one and one not in manifest.documents else asked.set_id
+    documents = _documents(manifest, asked.outputs)
+    (one,) = documents if len(documents) == 1 else ("",)
+    of_set = one in (*manifest.documents, *KINDS_OF_PAPERS, INDEX)
+    return f"{asked.set_id}/{one}" if one and not of_set else asked.set_id

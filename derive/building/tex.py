@@ -14,15 +14,15 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from derive.building import preamble
 from derive.building.cache import NO_CACHE, Cache, Kept
-from derive.building.files import cannot_write, folder, shown_path, write, writing
+from derive.building.files import cannot_write, folder, shown_path, write
 from derive.building.preamble import without_preamble
+from derive.building.scratch import Scratch
 from derive.errors import BuildFailed, Complaint, Misused, Place
 
 WHEEL = "tinytex"
@@ -125,9 +125,7 @@ def typeset(
     are files that the source includes, such as its drawings; `formats` keeps what all documents begin with.
     """
     kept = (log or target.parent / "log") / target.stem
-    with writing(Path(tempfile.gettempdir())):
-        workplace = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
-    with workplace as name:
+    with Scratch() as name:
         source = Path(name) / f"{target.stem}.tex"
         write(source, tex)
         for file, content in beside:
@@ -164,7 +162,7 @@ def typeset(
 def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
     """Have what documents begin with among the formats, before there is a document."""
     if engine.dumps:
-        with tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True) as name:
+        with Scratch() as name:
             place, environment = Path(name), _environment(engine)
             without_preamble(beginning, str(engine.path), engine.identity, _SAFE, formats, place, environment)
 

@@ -1,13 +1,15 @@
 """Forked workers: each job runs in a child of one warm process, with a time limit, and can be killed at any moment.
 
 What a job returns or raises comes back to the parent. A child leads a process group of its own, so that killing it
-takes its TeX along, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe.
+takes its TeX along, and it ends by itself if the parent is gone. The parent starts no threads, so forking is safe. What
+limits a child, and what is said of one that gives no answer, holds for the worker of a preview too.
 """
 
 from __future__ import annotations
 
 import contextlib
 import faulthandler
+import fcntl
 import gc
 import heapq
 import multiprocessing
@@ -28,7 +30,8 @@ from multiprocessing.context import ForkProcess
 from pathlib import Path
 from typing import Any
 
-from derive.building.files import of_system, writing
+from derive.building.files import of_system
+from derive.building.scratch import Scratch
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, Place
 
 TIME_LIMIT = 120.0
@@ -70,9 +73,9 @@ class Job:
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
     """Work on a problem, whose file is named if it gives no answer; that of which most is said begins first."""
-    from derive.course.problem_set import problem_paths
+    from derive.course.problem_set import found_path
 
-    path = problem_paths(root).get(problem_id, f"problems/{problem_id}.yaml")
+    path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
     file = root / path
     length = sum(each.stat().st_size for each in (file, file.with_suffix(".py")) if each.is_file())
     return Job(f"`{problem_id}`", work, limit, file, path, rank=-length)
@@ -114,8 +117,7 @@ class Crew:
         self._fork = multiprocessing.get_context("fork")
 
     def __enter__(self) -> Crew:
-        with writing(Path(tempfile.gettempdir())):
-            self._scratch = tempfile.TemporaryDirectory(prefix="derive-", ignore_cleanup_errors=True)
+        self._scratch = Scratch()
         self._lifeline = _pipe()
         return self
 
@@ -219,36 +221,44 @@ def _outcome(worker: _Worker) -> Outcome | None:
             value, error = worker.pipe.recv()
         except EOFError:
             worker.child.join()
-            value, error = None, _died(worker)
+            value, error = None, died(job, worker.child.exitcode or 0, lines_told(worker.trace))
         except Exception as unread:  # a value that only its own process can read
             value, error = None, Bug(f"{type(unread).__name__}: {unread}", traceback.format_exc())
         if isinstance(error, str):
-            error = _overtaxed(worker, error)
+            error = overtaxed(job, error, lines_told(worker.trace))
     elif seconds > job.limit:
-        value, error = None, _too_long(worker)
+        value, error = None, too_long(job, lines_asked(worker.child.pid or 0, worker.trace))
     else:
         return None
     _kill(worker)
     return Outcome(job, value, error, seconds)
 
 
-def _stopped(worker: _Worker, code: str, message: str, help_: str, trace: str) -> BuildFailed:
+def _stopped(job: Job, code: str, message: str, help_: str, trace: str) -> BuildFailed:
     """The complaint about a worker that gave no answer, at the line of the script that it was in."""
-    job = worker.job
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
+    if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
+        place, help_ = Place(reference, 1), f"look at what it states of {job.name}"
     return BuildFailed(Complaint(code, message, place, help=help_))
 
 
-def _too_long(worker: _Worker) -> BuildFailed:
+def _reference_in(trace: str, job: Job) -> str:
+    """The file of what a document states, if the worker was reading that, or comparing with it."""
+    path = f"{'/'.join(job.shown_as.split('/')[:2])}/reference.yaml"
+    compares = re.search(r'^  File ".+/derive/course/reference/', trace, re.MULTILINE)
+    there = compares and job.file and (job.file.parents[job.shown_as.count("/")] / path).is_file()
+    return path if there else ""
+
+
+def too_long(job: Job, trace: str) -> BuildFailed:
     """A worker that came to the limit of its time: in a line of a script, or where nobody wrote one in a verb."""
-    trace, job = _asked(worker), worker.job
     verb = verb_in(trace)
     if verb is None or _line_in(trace, job):
         message, help_ = f"{job.name} took over {job.limit:g} s", "look for an endless loop in its script"
     else:
         message = f"{job.name} took over {job.limit:g} s, at last for `{verb}`"
         help_ = "ask for less, describe it with fewer letters"
-    return _stopped(worker, "time-limit", message, f"{help_}, or raise `--time-limit`", trace)
+    return _stopped(job, "time-limit", message, f"{help_}, or raise `--time-limit`", trace)
 
 
 def verb_in(trace: str) -> str | None:
@@ -259,40 +269,40 @@ def verb_in(trace: str) -> str | None:
     return named[-1] if named else None
 
 
-def _died(worker: _Worker) -> BuildFailed:
-    code = worker.child.exitcode or 0
+def died(job: Job, code: int, trace: str) -> BuildFailed:
+    """A worker that ended by itself, with that exit code, or by a signal."""
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
-    message = f"{worker.job.name} ended without a word: {why}"
+    message = f"{job.name} ended without a word: {why}"
     help_ = "was memory short?" if code < 0 else "does its script end the program itself?"
-    return _stopped(worker, "worker-died", message, help_, _read(worker))
+    return _stopped(job, "worker-died", message, help_, trace)
 
 
-def _overtaxed(worker: _Worker, what: str) -> BuildFailed:
+def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
     """A worker that came to the limit of its memory or of its stack."""
-    name, trace = worker.job.name, _read(worker)
     if what == TOO_DEEP:
         help_ = "look for an endless recursion in its script, or for an expression with very many brackets"
-        return _stopped(worker, TOO_DEEP, f"{name} goes deeper than Python can follow", help_, trace)
-    message = f"{name} took over {memory_limit() / GIB:g} GiB of memory"
+        return _stopped(job, TOO_DEEP, f"{job.name} goes deeper than Python can follow", help_, trace)
+    message = f"{job.name} took over {memory_limit() / GIB:g} GiB of memory"
     help_ = "look for what grows without bound, or set DERIVE_MEMORY to more GiB"
-    return _stopped(worker, MEMORY, message, help_, trace)
+    return _stopped(job, MEMORY, message, help_, trace)
 
 
-def _asked(worker: _Worker) -> str:
+def lines_asked(worker: int, trace: int) -> str:
     """The lines that a worker is in, innermost first, as it says when it is asked; nothing if it does not answer."""
     with contextlib.suppress(OSError):
-        os.kill(worker.child.pid or 0, ASK)
+        os.kill(worker, ASK)
     for _ in range(20):
-        wait([worker.child.sentinel], timeout=0.01)
-        if said := _read(worker):
+        select.select([trace], [], [], 0.01)
+        if said := lines_told(trace):
             time.sleep(0.01)
-            return said + _read(worker)
+            return said + lines_told(trace)
     return ""
 
 
-def _read(worker: _Worker) -> str:
+def lines_told(trace: int) -> str:
+    """What a worker has written there; it does not wait for more."""
     try:
-        return os.read(worker.trace, 1 << 16).decode(errors="replace")
+        return os.read(trace, 1 << 16).decode(errors="replace")
     except OSError:
         return ""
 
@@ -326,14 +336,8 @@ def _child(
 ) -> None:
     with contextlib.suppress(OSError):
         os.setpgid(0, 0)
-    for signum in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(signum, signal.SIG_DFL)
-    signal.pthread_sigmask(signal.SIG_SETMASK, ())
     os.close(lifeline[1])
-    threading.Thread(target=_end_with_parent, args=(lifeline[0],), daemon=True).start()
-    faulthandler.enable(trace, all_threads=False)
-    faulthandler.register(ASK, trace, all_threads=False)
-    _limit_memory(limit)
+    confine(lifeline[0], trace, limit)
     tempfile.tempdir = scratch
     # A worker is short-lived: collecting garbage in it often costs more than the garbage.
     gc.freeze()
@@ -348,8 +352,7 @@ def _child(
     except DeriveError as stopped:
         error = stopped
     except (MemoryError, RecursionError) as short:
-        error = MEMORY if isinstance(short, MemoryError) else TOO_DEEP
-        _tell_lines(short, trace)
+        error = told_to(trace, short)
     except OSError as refused:
         error = of_system(refused) or Bug(f"{type(refused).__name__}: {refused}", _short_trace(refused))
     except BaseException as bug:
@@ -365,6 +368,22 @@ def _child(
     pipe.close()
 
 
+def confine(lifeline: int, trace: int, limit: int) -> None:
+    """Make this process a worker: it ends with its parent, takes so much memory at most, says where it is if asked."""
+    for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(signum, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_SETMASK, ())
+    with contextlib.suppress(OSError, AttributeError):  # Linux does it, in the middle of a long multiplication too
+        own = os.open(f"/proc/self/fd/{lifeline}", os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+        fcntl.fcntl(own, fcntl.F_SETSIG, signal.SIGKILL)
+        fcntl.fcntl(own, fcntl.F_SETOWN, -os.getpgrp())
+        fcntl.fcntl(own, fcntl.F_SETFL, fcntl.fcntl(own, fcntl.F_GETFL) | os.O_ASYNC)
+    threading.Thread(target=_end_with_parent, args=(lifeline,), daemon=True).start()
+    faulthandler.enable(trace, all_threads=False)
+    faulthandler.register(ASK, trace, all_threads=False)
+    _limit_memory(limit)
+
+
 def _limit_memory(limit: int) -> None:
     """Where the system counts it, of the data of this process and of each program that it starts."""
     with contextlib.suppress(OSError, ValueError):
@@ -373,14 +392,16 @@ def _limit_memory(limit: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (min(known), hard))
 
 
-def _tell_lines(error: BaseException, trace: int) -> None:
-    """Write the lines that an error came through as `faulthandler` does, innermost first."""
+def told_to(trace: int, error: MemoryError | RecursionError) -> str:
+    """Which limit that is; the lines that it came through are written there as `faulthandler` does, innermost first."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')
         trail = trail.tb_next
     with contextlib.suppress(OSError):
-        os.write(trace, "".join(reversed(lines[-100:])).encode()[: select.PIPE_BUF * 8])
+        ends = [*lines[-80:][::-1], *lines[:-80][:20][::-1]]  # the last lines, and where it all began
+        os.write(trace, "".join(ends).encode()[: select.PIPE_BUF * 8])
+    return MEMORY if isinstance(error, MemoryError) else TOO_DEEP
 
 
 def _short_trace(error: BaseException) -> str:

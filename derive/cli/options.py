@@ -36,14 +36,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         from derive.cli.completing import offer
 
         offer(parser)
-    arguments = parser.parse_args(argv)
     gc.set_threshold(300_000)  # modules stay: to look for garbage among them took an eighth of their loading
     try:
-        from derive.cli.running import exit_code
+        from derive.cli.running import exit_code, read
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
-    return exit_code(arguments)
+    return exit_code(read(lambda: parser.parse_args(argv)))
 
 
 class _Screen(argparse.RawDescriptionHelpFormatter):

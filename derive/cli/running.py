@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import codecs
 import errno
 import os
 import signal
 import sys
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from importlib import import_module
+from io import StringIO, TextIOWrapper
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
@@ -41,11 +43,31 @@ COMMANDS = {
 }
 
 
+def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
+    """What is asked for; if that is shown at once, as the version is, it has to arrive."""
+    _open_streams()
+    shown = StringIO()
+    try:
+        with redirect_stdout(shown):
+            return parse()
+    except SystemExit:
+        try:
+            print(shown.getvalue(), end="", flush=True)
+        except BrokenPipeError:
+            silence(1)
+            raise SystemExit(141) from None
+        except OSError as error:
+            silence(1)
+            raise SystemExit(_told(cannot_write(Path("standard output"), error))) from None
+        raise
+
+
 def exit_code(arguments: argparse.Namespace) -> int:
     """Carry out a command; whatever stops it is told in a few lines, and is not a traceback."""
     try:
-        _open_streams()
-        signal.signal(signal.SIGTERM, _terminated)
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` has it
+                signal.signal(number, _terminated)
         code = _command(arguments.command)(arguments)
         sys.stdout.flush()
         return code
@@ -57,13 +79,13 @@ def exit_code(arguments: argparse.Namespace) -> int:
         return 130
     except BrokenPipeError:
         # Whoever read our output has had enough; the interpreter must not complain about it once more.
-        _silence(1)
+        silence(1)
         return 141
     except MemoryError:
         return _told(BuildFailed(Complaint("system", "the system refuses: memory is short")))
     except Exception as error:
         if isinstance(error, OSError) and error.filename is None and error.errno in _UNWRITTEN:
-            _silence(1)
+            silence(1)
             return _told(cannot_write(Path("standard output"), error))
         known = of_system(error) if isinstance(error, OSError) else None
         if known:
@@ -86,7 +108,7 @@ def _told(error: DeriveError) -> int:
     return error.exit_code
 
 
-def _silence(descriptor: int) -> None:
+def silence(descriptor: int) -> None:
     """What is still to be written there goes nowhere."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
 
@@ -100,6 +122,10 @@ def _open_streams() -> None:
             os.open(os.devnull, mode)  # to write to the second fails, as it should
     sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # pages are UTF-8 too, whatever a terminal without a language shows
+            ascii_only = codecs.lookup(stream.encoding).name == "ascii"
+            stream.reconfigure(encoding="utf-8" if ascii_only else None, errors="backslashreplace")
 
 
 def _terminated(number: int, _: FrameType | None) -> NoReturn:

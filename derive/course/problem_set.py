@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence as List
 from contextlib import suppress
 from dataclasses import dataclass
@@ -116,6 +117,18 @@ def problem_paths(root: Path) -> dict[str, str]:
     return {f"{file.parts[0]}/{file.stem}": f"problems/{file.as_posix()}" for file in named_well}
 
 
+def found_path(root: Path, problem_id: str) -> str | None:
+    """The file of one problem, if there is one, without a look at those of other sets."""
+    set_id, _, name = problem_id.partition("/")
+    if not (NAME.fullmatch(set_id) and NAME.fullmatch(name)) or name in _NOT_PROBLEMS:
+        return None
+    folder = root / "problems" / set_id
+    files = [folder / f"{name}.yaml", *sorted(folder.glob(f"*/{name}.yaml"), reverse=True)]
+    named_well = [file for file in files if file.parent == folder or NAME.fullmatch(file.parent.name)]
+    there = [file for file in named_well if os.path.lexists(file)]
+    return f"problems/{there[-1].relative_to(root / 'problems').as_posix()}" if there else None
+
+
 def topic_of(path: str) -> str:
     """The folder of a problem's file within its set; none for a file beside `set.yaml`."""
     parts = path.split("/")
@@ -124,9 +137,9 @@ def topic_of(path: str) -> str:
 
 def path_of(root: Path, problem_id: str) -> str:
     """The problem's file, relative to the root, if there is such a problem."""
+    if path := found_path(root, problem_id):
+        return path
     paths = problem_paths(root)
-    if problem_id in paths:
-        return paths[problem_id]
     if own := sorted(each for each in paths if each.startswith(f"{problem_id}/")):
         help_line = f"name one of its problems: {', '.join(own)}"
         raise Misused(Complaint("no-such-problem", f"`{problem_id}` is a set", help=help_line))
@@ -186,9 +199,9 @@ def _clashes(papers: dict[Word, Word], problems: List[str], faults: Faults) -> N
             faults.error("paper-name", f"`{file}` is the name of another file", file.place, help="choose another")
 
 
-def mapping_in(root: Path, path: str, what: str) -> Mapping:
+def mapping_in(root: Path, path: str, what: str, quickly: bool = False) -> Mapping:
     """The mapping that a file must be."""
-    node = read_yaml(root / path, path)
+    node = read_yaml(root / path, path, quickly)
     if not isinstance(node, Mapping):
         raise Rejected(Complaint("wrong-type", f"{what} must be a mapping, but this is {shape_of(node)}", node.place))
     return node

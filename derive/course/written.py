@@ -208,6 +208,7 @@ class ProblemKeys(Record):
         return points_in_all(self.points, self.values_at.get("points"), self.parts, faults)
 
 
-def written_problem(root: Path, problem_id: str, faults: Faults) -> ProblemKeys:
+def written_problem(root: Path, problem_id: str, faults: Faults, quickly: bool = False) -> ProblemKeys:
     """What the file says; `faults` takes all that is wrong with its keys and their shapes."""
-    return read_record(ProblemKeys, mapping_in(root, path_of(root, problem_id), "a problem"), "a problem", faults)
+    mapping = mapping_in(root, path_of(root, problem_id), "a problem", quickly)
+    return read_record(ProblemKeys, mapping, "a problem", faults)

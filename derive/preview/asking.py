@@ -1,16 +1,28 @@
-"""The worker of a preview as its server sees it: asked, waited for, ended when it takes too long, begun anew."""
+"""The worker of a preview as its server sees it: asked, waited for, ended when it takes too long, begun again.
+
+It has the limits of a build's workers, and what is said of one that gives no answer is the same.
+"""
 
 from __future__ import annotations
 
 import json
+import os
 import select
+import signal
 import subprocess
 import sys
+import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
+
+from derive.building.files import of_system
+from derive.building.workers import Job, died, job_of, lines_asked, lines_told, memory_limit, overtaxed, too_long
+from derive.errors import BuildFailed, Complaint, DeriveError
 
 STEP = 0.05  # seconds between two looks whether an answer is still wanted
 PATIENCE = 1.0  # seconds that a question may go on after a newer edit has made it idle
@@ -25,63 +37,190 @@ class Shown:
     seconds: float = 0.0
 
 
+class _Worker:
+    """The process, and the ends of its pipes that are ours: questions, answers, where it says what it is at, and one
+    that nothing is written to, by whose end it knows of ours."""
+
+    def __init__(self, root: Path):
+        limit, pipes = memory_limit(), _pipes(4)
+        (questions, self._asks), (self._answers, answers), (self.trace, traced), (lifeline, self._lifeline) = pipes
+        theirs = (questions, answers, traced, lifeline)
+        try:
+            command = [sys.executable, "-P", "-m", "derive.preview.worker", str(root), str(limit), *map(str, theirs)]
+            self._process = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                pass_fds=theirs,
+                env={**os.environ, "PYTHONIOENCODING": "utf-8:backslashreplace"},  # of what a script prints
+                start_new_session=True,  # Ctrl-C is for the server, which ends it
+            )
+        except OSError:
+            self._close()
+            raise
+        finally:
+            for end in theirs:
+                os.close(end)
+        os.set_blocking(self.trace, False)
+        self._said = b""
+        self._asked = 0
+        self._guard = threading.Lock()
+
+    @property
+    def process(self) -> int:
+        return self._process.pid
+
+    def ask(self, **question: Any) -> None:
+        self._asked += 1
+        with suppress(BrokenPipeError):  # that it has ended is seen where its answer is read
+            os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
+
+    def answer(self, seconds: float) -> bytes | None:
+        """A line that it says within that time; nothing if it does not, an empty one if it never will."""
+        if select.select([self._answers], [], [], seconds)[0]:
+            more = os.read(self._answers, 1 << 16)
+            if not more:
+                return b""
+            self._said += more
+        line, ended, rest = self._said.partition(b"\n")
+        if not ended:
+            return None
+        self._said = rest
+        return line + ended
+
+    def read(self, line: bytes) -> dict[str, Any] | None:
+        """The answer in a line, if it is one to the last question."""
+        try:
+            said = json.loads(line)
+        except ValueError:
+            return None
+        return said if isinstance(said, dict) and said.get("number") == self._asked else None
+
+    def ended(self) -> int:
+        """The exit code of one that says nothing more."""
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(1)
+        return self._process.returncode or 0
+
+    def is_alive(self) -> bool:
+        with self._guard:
+            return self._process.poll() is None
+
+    def kill(self) -> None:
+        """It and the programs that it has started."""
+        with self._guard, suppress(OSError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+
+    def end(self) -> None:
+        self.kill()
+        with self._guard:
+            self._process.wait()
+        self._close()
+
+    def _close(self) -> None:
+        for end in (self._asks, self._answers, self.trace, self._lifeline):
+            os.close(end)
+
+
+def _pipes(number: int) -> list[tuple[int, int]]:
+    """All of them, or none where there are too few descriptors."""
+    found: list[tuple[int, int]] = []
+    try:
+        while len(found) < number:
+            found.append(os.pipe())
+    except OSError:
+        for end in (end for pipe in found for end in pipe):
+            os.close(end)
+        raise
+    return found
+
+
 @dataclass
 class Warm:
-    """A worker, started when it is first asked or before."""
+    """A worker, started when it is first asked or before; from when it is ended for good there is none."""
 
     root: Path
     limit: float
-    _process: subprocess.Popen[str] | None = field(default=None, repr=False)
+    _worker: _Worker | None = field(default=None, repr=False)
+    _asking: threading.RLock = field(default_factory=threading.RLock, repr=False)
+    _over: bool = False
 
-    def page(self, problem_id: str, detail: str | None, idle: Any = lambda: False) -> Shown | None:
-        """The answer to a question; nothing if it became `idle` while it was worked on."""
+    def page(self, problem_id: str, detail: str | None, idle: Callable[[], bool] = lambda: False) -> Shown | None:
+        """The answer to a question; nothing if it became `idle` while it was worked on, or the preview is over."""
         started = time.monotonic()
-        process = self.begun()
-        assert process.stdin and process.stdout
-        try:
-            process.stdin.write(json.dumps({"problem": problem_id, "detail": detail}) + "\n")
-            process.stdin.flush()
-        except BrokenPipeError:
-            return self._died(problem_id)
-        while not select.select([process.stdout], [], [], STEP)[0]:
+        with self._asking:
+            try:
+                said = self._said(problem_id, detail, idle, started)
+            except OSError as error:
+                said = {"error": of_system(error, "the worker of the preview cannot start") or _refused(error)}
+            except DeriveError as error:
+                said = {"error": error}
+        if said is None:
+            return None
+        stopped = said.get("error")
+        if isinstance(stopped, DeriveError):
+            return Shown(complaints=tuple(each.shown() for each in stopped.complaints))
+        return Shown(said.get("main", ""), tuple(said.get("complaints", ())), time.monotonic() - started)
+
+    def _said(
+        self, problem_id: str, detail: str | None, idle: Callable[[], bool], started: float
+    ) -> dict[str, Any] | None:
+        worker = self.begun()
+        if worker is None:
+            return None
+        worker.ask(problem=problem_id, detail=detail)
+        job = partial(job_of, self.root, problem_id, lambda: None, self.limit)
+        while (line := worker.answer(STEP)) is None:
             seconds = time.monotonic() - started
             if seconds > self.limit:
-                self.end()
-                message = f"error[time-limit]: `{problem_id}` took over {self.limit:g} s"
-                return Shown(complaints=(f"{message}\n  = help: look for an endless loop in its script",))
+                return self._ended(too_long(job(), lines_asked(worker.process, worker.trace)))
             if seconds > PATIENCE and idle():
-                self.end()
+                self._end()
                 return None
-        line = process.stdout.readline()
         if not line:
-            return self._died(problem_id)
-        said = json.loads(line)
-        shown = tuple(each["shown"] for each in said.get("complaints", ()))
-        return Shown(said.get("main", ""), shown, time.monotonic() - started)
+            return None if self._over else self._ended(died(job(), worker.ended(), lines_told(worker.trace)))
+        if (said := worker.read(line)) is None:
+            return self._ended(_disturbed(job()))
+        if limit := said.get("limit"):
+            return self._ended(overtaxed(job(), limit, lines_told(worker.trace)))
+        return said
 
-    def begun(self) -> subprocess.Popen[str]:
-        """The process, which loads what it needs before it answers."""
-        if self._process is not None and self._process.poll() is not None:
-            self.end()
-        if self._process is None:
-            self._process = subprocess.Popen(
-                [sys.executable, "-m", "derive.preview.worker", str(self.root)],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                text=True,
-                encoding="utf-8",
-                start_new_session=True,  # Ctrl-C is for the server, which ends it
-            )
-        return self._process
+    def begun(self) -> _Worker | None:
+        """The process, which loads what it needs before it answers; none after the end of the preview."""
+        with self._asking:
+            if self._worker is not None and not self._worker.is_alive():
+                self._end()
+            if self._worker is None and not self._over:
+                self._worker = _Worker(self.root)
+            return self._worker
 
-    def _died(self, problem_id: str) -> Shown:
-        self.end()
-        message = f"error[worker-died]: `{problem_id}` ended its process\n  = help: does its script end the program?"
-        return Shown(complaints=(message,))
+    def _ended(self, error: DeriveError) -> dict[str, Any]:
+        self._end()
+        return {"error": error}
+
+    def _end(self) -> None:
+        if self._worker is not None:
+            self._worker.end()
+            self._worker = None
 
     def end(self) -> None:
-        if self._process is not None:
-            self._process.kill()
-            with suppress(BrokenPipeError), self._process:  # its pipes are closed, and it is waited for
-                pass
-            self._process = None
+        """For good; who is waiting for an answer gets none."""
+        self._over = True
+        worker = self._worker
+        if worker is not None:
+            worker.kill()
+        if self._asking.acquire(timeout=2):
+            try:
+                self._end()
+            finally:
+                self._asking.release()
+
+
+def _disturbed(job: Job) -> BuildFailed:
+    message = f"{job.name} has written where its process gives its answers: into a file descriptor"
+    help_ = "a script may write to standard output and to files that it opens itself"
+    return BuildFailed(Complaint("worker-died", message, help=help_))
+
+
+def _refused(error: OSError) -> BuildFailed:
+    reason = (error.strerror or str(error)).lower()
+    return BuildFailed(Complaint("system", f"the worker of the preview cannot start: {reason}"))

@@ -45,7 +45,7 @@ def preview(
         with _serving(served) as at:
             ready(f"http://{HOST}:{at}/{first}.html")
             for _ in _edits(root):
-                with suppress(DeriveError):  # a heading with a fault stays as it was
+                with suppress(DeriveError, OSError):  # a heading that cannot be read stays as it was
                     heading = problem_set(root, set_id)
                 pages.names = {*heading.numbers, first}
                 pages.edited()

@@ -12,20 +12,35 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 import threading
+import time
+from base64 import b64encode
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from errno import EADDRINUSE
+from functools import partial
+from hashlib import sha256
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from io import BufferedReader, RawIOBase
+from socket import socket
 from typing import Any
 
-from derive.errors import BuildFailed, Complaint
+from derive.building.files import of_system
+from derive.errors import BuildFailed, Complaint, DeriveError
 from derive.preview.asking import Shown, Warm
 
 HOST = "127.0.0.1"
+_LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORECASE)
 ALIVE = 15.0  # seconds after which a browser that was told nothing is told so, and one that has gone is noticed
+PROMPT = 5.0  # seconds in which a browser has sent a request, or closes a connection that it keeps
+TAKEN = 30.0  # seconds in which it has taken an answer
+MOST = 64  # connections at a time, of which each open page has one
+FULL = 0.1  # seconds until descriptors may be free again
 CACHED = "no-store"
+NONE = "'none'"
+NOTHING_ELSE = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 
 
 @dataclass
@@ -49,7 +64,7 @@ class Pages:
         with self._asking:
             if name not in self._last or name in self._stale:
                 self._renew(name)
-            return self._last[name]
+            return self._last.get(name, Shown())
 
     def last_good(self, name: str) -> str:
         return self._good.get(name, "")
@@ -72,13 +87,18 @@ class Pages:
     def edition(self) -> int:
         return self._edition
 
+    def _is_edited_since(self, edition: int) -> bool:
+        return self._edition > edition
+
     def _renew(self, name: str) -> None:
         while True:
             edition = self._edition
             self._stale.discard(name)
-            shown = self.warm.page(f"{self.set_id}/{name}", self.detail, lambda at=edition: self._edition > at)
-            if shown is not None:
+            shown = self.warm.page(f"{self.set_id}/{name}", self.detail, partial(self._is_edited_since, edition))
+            if shown is not None or not self._is_edited_since(edition):
                 break
+        if shown is None:  # the preview is over
+            return
         self._last[name] = shown
         if shown.main:
             self._good[name] = shown.main
@@ -94,7 +114,25 @@ class Handler(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     server_version = "derive"
 
+    def setup(self) -> None:
+        super().setup()
+        self._prompt = _Prompt(self.connection)
+        self.rfile = BufferedReader(self._prompt)
+
+    def handle_one_request(self) -> None:
+        self._prompt.until = time.monotonic() + PROMPT
+        super().handle_one_request()
+
     def do_GET(self) -> None:
+        try:
+            self._answer()
+        except (ConnectionError, TimeoutError):  # the browser has gone
+            self.close_connection = True
+        except (DeriveError, OSError) as error:
+            known = of_system(error) if isinstance(error, OSError) else None
+            self._plain(HTTPStatus.SERVICE_UNAVAILABLE, str(known or error))
+
+    def _answer(self) -> None:
         if not self._is_local():
             self._plain(HTTPStatus.FORBIDDEN, "only for this machine")
             return
@@ -113,12 +151,13 @@ class Handler(BaseHTTPRequestHandler):
 
     def _is_local(self) -> bool:
         """A page of somewhere else that leads here by another name is not answered."""
-        host = (self.headers.get("Host") or "").rpartition(":")[0]
-        return host in (HOST, "localhost")
+        return bool(_LOCAL.fullmatch(self.headers.get("Host") or ""))
 
     def _page(self, name: str) -> None:
         main = self.pages.now(name).main or self.pages.last_good(name)
-        self._sent(HTTPStatus.OK, "text/html; charset=utf-8", type(self).whole(name, main).encode())
+        whole = type(self).whole
+        policy = policy_of(whole(name, ""))
+        self._sent(HTTPStatus.OK, "text/html; charset=utf-8", whole(name, main).encode(), policy)
 
     def _events(self, name: str) -> None:
         """One message after another for as long as the browser listens."""
@@ -132,16 +171,13 @@ class Handler(BaseHTTPRequestHandler):
             self.send_header(header, value)
         self.end_headers()
         seen = self.pages.edition
-        try:
-            self._message(self.pages.now(name))
-            while True:
-                seen, shown = self.pages.next(name, seen, ALIVE)
-                if shown is not None:
-                    self._message(shown)
-                else:
-                    self._write(b": still here\n\n")
-        except (BrokenPipeError, ConnectionResetError):
-            return
+        self._message(self.pages.now(name))
+        while True:
+            seen, shown = self.pages.next(name, seen, ALIVE)
+            if shown is not None:
+                self._message(shown)
+            else:
+                self._write(b": still here\n\n")
 
     def _message(self, shown: Shown) -> None:
         said = {"main": shown.main, "complaints": shown.complaints, "seconds": round(shown.seconds, 2)}
@@ -154,13 +190,14 @@ class Handler(BaseHTTPRequestHandler):
     def _plain(self, status: HTTPStatus, text: str) -> None:
         self._sent(status, "text/plain; charset=utf-8", f"{text}\n".encode())
 
-    def _sent(self, status: HTTPStatus, kind: str, content: bytes) -> None:
+    def _sent(self, status: HTTPStatus, kind: str, content: bytes, policy: str = NOTHING_ELSE) -> None:
         self.send_response(status)
         for header, value in (
             ("Content-Type", kind),
             ("Content-Length", str(len(content))),
             ("Cache-Control", CACHED),
             ("X-Content-Type-Options", "nosniff"),
+            ("Content-Security-Policy", policy),
         ):
             self.send_header(header, value)
         self.end_headers()
@@ -170,11 +207,71 @@ class Handler(BaseHTTPRequestHandler):
         """Nobody reads who asked for what."""
 
 
+class _Prompt(RawIOBase):
+    """What a browser sends, each request whole within a time."""
+
+    def __init__(self, connection: socket):
+        self.connection, self.until = connection, 0.0
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        self.connection.settimeout(max(0.001, self.until - time.monotonic()))
+        try:
+            return self.connection.recv_into(buffer)
+        finally:
+            self.connection.settimeout(TAKEN)
+
+
+def policy_of(page: str) -> str:
+    """What a browser lets a page do: run the scripts that this one has, as they are, and ask for what has changed."""
+    found = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    scripts = " ".join(f"'sha256-{b64encode(sha256(each.encode()).digest()).decode()}'" for each in found)
+    own = "connect-src 'self'; style-src 'unsafe-inline'; font-src data:; img-src data:"
+    return f"{NOTHING_ELSE}; script-src {scripts or NONE}; {own}"
+
+
 class Server(ThreadingHTTPServer):
-    """Threads of browsers end with the program."""
+    """Threads of browsers end with the program; there are so many at most."""
 
     daemon_threads = True
     allow_reuse_address = True
+    request_queue_size = MOST
+
+    def __init__(self, address: tuple[str, int], handler: type[Handler]):
+        self._free = threading.BoundedSemaphore(MOST)
+        super().__init__(address, handler)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        if not self._free.acquire(blocking=False):
+            self.shutdown_request(request)
+            return
+        try:
+            super().process_request(request, client_address)
+        except BaseException:  # there is no thread for it
+            self._free.release()
+            raise
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self._free.release()
+
+    def get_request(self) -> tuple[Any, Any]:
+        try:
+            return super().get_request()
+        except OSError:  # there are too few descriptors: whoever asks waits until some are free
+            time.sleep(FULL)
+            raise
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say in a line what no answer foresaw; that a browser has gone is not worth one."""
+        error = sys.exc_info()[1]
+        if not isinstance(error, ConnectionError | TimeoutError):
+            said = f"internal error: {type(error).__name__}: {error}"
+            self.RequestHandlerClass.pages.told("preview", Shown(complaints=(said,)))  # type: ignore[attr-defined]
 
 
 def server(pages: Pages, whole: Callable[[str, str], str], first: str, port: int) -> Server:

@@ -3,7 +3,10 @@
 It keeps what it has loaded and printed, so that an edit of words costs little more than the words; and it can be killed
 at any moment, since it writes nothing but what builds keep of their work.
 
-    python -m derive.preview.worker ROOT     a question a line on standard input, an answer a line on standard output
+    python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
+
+MEMORY is the most that it may take, in bytes; the others are file descriptors: a question a line, an answer a line, and
+those of a build's worker.
 """
 
 from __future__ import annotations
@@ -14,22 +17,26 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
-from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 from typing import IO, Any
 
 from derive.building.loaded import load
+from derive.building.workers import confine, told_to
 from derive.errors import DeriveError
 
 
 def main(arguments: Sequence[str]) -> None:
-    root = Path(arguments[0])
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    root, (memory, questions, answers, trace, lifeline) = Path(arguments[0]), map(int, arguments[1:])
+    for descriptor in (questions, answers, trace, lifeline):
+        os.set_inheritable(descriptor, False)  # no program that a script starts has them
+    confine(lifeline, trace, memory)
     os.dup2(2, 1)  # what a script prints is for the person at the terminal, and no answer
+    told = os.fdopen(answers, "w", encoding="utf-8")
     load(root, draws=False)
-    for question in sys.stdin:
-        _tell(answers, answer(root, json.loads(question)))
+    for question in os.fdopen(questions, encoding="utf-8"):
+        asked = json.loads(question)
+        _tell(told, {"number": asked["number"], **answer(root, asked, trace)})
         _settle(root)
 
 
@@ -41,18 +48,17 @@ def _settle(root: Path) -> None:
     gc.set_threshold(100_000, 50, 50)
 
 
-def answer(root: Path, question: dict[str, Any]) -> dict[str, Any]:
-    """The page of a problem, or what is wrong with it, as plain data."""
+def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
+    """The page of a problem, or what is wrong with it, as plain data; by which limit it was stopped, and where, it says
+    as a build's worker does."""
     try:
         return {"main": main_part(root, question["problem"], question["detail"])}
     except DeriveError as error:
-        return {"complaints": [{**asdict(each), "shown": each.shown()} for each in error.complaints]}
-    except (MemoryError, RecursionError):
-        message = "the problem goes deeper than Python can follow, or takes more memory than there is"
-        return {"complaints": [{"message": message, "shown": f"error[too-deep]: {message}"}]}
+        return {"complaints": [each.shown() for each in error.complaints]}
+    except (MemoryError, RecursionError) as short:
+        return {"limit": told_to(trace, short)}
     except BaseException as bug:  # of a script too, which may well end its program
-        summary = f"internal error: {type(bug).__name__}: {bug}"
-        return {"complaints": [{"message": summary, "shown": summary}], "trace": traceback.format_exc()}
+        return {"complaints": [f"internal error: {type(bug).__name__}: {bug}"], "trace": traceback.format_exc()}
 
 
 def main_part(root: Path, problem_id: str, detail: str | None) -> str:

@@ -1,6 +1,6 @@
 """Write `pairs.txt`: equal pairs by construction, what the problems ask, and each with a slip. Minutes.
 
-    python -m tests.algebra.make_pairs
+    python -P -m tests.algebra.make_pairs
 
 Whether a pair is equal is told by numbers of mpmath in 40 digits at many points, which share nothing with the code
 under test; where they contradict how a pair was made, nothing is written. The grade is what `equal` reaches: never less

@@ -3,7 +3,7 @@
     family / equal or not / grade that is reached at least / what SymPy decides / left / right
 
 An expression is written with the operation first, `(Add x (Mul 2 y))`; the lines before tell of each letter what is
-assumed of it. `python -m tests.algebra.make_pairs` writes the file.
+assumed of it. `python -P -m tests.algebra.make_pairs` writes the file.
 """
 
 from __future__ import annotations

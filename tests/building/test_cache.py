@@ -15,7 +15,8 @@ from fake_course import Course, stand_in_course
 from derive.building.cache import NO_CACHE, Cache, digest, engine_digest, file_digest, folder_digest
 from derive.building.sealed import SEAL_BYTES
 from derive.building.sets import Options, built_set
-from derive.errors import BuildFailed
+from derive.building.solution import rendered
+from tests.courses import course_in
 
 ONE, TWO, THREE = digest("one"), digest("two"), digest("three")
 
@@ -116,8 +117,36 @@ def test_what_was_altered_or_is_no_file_counts_as_none(tmp_path: Path, cache: Ca
     assert cache.recalled(ONE) == b"12345", "a pipe is replaced"
     (tmp_path / "kept" / TWO).mkdir()
     assert cache.recalled(TWO) is None
-    with pytest.raises(BuildFailed, match="a folder stands where a file should be"):
-        cache.keep(TWO, b"1")
+    cache.keep(TWO, b"1")
+    (warning,) = cache.unkept
+    assert (warning.code, warning.severity) == ("not-kept", "warning")
+    assert warning.message.endswith("a folder stands where a file should be")
+
+
+def test_a_cache_that_cannot_be_written_costs_a_warning_and_no_page(course: Course) -> None:
+    course.outputs.mkdir(parents=True)
+    (course.outputs / ".derived").write_text("in the way")
+    (course.outputs / ".manifest.json").mkdir()
+    for said in ("first", "edited"):
+        course.problem("one", said)
+        report = built_set(course.root, "hw1", Options(), lambda _: None)
+        assert not report.failed
+        assert {warning.code for warning in report.warnings} == {"not-kept"}
+        assert [warning.message for warning in report.warnings] == [
+            "nothing is kept for the next build: cannot write in `build/hw1/.derived`: "
+            "a file stands where a folder should be",
+            "nothing is kept for the next build: cannot write `build/hw1/.manifest.json`: "
+            "a folder stands where a file should be",
+        ]
+        assert said in (course.outputs / "solutions.pdf").read_text()
+
+
+def test_a_page_whose_steps_cannot_be_kept_says_so_and_is_there(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    kept = Cache(tmp_path / "kept")
+    kept.folder.write_text("in the way") if kept.folder else None
+    page = rendered(root, "hw9/block", cache=kept, only=())
+    assert [warning.code for warning in page.warnings if warning.code == "not-kept"] == ["not-kept"]
 
 
 def test_a_link_is_replaced_and_what_it_leads_to_is_left_alone(tmp_path: Path, cache: Cache) -> None:

@@ -195,7 +195,7 @@ def test_a_derivation_draws_nothing(tmp_path: Path) -> None:
         "found = rendered(Path(sys.argv[1]), 'hw9/block'); "
         "sys.exit(bool(found.files) or 'matplotlib' in sys.modules or 'numpy' in sys.modules)"
     )
-    run = subprocess.run([sys.executable, "-c", program, str(tmp_path)], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-P", "-c", program, str(tmp_path)], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
 
 

@@ -204,7 +204,7 @@ COMMAND = (
 def test_a_full_or_closed_output_and_a_folder_that_is_gone_are_told_in_a_line(
     course: Course, shell: str, code: int, said: str
 ) -> None:
-    program = f"{sys.executable} -c '{COMMAND}' {ROOT / 'tests'}"
+    program = f"{sys.executable} -P -c '{COMMAND}' {ROOT / 'tests'}"
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     run = subprocess.run(["bash", "-c", shell.format(program)], capture_output=True, text=True, env=environment)
     assert run.returncode == code

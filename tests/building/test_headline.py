@@ -43,5 +43,43 @@ def test_a_plain_title_needs_no_mathematics(tmp_path: Path) -> None:
         "import sys; from pathlib import Path; from derive.building.headline import headline; "
         "print(headline(Path(sys.argv[1]), 'hw9/block'), 'sympy' in sys.modules)"
     )
-    run = subprocess.run([sys.executable, "-c", program, str(root)], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-P", "-c", program, str(root)], cwd=ROOT, capture_output=True, text=True)
     assert (run.stdout, run.stderr) == ("('10', 'A block') False\n", "")
+
+
+PLAIN = {TITLE: "title: A block"}
+
+
+def test_of_a_plain_file_no_more_is_read_than_its_title_and_its_points(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def read(*_: object, **__: object) -> None:
+        raise AssertionError("it is read in full")
+
+    root = course_in(tmp_path, PLAIN)
+    monkeypatch.setattr("derive.building.headline.written_problem", read)
+    monkeypatch.setattr("derive.course.prose.Prose.pieces", property(lambda prose: iter(())))
+    monkeypatch.setattr("derive.course.problem_set.problem_paths", read)
+    assert headline(root, "hw9/block") == ("10", "A block")
+    assert headline(root, "hw9/block", "problems/hw9/block.yaml") == ("10", "A block")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("points: 10", "points: 11", "those of the parts add up to 10"),
+        ("points: 10", "points: ten", "`points` must be"),
+        ("solve: block.py\n", "", "a problem needs `solve`"),
+        ("answer: inertia_tensor", "answers: inertia_tensor", "a part has no key `answers`"),
+        ("symbols:", "symbols: [", "`[` is not closed"),
+    ],
+)
+def test_what_a_glance_finds_is_told_in_full(tmp_path: Path, old: str, new: str, said: str) -> None:
+    root = course_in(tmp_path)
+    file = root / "problems" / "hw9" / "block.yaml"
+    text = file.read_text().replace(TITLE, "title: A block")
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+    with pytest.raises(Rejected) as caught:
+        headline(root, "hw9/block")
+    assert said in str(caught.value)

@@ -23,6 +23,6 @@ print(*sorted(name for name in set(sys.modules) - before if name.startswith(("de
 
 def test_a_worker_need_not_load_what_its_parent_has_loaded(tmp_path: Path) -> None:
     course = course_in(tmp_path)
-    command, paths = [sys.executable, "-c", CODE], {"PYTHONPATH": str(ROOT)}
+    command, paths = [sys.executable, "-P", "-c", CODE], {"PYTHONPATH": str(ROOT)}
     run = subprocess.run(command, cwd=course, env=paths, capture_output=True, text=True)
     assert (run.stdout.split(), run.stderr) == ([], "")

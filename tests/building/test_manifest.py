@@ -53,7 +53,9 @@ def test_a_record_names_plain_outputs_or_is_none(course: Course, name: str) -> N
         "outputs",
         "drawings",
         "pages",
-        "tex_engine",
+        "typeset_by",
+        "typeset_from",
+        "asked",
         "made_by",
         "recipes",
     ],
@@ -101,7 +103,7 @@ def test_a_kept_derivation_of_another_text_is_not_used(course: Course) -> None:
 def test_a_record_is_read_as_it_was_saved_and_only_in_its_own_folder(tmp_path: Path) -> None:
     (tmp_path / "hw1").mkdir()
     record = Manifest(
-        tmp_path / "hw1", ["one"], True, "tex", "modules", {"set.yaml": "1"}, {"one": {"one.yaml": "1"}}, {"one": "2"}
+        tmp_path / "hw1", ["one"], True, "modules", {"set.yaml": "1"}, {"one": {"one.yaml": "1"}}, {"one": "2"}
     )
     record.save()
     assert Manifest.read(tmp_path / "hw1") == record
@@ -134,8 +136,35 @@ def test_what_a_page_was_made_from_is_noted_and_recipes_of_no_page_are_forgotten
 
 
 def test_nothing_is_current_before_a_build_came_to_its_end(tmp_path: Path) -> None:
-    assert not Manifest(tmp_path).is_current("recipe", str)
-    assert not Manifest(tmp_path, complete=True).is_current("recipe", str), "the documents of the set are missing"
+    assert not Manifest(tmp_path).is_current({}, "tex", str, ())
+    assert not Manifest(tmp_path, complete=True).is_current({}, "tex", str, ()), "the documents of the set are missing"
+
+
+def test_a_document_is_older_as_soon_as_a_file_of_any_of_its_problems_or_a_word_is_another(tmp_path: Path) -> None:
+    record = Manifest(tmp_path, ["one", "two"], set_inputs={"set": "1"}, inputs={"one": {"a": "1"}, "two": {"b": "1"}})
+    record.pages = {"one": "page", "two": "page"}
+    words = {"templates/words": "1"}
+    for name in ("one", "solutions"):
+        record.was_typeset(name, {**words, "--detail": "full"}, "tex")
+        (tmp_path / f"{name}.pdf").touch()
+
+    def older(recipe: dict[str, str], **now: str) -> list[str]:
+        read = {"set": "1", "a": "1", "b": "1", **now}.__getitem__
+        return [name for name in ("one", "solutions", "key") if record.is_older(name, recipe, read)]
+
+    assert older(words) == [], "how much is shown is not asked"
+    assert older(words, b="2") == ["solutions"]
+    assert older(words, a="2") == older(words, set="2") == older({"templates/words": "2"}) == ["one", "solutions"]
+
+
+def test_a_paper_that_the_set_no_longer_has_is_taken_away(tmp_path: Path) -> None:
+    record = Manifest(tmp_path, papers=[["solutions", "hw1"], ["key", "key"]])
+    for name in ("hw1.pdf", "hw1.tex", "key.pdf"):
+        (tmp_path / name).write_text("ours")
+        record.outputs[name] = digest("ours")
+    record.replace_papers([["solutions", "solutions"], ["key", "key"]])
+    assert [file.name for file in tmp_path.iterdir()] == ["key.pdf"]
+    assert record.documents == ["solutions", "key", "index"]
 
 
 def test_an_output_is_taken_away_only_as_it_was_written(tmp_path: Path) -> None:

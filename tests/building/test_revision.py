@@ -8,7 +8,7 @@ import pytest
 
 from derive.building.revision import course_at
 from derive.errors import Misused
-from tests.building.repository import committed
+from tests.building.repository import committed, git
 
 
 def course(root: Path, said: str = "first") -> Path:
@@ -45,6 +45,30 @@ def test_a_course_below_the_top_of_its_repository_has_its_own_templates(tmp_path
     with course_at(root, "HEAD", "hw1") as then:
         assert (then / "templates" / "words.yaml").read_text() == "then"
         assert (then / "problems" / "hw1" / "one.yaml").read_text() == "first"
+
+
+def test_no_program_that_a_repository_names_is_run(tmp_path: Path) -> None:
+    """Such as one that git would pass files through when it puts them into a working tree."""
+    root = course(tmp_path)
+    (root / ".gitattributes").write_text("* filter=own\n")
+    committed(root)
+    taken = root / "taken"
+    for key in ("filter.own.smudge", "filter.own.process", "core.fsmonitor", "core.pager", "tar.tar.command"):
+        git(root, "config", key, f"touch {taken}; cat")
+    with course_at(root, "HEAD", "hw1") as then:
+        assert (then / "problems" / "hw1" / "one.yaml").read_text() == "first"
+    assert not taken.exists()
+
+
+def test_files_of_any_content_come_as_they_were_committed(tmp_path: Path) -> None:
+    root = course(tmp_path)
+    contents = {"two.yaml": b"", "three.yaml": b"a\r\n\0b\n\n", "four.yaml": b"$Id$ $Format:%H$"}
+    (root / ".gitattributes").write_text("four.yaml export-subst ident\nthree.yaml export-ignore text eol=lf\n")
+    for name, content in contents.items():
+        (root / "problems" / "hw1" / name).write_bytes(content)
+    with course_at(committed(root), "HEAD", "hw1") as then:
+        found = {name: (then / "problems" / "hw1" / name).read_bytes() for name in contents}
+    assert found == contents | {"three.yaml": b"a\n\0b\n\n"}, "git itself ends lines so when it commits"
 
 
 def test_a_link_is_left_out(tmp_path: Path) -> None:

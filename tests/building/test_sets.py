@@ -243,6 +243,77 @@ def test_make_is_told_nothing_by_a_build_that_failed(course: Course) -> None:
     assert not (course.outputs / ".built").exists()
 
 
+def test_make_is_told_nothing_while_a_document_is_older_than_its_problem(course: Course) -> None:
+    build(course)
+    course.problem("one", "edited")
+    report = build(course, Options(papers=("key",)))
+    (warning,) = report.warnings
+    assert warning.message == (
+        "older than the problems, and not made again: `solutions.pdf`, `problems.pdf`, `report.pdf` in `build/hw1`"
+    )
+    assert warning.help == "`derive build hw1` makes them again"
+    assert not (course.outputs / ".built").exists()
+    assert build(course).warnings == []
+    assert "edited" in (course.outputs / "solutions.pdf").read_text()
+    assert (course.outputs / ".built").exists()
+
+
+def test_a_build_of_one_problem_says_what_it_leaves_older(course: Course) -> None:
+    assert build(course, Options(only=("one",))).warnings == [], "there is nothing yet that could be older"
+    build(course)
+    course.problem("one", "edited")
+    course.problem("two", "edited too")
+    (warning,) = build(course, Options(only=("one",))).warnings
+    assert "`two.pdf`, `solutions.pdf`" in warning.message
+    assert not (course.outputs / ".built").exists()
+
+
+def test_a_paper_that_was_asked_for_is_made_again_by_each_later_build(course: Course) -> None:
+    build(course, Options(papers=("solutions", "key")))
+    course.problem("one", "edited")
+    assert build(course).warnings == []
+    assert "key of hw1/one" in (course.outputs / "key.pdf").read_text()
+    before = course.contents()
+    course.typeset()
+    assert (build(course, Options(papers=("key",))).changed, course.typeset()) == ([], [])
+    course.heading("two", "one")
+    build(course)
+    after = course.contents()
+    assert {name for name in after if before[name] != after[name]} >= {"key.pdf", "key.html", "solutions.pdf"}
+
+
+def test_a_paper_that_was_asked_for_and_is_removed_does_not_come_back(course: Course) -> None:
+    build(course, Options(papers=("key",)))
+    build(course)
+    (course.outputs / "key.pdf").unlink()
+    build(course)
+    assert not [*course.outputs.glob("key*")]
+    assert "build/hw1/key.pdf" not in (course.outputs / ".outputs").read_text()
+
+
+def test_a_first_build_of_one_paper_leaves_the_others_for_the_next(course: Course) -> None:
+    build(course, Options(papers=("key",)))
+    assert not (course.outputs / ".built").exists()
+    assert not (course.outputs / "solutions.pdf").exists()
+    build(course)
+    assert {"solutions.pdf", "problems.pdf", "report.pdf", "key.pdf"} <= set(course.contents())
+
+
+def test_a_paper_that_the_set_calls_otherwise_leaves_no_older_file(course: Course) -> None:
+    build(course)
+    file = course.folder / "set.yaml"
+    file.write_text(file.read_text() + "papers: {solutions: hw1-solutions}\n")
+    build(course)
+    assert {name for name in course.contents() if name.endswith(".pdf")} == {"hw1-solutions.pdf", "one.pdf", "two.pdf"}
+
+
+def test_two_papers_may_not_have_one_name(course: Course) -> None:
+    file = course.folder / "set.yaml"
+    file.write_text(file.read_text() + "papers: {solutions: key}\n")
+    with pytest.raises(Misused, match="two papers of `hw1` would be called `key`"):
+        build(course, Options(papers=("key",)))
+
+
 def test_the_stamp_is_as_old_as_the_beginning_of_the_build(course: Course) -> None:
     build(course)
     assert (course.outputs / ".built").stat().st_mtime_ns < (course.outputs / "one.pdf").stat().st_mtime_ns
@@ -252,7 +323,7 @@ def test_a_second_build_waits_and_says_so(course: Course) -> None:
     build(course)
     code = "import fcntl, sys; f = open(sys.argv[1], 'w'); fcntl.lockf(f, fcntl.LOCK_EX); print(1, flush=True); input()"
     lock = str(course.outputs / ".lock")
-    other = subprocess.Popen([sys.executable, "-c", code, lock], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    other = subprocess.Popen([sys.executable, "-P", "-c", code, lock], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert other.stdin and other.stdout
     other.stdout.readline()
     said: list[str] = []
@@ -283,6 +354,16 @@ def test_a_drawing_may_not_have_the_name_of_another_output(course: Course) -> No
     report = build(course)
     assert codes(report) == ["file-clash"]
     assert "the drawing `one-axes.pdf` of `one` would have the name of another output" in report.complaints[0].message
+
+
+def test_a_drawing_may_not_have_the_name_of_a_paper(course: Course) -> None:
+    file = course.folder / "set.yaml"
+    file.write_text(file.read_text() + "papers: {solutions: one-axes}\n")
+    course.problem("one", "draws")
+    report = build(course)
+    assert codes(report) == ["file-clash"]
+    assert "the drawing `one-axes.pdf` of `one`" in report.complaints[0].message
+    assert (course.outputs / "one-axes.pdf").read_text() == "draws"
 
 
 # --- how much a set tells of its checks ---

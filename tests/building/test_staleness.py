@@ -122,8 +122,8 @@ def test_another_engine_concerns_pdfs_alone(course: Course) -> None:
 
 def test_other_modules_and_packages_are_told(course: Course) -> None:
     record = Manifest.read(course.outputs)
-    (recipe,) = record.recipes.values()
-    recipe.update({"sympy": "1.0", "the modules of derive": "other"})
+    for recipe in record.recipes.values():
+        recipe.update({"sympy": "1.0", "the modules of derive": "other"})
     record.save()
     modules, sympy = sorted(told(course, "hw1/one").reasons)
     assert modules == "derive itself has changed"
@@ -150,6 +150,61 @@ def test_a_fault_keeps_documents_stale_until_it_is_mended(course: Course) -> Non
     course.problem("one", "first")
     built(course)
     assert told(course, "hw1").reasons == ()
+
+
+def test_a_page_that_tex_refused_is_stale_also_in_the_next_build_of_another(course: Course) -> None:
+    course.problem("one", "BAD")
+    assert built_set(course.root, "hw1", Options(), lambda _: None).failed
+    built(course, only=("two",))
+    assert told(course, "build/hw1/one.pdf").reasons == ("`problems/hw1/one.yaml` has changed",)
+
+
+def carried_out(course: Course, found: Staleness) -> None:
+    """The command that the answer names."""
+    command = found.mends[0].partition("`derive build ")[2].removesuffix("`").split()
+    what, *options = command
+    only = (what.partition("/")[2],) if "/" in what else ()
+    built(course, only=only, papers=tuple(options[1].split(",")) if options[:1] == ["--only"] else ())
+
+
+def test_a_paper_that_was_never_made_is_told_with_the_command_that_makes_it(course: Course) -> None:
+    found = told(course, "build/hw1/key.pdf")
+    assert found.reasons == ("the document `key` of `hw1` has not been made",)
+    assert found.mends == ("to bring it up to date: `derive build hw1 --only key`",)
+    carried_out(course, found)
+    assert told(course, "build/hw1/key.pdf").reasons == ()
+
+
+@pytest.mark.parametrize("name", ["key.pdf", "key.html", "solutions.pdf", "index.html", "one.pdf"])
+def test_the_command_that_is_named_works_for_papers_that_were_asked_for_before(course: Course, name: str) -> None:
+    built(course, papers=("key",))
+    edited(course)
+    found = told(course, f"build/hw1/{name}")
+    assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
+    carried_out(course, found)
+    assert told(course, f"build/hw1/{name}").reasons == ()
+
+
+def test_what_another_paper_alone_was_made_from_says_nothing_of_this_one(course: Course) -> None:
+    edited(course)
+    built(course, papers=("key",))
+    assert told(course, "build/hw1/key.pdf").reasons == told(course, "build/hw1/one.pdf").reasons == ()
+    found = told(course, "build/hw1/solutions.pdf")
+    assert found.reasons == ("`problems/hw1/one.yaml` has changed",)
+    carried_out(course, found)
+    assert told(course, "hw1").reasons == ()
+
+
+def test_a_problem_that_the_set_does_not_list_is_told_so(course: Course) -> None:
+    course.problem("three", "third")
+    found = told(course, "hw1/three")
+    assert found.reasons == ("the set `hw1` does not list `three`",)
+    assert found.mends == (
+        "to bring it up to date: list `three` in `problems/hw1/set.yaml`, then `derive build hw1/three`",
+    )
+    course.heading("one", "two", "three")
+    carried_out(course, found)
+    assert told(course, "hw1/three").reasons == ()
 
 
 def test_of_very_many_reasons_the_first_are_told(course: Course) -> None:

@@ -207,7 +207,7 @@ def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_pa
     root = course_in(tmp_path / "real", problem="euler")
     (root / "templates").unlink()
     shutil.copytree(ROOT / "templates", root / "templates")
-    arguments = [sys.executable, "-m", "derive", "build", "--watch", "hw9/euler"]
+    arguments = [sys.executable, "-P", "-m", "derive", "build", "--watch", "hw9/euler"]
     process = Process(arguments, alone_in(root))
     process.until("derived 1 of 1")
     page = root / "build" / "hw9" / "euler.tex"

@@ -16,7 +16,19 @@ from typing import Any
 
 import pytest
 
-from derive.building.workers import Bug, Crew, Job, done, job_of, memory_limit, under_way, verb_in
+from derive.building.workers import (
+    Bug,
+    Crew,
+    Job,
+    done,
+    job_of,
+    memory_limit,
+    overtaxed,
+    told_to,
+    too_long,
+    under_way,
+    verb_in,
+)
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from tests.courses import ROOT
 
@@ -75,6 +87,46 @@ def test_what_took_too_long_is_named_where_the_engine_itself_has_the_script() ->
     assert verb_in(trace.replace("/stock/", "/course/")) is None
 
 
+def test_what_a_document_states_is_blamed_on_its_own_file(tmp_path: Path) -> None:
+    """And a script that is run for what a document gives still on its own line."""
+    folder = tmp_path / "problems" / "hw1" / "topic"
+    folder.mkdir(parents=True)
+    (folder / "block.yaml").write_text("")
+    job = job_of(tmp_path, "hw1/block", lambda: None, 1)
+    lines = ("/x/sympy/core/mul.py", "/x/derive/course/reference/agreement.py")
+    trace = "".join(f'  File "{line}", line 7 in x\n' for line in lines)
+
+    def blamed(trace: str) -> list[str]:
+        told = [too_long(job, trace), overtaxed(job, "too-deep", trace), overtaxed(job, "memory-limit", trace)]
+        return sorted({complaint.place.path for each in told for complaint in each.complaints if complaint.place})
+
+    own = "problems/hw1/topic/block.yaml"
+    assert blamed(trace) == [own], "it states something in its own file"
+    (folder.parent / "reference.yaml").write_text("")
+    assert blamed(trace) == ["problems/hw1/reference.yaml"]
+    assert blamed("") == [own]
+    assert blamed(f'  File "{folder}/block.py", line 1 in solve\n{trace}') == ["problems/hw1/topic/block.py"]
+
+
+def test_a_recursion_says_where_it_began() -> None:
+    def deep(n: int) -> int:
+        return deep(n + 1)
+
+    def where_it_began() -> int:
+        return deep(0)
+
+    ours, theirs = os.pipe()
+    with pytest.raises(RecursionError) as caught:
+        where_it_began()
+    assert told_to(theirs, caught.value) == "too-deep"
+    told = os.read(ours, 1 << 16).decode()
+    assert told.count("test_workers.py") > 80
+    lines = [line for line in told.splitlines() if "test_workers.py" in line]
+    assert lines[0] != lines[-1]
+    os.close(ours)
+    os.close(theirs)
+
+
 def test_a_worker_that_is_killed_is_told_with_its_file(tmp_path: Path) -> None:
     with pytest.raises(BuildFailed) as caught:
         done(job_of(tmp_path, "hw1/block", lambda: os.kill(os.getpid(), 9)))
@@ -102,7 +154,7 @@ def test_an_interrupt_during_a_fork_is_not_lost() -> None:
         "try: done(Job('x', lambda: 1)); print('lost')\n"
         "except KeyboardInterrupt: print('heard')\n"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT)
+    run = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, cwd=ROOT)
     assert run.stdout == "heard\n"
 
 
@@ -110,7 +162,7 @@ def test_a_worker_does_not_hold_the_lock_of_its_build(tmp_path: Path) -> None:
     held: list[bool] = []
     with open(tmp_path / "lock", "w") as lock:
         code = "import fcntl, sys; fcntl.lockf(open(sys.argv[1], 'w'), fcntl.LOCK_EX | fcntl.LOCK_NB)"
-        probe = [sys.executable, "-c", code, str(tmp_path / "lock")]
+        probe = [sys.executable, "-P", "-c", code, str(tmp_path / "lock")]
 
         def while_it_works(_: list[str]) -> None:
             fcntl.lockf(lock, fcntl.LOCK_EX)
@@ -201,17 +253,19 @@ def test_killing_a_worker_takes_its_programs_along(tmp_path: Path) -> None:
     assert is_gone(int(note.read_text()))
 
 
-def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+@pytest.mark.parametrize("body", ["time.sleep(60)", "3 ** (10**9)"])
+def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path, body: str) -> None:
+    """Also in the middle of one instruction, beside which no thread of Python runs."""
     note = tmp_path / "pid"
     code = (
         "import os, pathlib, sys, time\n"
         "from derive.building.workers import Job, done\n"
         "def work():\n"
         "    pathlib.Path(sys.argv[1]).write_text(str(os.getpid()))\n"
-        "    time.sleep(60)\n"
+        f"    {body}\n"
         "done(Job('sleeper', work))\n"
     )
-    parent = subprocess.Popen([sys.executable, "-c", code, str(note)])
+    parent = subprocess.Popen([sys.executable, "-P", "-c", code, str(note)])
     for _ in range(500):
         if note.is_file() and note.read_text():
             break
@@ -221,8 +275,8 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     assert is_gone(int(note.read_text()))
 
 
-def is_gone(pid: int) -> bool:
-    for _ in range(500):
+def is_gone(pid: int, seconds: float = 10) -> bool:
+    for _ in range(max(1, round(seconds / 0.02))):
         try:
             os.kill(pid, 0)
         except ProcessLookupError:

@@ -21,7 +21,7 @@ STAND_IN = f"{STARTED}; m = pytest.MonkeyPatch(); fake_course.replace_derivation
 
 
 def command(*arguments: str) -> list[str]:
-    return [sys.executable, "-c", STAND_IN, str(Path(__file__).parents[1]), *arguments]
+    return [sys.executable, "-P", "-c", STAND_IN, str(Path(__file__).parents[1]), *arguments]
 
 
 def alone(course: Course) -> dict[str, str]:

@@ -23,7 +23,7 @@ def completed(course: Course, line: str) -> list[str]:
     asks = {"_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": "\n"}
     answer = course.root / "answer.txt"
     asks |= {"_ARGCOMPLETE_STDOUT_FILENAME": str(answer), "_ARGCOMPLETE_SUPPRESS_SPACE": "1"}
-    subprocess.run([sys.executable, "-c", RUN], env={**alone(course), **asks}, check=False, capture_output=True)
+    subprocess.run([sys.executable, "-P", "-c", RUN], env={**alone(course), **asks}, check=False, capture_output=True)
     return sorted(answer.read_text().split())
 
 
@@ -89,7 +89,7 @@ def test_completion_takes_no_longer_than_a_fifth_of_a_second_and_loads_nothing_t
     assert min(seconds() for _ in range(5)) < 0.2
     asks = {"_ARGCOMPLETE": "1", "COMP_LINE": "derive solve ", "COMP_POINT": "13"}
     asks["_ARGCOMPLETE_STDOUT_FILENAME"] = str(course.root / "answer.txt")
-    run = [sys.executable, "-X", "importtime", "-c", RUN]
+    run = [sys.executable, "-P", "-X", "importtime", "-c", RUN]
     loaded = subprocess.run(run, env={**alone(course), **asks}, check=False, capture_output=True, text=True).stderr
     assert "argcomplete" in loaded
     assert not [name for name in ("sympy", "yaml", "jinja2", "matplotlib") if f"| {name}\n" in loaded]

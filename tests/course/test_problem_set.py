@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.course.problem import load_problem
-from derive.course.problem_set import problem_ids, problem_paths, problem_set, set_ids, topic_of
+from derive.course.problem_set import found_path, problem_ids, problem_paths, problem_set, set_ids, topic_of
 from derive.errors import DeriveError, Misused, Rejected
 from tests.course.problem_file import PROBLEM, at
 
@@ -93,3 +93,14 @@ def test_a_set_says_how_much_its_solutions_tell_of_their_checks(tmp_path: Path) 
     with pytest.raises(Rejected) as refused:
         problem_set(root, "hw9")
     assert refused.value.complaints[0].message == "`evidence` must be none, end or margin, but it is `below`"
+
+
+def test_one_problem_is_found_where_the_list_of_all_has_it(tmp_path: Path) -> None:
+    top = tmp_path / "problems"
+    for name in ("hw1/one", "hw1/topic/two", "hw1/one/one", "hw1/a/two", "hw1/b c/three", "hw1/x/y/four", "hw1/set"):
+        (top / name).parent.mkdir(parents=True, exist_ok=True)
+        (top / f"{name}.yaml").write_text("")
+    listed = problem_paths(tmp_path)
+    assert len(listed) == 2
+    for name in (*listed, *["hw1/three", "hw1/four", "hw1/set", "hw1/no", "hw2/one", "hw1", "hw1/*", "../hw1/one"]):
+        assert found_path(tmp_path, name) == listed.get(name)

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from derive.course.yaml_tree import Mapping, Scalar, Sequence, Source, read_yaml, yaml_tree
+from derive.course.yaml_tree import Mapping, Scalar, Sequence, Source, as_text, read_yaml, yaml_tree
 from derive.errors import Complaint, Faults, Rejected, nearest
+from tests.courses import ROOT
 
 
 def tree(text: str) -> Mapping:
@@ -240,3 +241,22 @@ def test_faults_are_collected_once_and_let_other_errors_through() -> None:
     with pytest.raises(Rejected) as caught:
         faults.stop()
     assert [complaint.message for complaint in caught.value.complaints] == ["said once"]
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "problems").rglob("*.yaml")), ids=lambda path: path.name)
+def test_what_is_only_looked_at_reads_the_same(path: Path) -> None:
+    quick, slow = read_yaml(path, "x.yaml", quickly=True), read_yaml(path, "x.yaml")
+    assert as_text(quick) == as_text(slow)
+
+
+@pytest.mark.parametrize(
+    "text", ["a: [1", "a: *b", "a: &b c", "a: !t b", "<<: {a: b}", "a: b\na: c", "--- a\n--- b", "[[" * 20]
+)
+def test_what_is_only_looked_at_has_the_complaints_of_what_is_read(tmp_path: Path, text: str) -> None:
+    (tmp_path / "x.yaml").write_text(text)
+    said = []
+    for quickly in (True, False):
+        with pytest.raises(Rejected) as caught:
+            read_yaml(tmp_path / "x.yaml", "x.yaml", quickly)
+        said.append(str(caught.value))
+    assert said[0] == said[1]

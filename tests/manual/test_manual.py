@@ -97,7 +97,7 @@ class Reader:
 
     def served(self, arguments: list[str]) -> str:
         """Its first line; that the page is served is tested in tests/preview."""
-        started = [sys.executable, "-m", "derive", *arguments, "--port", "0"]
+        started = [sys.executable, "-P", "-m", "derive", *arguments, "--port", "0"]
         with subprocess.Popen(started, cwd=self.root, stdout=subprocess.PIPE, text=True) as server:
             assert server.stdout is not None
             line = server.stdout.readline()

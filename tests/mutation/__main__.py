@@ -1,4 +1,4 @@
-"""`python -m tests.mutation [--module M] [--sample N --seed S]`: every mutant or a sample, and what became of it."""
+"""`python -P -m tests.mutation [--module M] [--sample N --seed S]`: every mutant or a sample, and what became of it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.mutation.trial import Trials, Verdict
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -P -m tests.mutation", description=__doc__)
     parser.add_argument(
         "--module", action="append", choices=MODULES, help="only this module, such as mechanics.rolling"
     )

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
+import subprocess
+import sys
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from derive.preview.asking import Shown, Warm
-from tests.courses import PINNED, course_in
+from tests.building.test_workers import is_gone
+from tests.courses import PINNED, ROOT, course_in
 
 ENDLESS = "while True:\n        pass"
 DYING = "import os\n\n    os._exit(1)"
+GREEDY = "bytearray(10**11)"
+DEEP = "deep = lambda: deep()\n    deep()"
+# In one instruction of the interpreter, beside which no thread of it runs.
+BUSY = "3 ** (10**9)"
 
 
 @pytest.fixture
@@ -39,26 +50,117 @@ def asked(warm: Warm) -> Shown:
 
 def test_one_process_answers_one_question_after_another(warm: Warm) -> None:
     assert asked(warm).main
-    first = warm._process
-    assert asked(warm).main and warm._process is first
+    first = warm._worker
+    assert asked(warm).main and warm._worker is first
 
 
-def test_what_takes_too_long_is_ended_and_told_and_the_next_question_is_answered(warm: Warm) -> None:
+@pytest.mark.parametrize(
+    ("lines", "code", "said"),
+    [
+        (ENDLESS, "time-limit", "`hw9/block` took over 3 s"),
+        (BUSY, "time-limit", "`hw9/block` took over 3 s"),
+        (GREEDY, "memory-limit", "`hw9/block` took over 0.5 GiB of memory"),
+        (DEEP, "script", "the script failed: RecursionError"),
+        (DYING, "worker-died", "`hw9/block` ended without a word: exit code 1"),
+    ],
+)
+def test_what_gives_no_answer_is_told_at_its_line_as_in_a_build_and_the_next_question_is_answered(
+    warm: Warm, monkeypatch: pytest.MonkeyPatch, lines: str, code: str, said: str
+) -> None:
+    monkeypatch.setenv("DERIVE_MEMORY", "0.5")
+    assert asked(warm).main
     warm.limit = 3
-    begins_with(warm, ENDLESS)
-    assert "took over 3 s" in asked(warm).complaints[0]
+    begins_with(warm, lines)
+    (complaint,) = asked(warm).complaints
+    assert f"error[{code}]: {said}" in complaint
+    place = "problems/hw9/block.yaml:1:1:" if code == "worker-died" else "problems/hw9/block.py:"
+    assert complaint.startswith(place)
     warm.limit = 30
     begins_with(warm, "")
     assert asked(warm).main
 
 
+def test_a_script_that_reads_or_writes_whatever_is_open_disturbs_no_answer(warm: Warm) -> None:
+    begins_with(warm, "import os, sys\n    print('chatter')\n    os.write(1, b'{}\\n')\n    sys.stdin.read()")
+    assert asked(warm).main
+
+
+@pytest.mark.parametrize("garbage", ["chatter", "{}\\n", "\\n", "[\\n", '{"number": 7, "main": "x"}\\n'])
+def test_what_a_script_writes_into_a_descriptor_is_no_answer(warm: Warm, garbage: str) -> None:
+    write = "for each in range(3, 40):\n        try: os.write(each, b'" + garbage + "')\n        except OSError: pass"
+    begins_with(warm, f"import os\n    {write}")
+    assert "`hw9/block` has written where its process gives its answers" in asked(warm).complaints[0]
+    begins_with(warm, "")
+    assert asked(warm).main
+
+
+def test_half_an_answer_is_not_waited_for_without_end(warm: Warm) -> None:
+    warm.limit = 3
+    half = "for each in range(3, 40):\n        try: os.write(each, b'half')\n        except OSError: pass"
+    begins_with(warm, f"import os\n    {half}\n    {ENDLESS}")
+    assert "took over 3 s" in asked(warm).complaints[0]
+
+
+def test_after_its_end_there_is_no_worker_and_no_answer(warm: Warm) -> None:
+    begins_with(warm, ENDLESS)
+    found: list[Shown | None] = []
+    thread = threading.Thread(target=lambda: found.append(warm.page("hw9/block", None)))
+    thread.start()
+    time.sleep(1)
+    worker = warm._worker
+    warm.end()
+    thread.join(10)
+    assert found == [None]
+    assert worker and is_gone(worker.process)
+    assert warm.page("hw9/block", None) is None
+    assert warm._worker is None
+
+
+def test_with_too_few_descriptors_there_is_a_complaint_and_none_is_lost(
+    warm: Warm, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(*_: object, **__: object) -> None:
+        raise OSError(24, "Too many open files")
+
+    before = len(os.listdir("/proc/self/fd"))
+    monkeypatch.setattr(subprocess, "Popen", refused)
+    assert "too many files are open" in asked(warm).complaints[0]
+    monkeypatch.undo()
+    pipes = iter([os.pipe(), os.pipe()])
+    monkeypatch.setattr(os, "pipe", lambda: next(pipes, None) or refused())
+    assert "too many files are open" in asked(warm).complaints[0]
+    monkeypatch.undo()
+    assert len(os.listdir("/proc/self/fd")) == before
+    assert asked(warm).main
+
+
+# A server with a worker at work, of which it says the number.
+SERVER = """
+import sys, threading, time
+from pathlib import Path
+from derive.preview.asking import Warm
+warm = Warm(Path(sys.argv[1]), 60)
+threading.Thread(target=lambda: warm.page("hw9/block", None), daemon=True).start()
+time.sleep(3)
+print(warm._worker.process, flush=True)
+time.sleep(60)
+"""
+
+
+@pytest.mark.parametrize("signum", [signal.SIGKILL, signal.SIGHUP])
+@pytest.mark.parametrize("lines", [ENDLESS, BUSY])
+def test_a_worker_ends_with_a_server_that_is_killed(tmp_path: Path, signum: int, lines: str) -> None:
+    begins_with(Warm(course_in(tmp_path), limit=60), lines)
+    command = [sys.executable, "-P", "-c", SERVER, str(tmp_path)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdout
+        worker = int(server.stdout.readline())
+        assert not is_gone(worker, 0.1)
+        server.send_signal(signum)
+    assert is_gone(worker)
+
+
 def test_what_is_idle_by_a_newer_edit_is_given_up(warm: Warm) -> None:
     begins_with(warm, ENDLESS)
     assert warm.page("hw9/block", None, lambda: True) is None
-
-
-def test_a_worker_that_dies_is_told_of_and_replaced(warm: Warm) -> None:
-    begins_with(warm, DYING)
-    assert "ended its process" in asked(warm).complaints[0]
-    begins_with(warm, "")
-    assert asked(warm).main

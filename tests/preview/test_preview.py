@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -17,6 +19,7 @@ import pytest
 import derive.preview.preview
 from derive.preview.server import Pages, Server, server
 from tests.browser import browser_page
+from tests.building.test_workers import is_gone
 from tests.courses import ROOT, course_in
 
 
@@ -29,14 +32,30 @@ class Preview:
     """The command while it runs, and where it serves."""
 
     def __init__(self, root: Path):
-        command = [sys.executable, "-m", "derive", "--root", str(root), "preview", "hw9/block", "--port", "0"]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT, env=os.environ)
+        command = [sys.executable, "-P", "-m", "derive", "--root", str(root), "preview", "hw9/block", "--port", "0"]
+        pipe = subprocess.PIPE
+        self.process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, cwd=ROOT, env=os.environ)
         assert self.process.stdout
         self.address = self.process.stdout.readline().split()[0]
+        self.port = int(self.address.split(":")[2].partition("/")[0])
 
-    def ended(self) -> int:
-        self.process.send_signal(signal.SIGINT)
+    def asked(self) -> socket.socket:
+        """Somebody who waits for the page."""
+        connection = socket.create_connection(("127.0.0.1", self.port), timeout=30)
+        connection.sendall(b"GET /block.html HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+        return connection
+
+    def workers(self) -> list[int]:
+        own = f"/proc/{self.process.pid}/task"
+        return [int(each) for task in os.listdir(own) for each in Path(own, task, "children").read_text().split()]
+
+    def ended(self, signum: int = signal.SIGINT) -> int:
+        self.process.send_signal(signum)
         return self.process.wait(10)
+
+    def said(self) -> str:
+        assert self.process.stderr
+        return self.process.stderr.read()
 
 
 @pytest.fixture
@@ -51,6 +70,67 @@ def preview(course: Path) -> Iterator[Preview]:
 def test_an_interrupt_ends_it_cleanly_with_its_worker(preview: Preview) -> None:
     assert preview.address.startswith("http://127.0.0.1:")
     assert preview.ended() == 0
+
+
+def endless(course: Path, before: str = "") -> None:
+    script = course / "problems" / "hw9" / "block.py"
+    lines = f"    {before}\n    while True:\n        pass\n"
+    script.write_text(re.sub(r"(def solve\(.*?\):\n)", rf"\1{lines}", script.read_text(), flags=re.DOTALL))
+
+
+@pytest.mark.parametrize("signum", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
+    preview: Preview, course: Path, signum: int
+) -> None:
+    endless(course)
+    with preview.asked():
+        time.sleep(2)
+        (worker,) = preview.workers()
+        assert preview.ended(signum) == 0
+    assert is_gone(worker)
+    assert preview.said() == ""
+
+
+def test_its_worker_ends_with_it_when_it_is_killed(preview: Preview, course: Path) -> None:
+    endless(course)
+    with preview.asked():
+        time.sleep(2)
+        (worker,) = preview.workers()
+        preview.ended(signal.SIGKILL)
+    assert is_gone(worker)
+
+
+def test_it_serves_on_when_nobody_reads_what_it_says(preview: Preview, course: Path) -> None:
+    assert preview.process.stdout
+    preview.process.stdout.close()
+    for title in ("A brick", "A homogeneous brick"):
+        file = course / "problems" / "hw9" / "block.yaml"
+        file.write_text(re.sub("^title: .*$", f"title: {title}", file.read_text(), flags=re.MULTILINE))
+        time.sleep(0.5)
+        with preview.asked() as connection:
+            assert title.encode() in b"".join(iter(lambda: connection.recv(1 << 16), b""))
+    assert preview.ended() == 0
+    assert preview.said() == ""
+
+
+def test_an_edit_for_which_there_are_too_few_descriptors_does_not_end_it(
+    course: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    edits = 0
+
+    def refused(*_: object) -> None:
+        raise OSError(24, "Too many open files")
+
+    def edited(root: Path) -> Iterator[object]:
+        nonlocal edits
+        for _ in range(2):
+            edits += 1
+            monkeypatch.setattr(derive.preview.preview, "problem_set", refused)
+            yield
+
+    monkeypatch.setattr(derive.preview.preview, "_edits", edited)
+    derive.preview.preview.preview(course, "hw9", "", 0, None, 60, lambda at: None, lambda name, shown: None)
+    assert edits == 2
 
 
 def test_a_problem_that_the_set_lists_anew_has_a_page(course: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -89,16 +169,32 @@ def test_the_open_page_follows_the_file_keeps_its_place_and_shows_faults(preview
     text = file.read_text()
     with browser_page() as page:
         page.goto(preview.address, timeout=60_000)
-        page.wait_for_function("document.body.dataset.edition >= 1")
+        page.wait_for_selector("body[data-edition]")
         page.evaluate("scrollTo(0, 900)")
         time.sleep(0.2)
         file.write_text(text.replace("A uniform block", "A homogeneous brick"))
-        page.wait_for_function("document.querySelector('main').textContent.includes('A homogeneous brick')")
+        page.wait_for_selector("main:has-text('A homogeneous brick')")
         assert abs(page.evaluate("scrollY") - 900) < 60
         file.write_text(text.replace("points:", "pints:", 1))
-        page.wait_for_function("!document.getElementById('complaints').hidden")
+        page.wait_for_selector("#complaints", state="visible")
         assert "did you mean `points`?" in page.inner_text("#complaints")
         assert "A homogeneous brick" in page.inner_text("main")
         file.write_text(text)
-        page.wait_for_function("document.getElementById('complaints').hidden")
+        page.wait_for_selector("#complaints", state="hidden")
         assert "A uniform block" in page.inner_text("main")
+
+
+@pytest.mark.browser
+def test_a_page_has_its_style_its_drawings_and_its_script_and_may_run_no_other(preview: Preview) -> None:
+    with browser_page() as page:
+        refused: list[str] = []
+        page.on("console", lambda said: refused.append(said.text) if "Content Security Policy" in said.text else None)
+        page.goto(preview.address, timeout=60_000)
+        page.wait_for_selector("body[data-edition]")
+        assert page.evaluate("getComputedStyle(document.querySelector('math')).fontFamily").startswith('"derive math"')
+        assert page.evaluate("[...document.fonts].some((font) => font.status === 'loaded')")
+        assert [each for each in refused if "favicon" not in each] == []
+        page.evaluate("document.querySelector('main').innerHTML = '<img src=x onerror=document.title=\\'taken\\'>'")
+        page.wait_for_timeout(300)
+        assert page.title() != "taken"
+        assert refused

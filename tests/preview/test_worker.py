@@ -68,17 +68,17 @@ def test_an_edit_of_what_the_set_or_a_document_says_is_in_the_next_answer(tmp_pa
     assert answer(root, ASKED)["main"] != before
     (root / "problems" / "hw9" / "reference.yaml").write_text("entries")
     (complaint,) = answer(root, ASKED)["complaints"]
-    assert complaint["shown"].startswith("problems/hw9/reference.yaml:1:1: error")
+    assert complaint.startswith("problems/hw9/reference.yaml:1:1: error")
 
 
 def test_a_fault_is_told_with_its_place_and_not_raised(tmp_path: Path) -> None:
     said = answer(course_in(tmp_path, {"mass: M\n": "mass: a\n"}), ASKED)
     assert "main" not in said
     (complaint,) = said["complaints"]
-    assert complaint["code"] == "wrong-kind" and complaint["shown"].startswith("problems/hw9/block.yaml:")
+    assert complaint.startswith("problems/hw9/block.yaml:") and "error[wrong-kind]" in complaint
 
 
 def test_a_script_that_ends_its_program_does_not_end_the_worker(tmp_path: Path) -> None:
     root = course_in(tmp_path, script={"def solve(": "raise SystemExit(3)\n\n\ndef solve("})
     (complaint,) = answer(root, ASKED)["complaints"]
-    assert complaint["shown"]
+    assert "the script" in complaint or "SystemExit" in complaint

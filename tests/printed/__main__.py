@@ -1,4 +1,4 @@
-"""`python -m tests.printed --draws 200`: so many variants of every problem, each line of each read back.
+"""`python -P -m tests.printed --draws 200`: so many variants of every problem, each line of each read back.
 
 A draw that the door refuses is counted apart. Every misprint is told once, with the variant that has it.
 """
@@ -18,7 +18,7 @@ from tests.printed.lines import Count
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m tests.printed", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -P -m tests.printed", description=__doc__)
     parser.add_argument("--draws", type=int, default=20, help="variants of each problem")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--limit", type=int, default=25, help="seconds of the processor for one variant")

@@ -1,6 +1,6 @@
 """What is printed is what was derived: every line is read back, from LaTeX and from text, and compared.
 
-`python -m tests.printed --draws 200` does it for as many variants of every problem.
+`python -P -m tests.printed --draws 200` does it for as many variants of every problem.
 """
 
 from __future__ import annotations

@@ -50,4 +50,4 @@ def test_setting_letters_starts_no_thread_and_no_window() -> None:
         "alone = not os.path.isdir('/proc/self/task') or len(os.listdir('/proc/self/task')) == 1; "
         "sys.exit(not alone or 'matplotlib.pyplot' in sys.modules or 'matplotlib.figure' in sys.modules)"
     )
-    assert subprocess.run([sys.executable, "-c", program], cwd=ROOT).returncode == 0
+    assert subprocess.run([sys.executable, "-P", "-c", program], cwd=ROOT).returncode == 0

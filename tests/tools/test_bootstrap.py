@@ -160,7 +160,7 @@ def test_a_python_without_venv_is_told_with_the_mend(checkout: Checkout) -> None
     hidden += "u.find_spec = lambda name, *a: None if name == 'ensurepip' else f(name, *a)\n"
     hidden += "sys.argv = ['bootstrap.py', '.runtime']; sys.executable = '/usr/bin/python3'\n"
     hidden += "runpy.run_path('tools/bootstrap.py', run_name='__main__')"
-    command = [sys.executable, "-c", hidden]
+    command = [sys.executable, "-P", "-c", hidden]
     run = subprocess.run(command, cwd=checkout.root, env={"PATH": "/nowhere"}, capture_output=True, text=True)
     assert run.returncode == 1
     mend = "`apt install python3-venv`, or install uv, then `make` again"

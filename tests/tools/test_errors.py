@@ -18,7 +18,7 @@ OF_A_SCRIPT = {"routes"}  # raised by a script of the tests itself
 
 def test_the_page_of_complaints_is_up_to_date() -> None:
     text = MADE["DOCUMENT"].read_text(encoding="utf-8")
-    assert MADE["document"]() == text, "run `python -m tools.errors`"
+    assert MADE["document"]() == text, "run `python -P -m tools.errors`"
 
 
 def test_every_code_has_a_cause_and_a_mend_and_none_is_spare() -> None:

@@ -10,7 +10,7 @@ MADE = runpy.run_path(str(ROOT / "tools" / "gallery.py"))
 
 
 def test_it_is_up_to_date() -> None:
-    assert MADE["document"]() == MADE["DOCUMENT"].read_text(encoding="utf-8"), "run `python -m tools.gallery`"
+    assert MADE["document"]() == MADE["DOCUMENT"].read_text(encoding="utf-8"), "run `python -P -m tools.gallery`"
 
 
 def test_each_problem_has_a_picture_and_no_picture_is_spare() -> None:

@@ -17,13 +17,14 @@ HERE = Path(__file__).resolve().parents[2]
 PYTHON = """#!/bin/sh
 PATH={path}
 echo "$*" >> calls.log
-[ "$3" = build ] || exit 0
+[ "$4" = build ] || exit 0
 [ -z "$FAILING" ] || exit 1
-mkdir -p build/$4
-echo x > build/$4/block.pdf
-echo "engine=$DERIVE_ENGINE/detail=" > build/$4/.outputs
-echo "build/$4/block.pdf" >> build/$4/.outputs
-touch build/$4/.built
+mkdir -p build/$5
+echo x > build/$5/block.pdf
+echo "engine=$DERIVE_ENGINE/detail=" > build/$5/.outputs
+echo "build/$5/block.pdf" >> build/$5/.outputs
+[ ! -e problems/hw2/block.py ] || [ "$5" != hw1 ] || echo "problems/hw2/block.py" >> build/$5/.outputs
+touch build/$5/.built
 """
 
 
@@ -74,7 +75,7 @@ def tree(tmp_path: Path) -> Tree:
 @pytest.fixture
 def built(tree: Tree) -> Tree:
     assert tree.make().returncode == 0
-    assert tree.calls() == ["-m derive build hw1", "-m derive build hw2"]
+    assert tree.calls() == ["-P -m derive build hw1", "-P -m derive build hw2"]
     tree.age()
     return tree
 
@@ -88,7 +89,7 @@ def test_with_nothing_changed_no_python_is_started(built: Tree) -> None:
 def test_an_edit_or_a_new_file_builds_its_set_only(built: Tree, name: str) -> None:
     built.write(name)
     built.make()
-    assert built.calls() == ["-m derive build hw1"]
+    assert built.calls() == ["-P -m derive build hw1"]
     built.age()
     built.make()
     assert built.calls() == []
@@ -97,41 +98,64 @@ def test_an_edit_or_a_new_file_builds_its_set_only(built: Tree, name: str) -> No
 def test_a_file_that_is_gone_builds_its_set(built: Tree) -> None:
     (built.root / "problems/hw1/block.yaml").unlink()
     built.make()
-    assert built.calls() == ["-m derive build hw1"]
+    assert built.calls() == ["-P -m derive build hw1"]
 
 
 @pytest.mark.parametrize("name", ["derive/steps/step.py", "templates/phrases/en/page.yaml", "templates/latex/new.tex"])
 def test_an_edit_of_the_engine_or_a_template_builds_every_set(built: Tree, name: str) -> None:
     built.write(name)
     built.make()
-    assert built.calls() == ["-m derive build hw1", "-m derive build hw2"]
+    assert built.calls() == ["-P -m derive build hw1", "-P -m derive build hw2"]
 
 
 def test_a_deleted_output_is_built_again(built: Tree) -> None:
     (built.root / "build/hw2/block.pdf").unlink()
     built.make()
-    assert built.calls() == ["-m derive build hw2"]
+    assert built.calls() == ["-P -m derive build hw2"]
 
 
 def test_another_engine_builds_again_and_the_first_one_too(built: Tree) -> None:
     built.make("hw1", DERIVE_ENGINE="lualatex")
-    assert built.calls() == ["-m derive build hw1"]
+    assert built.calls() == ["-P -m derive build hw1"]
     built.make("hw1", DERIVE_ENGINE="lualatex")
     assert built.calls() == []
     built.make("hw1")
-    assert built.calls() == ["-m derive build hw1"]
+    assert built.calls() == ["-P -m derive build hw1"]
+
+
+def test_what_the_environment_says_of_the_engine_is_text(built: Tree) -> None:
+    built.make("hw1", DERIVE_ENGINE="$(shell touch taken)")
+    built.make("hw1", DERIVE_ENGINE="x),always) $(shell touch taken")
+    assert not [*built.root.rglob("taken")]
+    assert built.calls() == ["-P -m derive build hw1"] * 2
+
+
+def test_an_edit_of_a_script_of_another_set_builds_each_set_that_was_made_from_it(built: Tree) -> None:
+    built.write("problems/hw2/block.py")
+    built.write("problems/hw1/block.yaml", "solve: ../hw2/block.py\n")
+    built.make()
+    built.calls()
+    built.age()
+    built.make()
+    assert built.calls() == []
+    built.write("problems/hw2/block.py")
+    built.make()
+    assert built.calls() == ["-P -m derive build hw1", "-P -m derive build hw2"]
+    (built.root / "problems/hw2/block.py").unlink()
+    built.make("hw1")
+    assert built.calls() == ["-P -m derive build hw1"]
 
 
 def test_a_set_is_built_once_by_parallel_makes_of_its_targets(tree: Tree) -> None:
     assert tree.make("-j4", "all", "hw1", "build/hw1/block.pdf", "build/hw1/solutions.pdf").returncode == 0
-    assert tree.calls() == ["-m derive build hw1", "-m derive build hw2"]
+    assert tree.calls() == ["-P -m derive build hw1", "-P -m derive build hw2"]
 
 
 def test_a_failed_build_fails_make_and_is_tried_again(tree: Tree) -> None:
     assert tree.make("hw1", FAILING="yes").returncode != 0
     tree.calls()
     assert tree.make("hw1").returncode == 0
-    assert tree.calls() == ["-m derive build hw1"]
+    assert tree.calls() == ["-P -m derive build hw1"]
 
 
 def test_help_names_every_set_and_starts_nothing(tree: Tree) -> None:
@@ -151,15 +175,15 @@ def test_clean_empties_build_and_keeps_the_folder(built: Tree) -> None:
 def test_check_and_bench_run_in_the_environment(tree: Tree) -> None:
     tree.make("check")
     tree.make("bench")
-    benches = ["bench/equality.py", "bench/pages.py", "bench/ratios.py", "bench/scale.py", "bench/systems.py"]
-    assert tree.calls() == ["-m derive check", *benches]
+    benches = [f"-P -m bench.{name}" for name in ("equality", "pages", "ratios", "scale", "systems")]
+    assert tree.calls() == [*benches, "-P -m derive check"]
 
 
 def test_the_tests_run_last_so_that_their_closing_line_is_the_last(tree: Tree) -> None:
     tree.write(".venv/.tests")
     tree.make("test")
     log = (tree.root / "calls.log").read_text().splitlines()
-    assert [line.split()[1] for line in log] == ["ruff", "ruff", "mypy", "pytest"]
+    assert [line.split()[2] for line in log] == ["ruff", "ruff", "mypy", "pytest"]
 
 
 HOSTILE = [
@@ -184,7 +208,7 @@ def test_no_name_of_a_set_or_a_file_and_nothing_under_build_is_a_command(tree: T
     tree.write("build/hw1/.outputs.mk", "$(shell touch taken)\n")
     made = tree.make()
     assert made.returncode == 0
-    assert tree.calls() == ["-m derive build hw1", "-m derive build hw2"]
+    assert tree.calls() == ["-P -m derive build hw1", "-P -m derive build hw2"]
     assert not list(tree.root.rglob("taken"))
     assert made.stderr.count("warning[set-name]: the set ") == len(HOSTILE)
 
@@ -193,14 +217,14 @@ def test_no_name_of_a_set_or_a_file_and_nothing_under_build_is_a_command(tree: T
 def test_a_set_with_the_name_of_a_target_is_left_out_with_a_warning(tree: Tree, name: str) -> None:
     tree.write(f"problems/{name}/set.yaml")
     made = tree.make()
-    assert tree.calls() == ["-m derive build hw1", "-m derive build hw2"]
+    assert tree.calls() == ["-P -m derive build hw1", "-P -m derive build hw2"]
     assert made.stderr == f'warning[set-name]: the set "{name}" is left out: make has a target of that name\n'
 
 
 def python_that_is(tree: Tree, name: str, version: str, new_enough: bool) -> None:
     """A stand-in on PATH that says its version, and notes what else it is started for."""
-    cases = f'--version) echo {version} ;; -c) exit {int(not new_enough)} ;; *) echo "{name} $*" ;;'
-    tree.write(f"bin/{name}", f'#!/bin/sh\ncase "$1" in {cases} esac\n').chmod(0o755)
+    cases = f'--version*) echo {version} ;; "-I -c"*) exit {int(not new_enough)} ;; *) echo "{name} $*" ;;'
+    tree.write(f"bin/{name}", f'#!/bin/sh\ncase "$*" in {cases} esac\n').chmod(0o755)
 
 
 def make_without_environment(tree: Tree, *arguments: str) -> subprocess.CompletedProcess[str]:

@@ -12,7 +12,7 @@ MADE = runpy.run_path(str(ROOT / "tools" / "shapes.py"))
 
 def test_the_table_in_the_documentation_is_up_to_date() -> None:
     text = MADE["DOCUMENT"].read_text(encoding="utf-8")
-    assert MADE["updated"](text) == text, "run `python -m tools.shapes`"
+    assert MADE["updated"](text) == text, "run `python -P -m tools.shapes`"
 
 
 def test_every_shape_has_its_line_with_its_centre_of_mass() -> None:

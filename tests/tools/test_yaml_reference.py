@@ -24,7 +24,7 @@ def keys_in(schema: Any) -> Iterator[str]:
 
 
 def test_it_is_up_to_date() -> None:
-    assert MADE["document"]() == TEXT, "run `python -m tools.yaml_reference`"
+    assert MADE["document"]() == TEXT, "run `python -P -m tools.yaml_reference`"
 
 
 @pytest.mark.parametrize("file", ["problem", "set", "reference"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from derive.cli.asked import new_id_of, root_of, warn_of_names
@@ -25,29 +25,34 @@ def list_problems(arguments: argparse.Namespace) -> int:
         help_line = did_you_mean(arguments.topic, known) or every
         raise Misused(Complaint("no-such-topic", f"there is no topic `{arguments.topic}`", help=help_line))
     ids = [problem for problem, topic in topics.items() if arguments.topic in (None, topic)]
-    found = ((problem, topics[problem], *told) for problem, told in zip(ids, _headlines(root, ids), strict=True))
+    found = ((problem, topics[problem], *told) for problem, told in zip(ids, _headlines(root, ids, paths), strict=True))
     rows = [("problem", "topic", "points", "title"), *found]
     without = [(row[0], *row[2:]) for row in rows]
     print(table(rows if any(topics.values()) else without))
     return 0
 
 
-def _headlines(root: Path, ids: Sequence[str]) -> list[tuple[str, str]]:
+def _headlines(root: Path, ids: Sequence[str], paths: Mapping[str, str]) -> list[tuple[str, str]]:
     """The points and title of each problem, read by one worker; if it comes to no end, each half by one of its own."""
     from derive.building.headline import headline
     from derive.building.workers import done, job_of
 
     def told(problem_id: str) -> tuple[str, str]:
         try:
-            return headline(root, problem_id)
+            return headline(root, problem_id, paths[problem_id])
         except DeriveError as error:
             return _does_not_read(error)
 
     half = len(ids) // 2
     try:
-        return done(job_of(root, ids[0], lambda: [told(each) for each in ids], limit=10)) if ids else []
+        limit = 10 + len(ids) / 10
+        return done(job_of(root, ids[0], lambda: [told(each) for each in ids], limit)) if ids else []
     except DeriveError as error:
-        return [*_headlines(root, ids[:half]), *_headlines(root, ids[half:])] if half else [_does_not_read(error)]
+        return (
+            [*_headlines(root, ids[:half], paths), *_headlines(root, ids[half:], paths)]
+            if half
+            else [_does_not_read(error)]
+        )
 
 
 def _does_not_read(error: DeriveError) -> tuple[str, str]:

@@ -6,6 +6,7 @@ import argparse
 from contextlib import suppress
 
 from derive.cli.asked import problem_id_of, root_of
+from derive.cli.running import silence
 
 
 def preview_pages(arguments: argparse.Namespace) -> int:
@@ -26,7 +27,10 @@ def preview_pages(arguments: argparse.Namespace) -> int:
         if arguments.quiet and shown.main:
             return
         said, why = ("shown", []) if shown.main else ("not shown", shown.complaints[:1])
-        print(*[f"{set_id}/{of}: {said} ({shown.seconds:.2f} s)", *why], sep="\n", flush=True)
+        try:
+            print(*[f"{set_id}/{of}: {said} ({shown.seconds:.2f} s)", *why], sep="\n", flush=True)
+        except (OSError, ValueError):  # nobody reads it any more; the page is still served
+            silence(1)
 
     with suppress(KeyboardInterrupt):
         preview(root_of(arguments), set_id, name, arguments.port, arguments.detail, arguments.time_limit, ready, told)

@@ -15,7 +15,7 @@ from derive.algebra.dimensions import NUMBER
 from derive.course.arithmetic import Term
 from derive.course.latex.cursor import Cursor
 from derive.course.latex.grids import Grid, Grids, TermOrGrid
-from derive.course.latex.letters import Letter, Letters, letter_at, subscript_of, term_of
+from derive.course.latex.letters import MOST_DOTS, Letter, Letters, dots_of, letter_at, subscript_of, term_of
 from derive.course.latex.tokens import Argument, Token
 from derive.course.latex.vocabulary import FONTS, FRACTIONS, LATEX_FUNCTIONS, WORDS
 from derive.course.yaml_tree import Scalar
@@ -61,6 +61,9 @@ class Functions(Grids):
             self.undeclared.append(self.not_declared(letter))
             self.homogeneous = False  # of its dimension nothing is known, so nothing more is said of dimensions
             return Term(Dummy(letter.name, real=True), NUMBER, letter.start, letter.end)
+        if dots_of(letter, declared) > MOST_DOTS:
+            message = f"a letter has at most {MOST_DOTS} dots"
+            self.refuse("latex", message, letter.start, letter.end, help="declare a letter for this rate")
         term = term_of(letter, declared)
         if letter.vector:
             self.vectors.append(letter.start)

@@ -10,13 +10,14 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from derive.algebra.expressions import rate
+from derive.algebra.expressions import RATES, rate
 from derive.algebra.kinds import dimension_of_kind
 from derive.course.arithmetic import Declared, Term
 from derive.course.latex.tokens import Argument, Token
 from derive.course.latex.vocabulary import ARROW_COMMANDS, BOLD_COMMANDS, DECORATIONS, DOTS, GREEK_COMMANDS, WORDS
 
 _SUBSCRIPT = {"letter", "number", "word"}
+MOST_DOTS = len(RATES) - 1
 UNIT_VECTORS = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
 
 
@@ -63,6 +64,11 @@ class Letters:
 
 def _bare(subscript: str) -> str:
     return re.sub(r"[_,]", "", subscript)
+
+
+def dots_of(letter: Letter, declared: Declared) -> int:
+    """Those that are written, and those of a letter that is declared as a rate."""
+    return letter.dots and letter.dots + next(n for n in (3, 2, 1, 0) if declared.symbol.name.endswith(RATES[n]))
 
 
 def term_of(letter: Letter, declared: Declared) -> Term:

@@ -39,7 +39,7 @@ def test_an_up_to_date_build_imports_no_sympy(course: Course) -> None:
         "import sys; from derive.cli.options import main; main(['build'])\n"
         "print(sorted({'sympy', 'jinja2', 'yaml'} & set(sys.modules)))"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=alone(course))
+    done = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, env=alone(course))
     assert done.stdout.splitlines()[1:] == ["[]"]
 
 

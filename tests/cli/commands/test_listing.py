@@ -76,7 +76,9 @@ def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -
         "print(headline(Path.cwd(), 'hw9/block'), sorted({'sympy', 'derive.course.latex'} & set(sys.modules)))\n"
         "from derive.cli.options import main; main(['list']); print('sympy' in sys.modules)\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=alone_in(root), cwd=root)
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", code], capture_output=True, text=True, env=alone_in(root), cwd=root
+    )
     first, _, wrong, right, last = done.stdout.splitlines()
     assert first == "('10', 'A block turning about its axis') []"
     assert wrong.split(maxsplit=1) == ["hw8/block", "(does not read: a part has no key `answers`)"]

@@ -34,5 +34,5 @@ def test_why_imports_no_sympy(course: Course) -> None:
         "import sys; from derive.cli.options import main; main(['why', 'hw1'])\n"
         "print(sorted({'sympy', 'jinja2', 'yaml'} & set(sys.modules)))"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=alone(course))
+    done = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, env=alone(course))
     assert done.stdout.splitlines() == ["hw1 is up to date", "[]"]

@@ -38,5 +38,5 @@ def test_what_is_kept_and_what_has_no_reference_loads_no_grammar_of_latex(tmp_pa
     for folder in (tmp_path, tmp_path / "problems" / "hw9"):
         (folder / "reference.yaml").write_text(REFERENCE)
     assert rendered(tmp_path, "hw9/body", None, Cache(tmp_path / "kept")).compared == 1
-    done = subprocess.run([sys.executable, "-c", LOADED, str(tmp_path)], capture_output=True, text=True, cwd=ROOT)
+    done = subprocess.run([sys.executable, "-P", "-c", LOADED, str(tmp_path)], capture_output=True, text=True, cwd=ROOT)
     assert done.stdout.split() == ["False", "False", "True"], done.stderr

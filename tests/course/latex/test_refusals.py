@@ -46,6 +46,7 @@ REFUSED = [
     (r"\omega_{1}", "undeclared-symbol", r"\omega_{1}"),
     (r"28 \mathrm{rad}", "undeclared-symbol", r"\mathrm{rad}"),
     (r"I_{a+b}", "latex", "{a+b}"),
+    (r"\dot{\ddot{\dot{a}}}", "latex", r"\dot{\ddot{\dot{a}}}"),
     (r"\hat{\omega}", "latex", r"\hat{\omega}"),
     (r"\boldsymbol\omega \times \vec{r}", "shape", r"\boldsymbol\omega \times \vec{r}"),
     (r"\frac12 \vec a \cdot 2\vec b", "shape", r"\frac12 \vec a \cdot 2\vec b"),

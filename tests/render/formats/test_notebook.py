@@ -44,7 +44,7 @@ def cells(notebook: dict[str, Any], sort: str) -> list[str]:
 
 def run(notebook: str, folder: Path) -> list[list[Any]]:
     done = subprocess.run(
-        [sys.executable, "-c", RUN],
+        [sys.executable, "-P", "-c", RUN],
         input=notebook,
         cwd=folder,
         capture_output=True,

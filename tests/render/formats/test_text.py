@@ -21,5 +21,5 @@ def test_a_page_is_rendered_as_a_terminal_shows_it() -> None:
 
 def test_to_list_the_formats_needs_no_mathematics() -> None:
     program = "import sys; from derive.render.formats import formats; formats(); sys.exit('sympy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-P", "-c", program], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr

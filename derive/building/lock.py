@@ -1,0 +1,32 @@
+"""One build of a set at a time."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import stat
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from derive.building.files import shown_path, writing
+from derive.errors import BuildFailed, Complaint
+
+
+@contextmanager
+def alone(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
+    """Hold the folder of a set. A lock of this kind is not inherited by workers, and dies with its process."""
+    path = outputs / ".lock"
+    with writing(path):  # neither through a link, nor waiting for the other end of a pipe
+        lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    try:
+        if not stat.S_ISREG(os.fstat(lock).st_mode):
+            raise BuildFailed(Complaint("cannot-write", f"`{shown_path(path)}` is not a file", help="remove it"))
+        try:
+            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            waiting()
+            fcntl.lockf(lock, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(lock)

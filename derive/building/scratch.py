@@ -1,0 +1,75 @@
+"""Folders for work that leaves nothing behind, and what a killed process left removed by the next build.
+
+A lock dies with its process: what is locked is in use, and what is not was left.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import shutil
+import tempfile
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from derive.building.files import UNFINISHED, is_held, writing
+
+PREFIX, HELD = "derive-scratch-", ".held"
+_NAME = re.compile(rf"{PREFIX}\w{{8}}")
+
+
+class Scratch:
+    """A folder of its own, with its `name`; it is gone behind a `with` block, and when its process ends."""
+
+    def __init__(self) -> None:
+        with writing(Path(tempfile.gettempdir())):
+            self._folder = tempfile.TemporaryDirectory(prefix=PREFIX, ignore_cleanup_errors=True)
+            whole = Path(self._folder.name)
+            self._lock = os.open(whole / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+            is_held(self._lock, whole / "lock")
+            os.rename(whole / "lock", whole / HELD)  # whoever finds it finds it locked
+            self.name = str(whole / "work")
+            os.mkdir(self.name)
+
+    def cleanup(self) -> None:
+        self._folder.cleanup()
+        with suppress(OSError):
+            os.close(self._lock)
+
+    def __enter__(self) -> str:
+        return self.name
+
+    def __exit__(self, *_: object) -> None:
+        self.cleanup()
+
+
+@cache  # once in a process, however often it builds
+def sweep(*folders: Path) -> None:
+    """Remove the files that were being written in these folders, and the scratch of this user, if nobody holds them."""
+    for folder in folders:
+        with suppress(OSError), os.scandir(folder) as entries:
+            for entry in entries:
+                if entry.name.startswith(".") and entry.name.endswith(UNFINISHED) and _is_left(Path(entry.path)):
+                    os.unlink(entry.path)
+    with suppress(OSError), os.scandir(tempfile.gettempdir()) as entries:
+        for entry in entries:
+            if _NAME.fullmatch(entry.name) and entry.is_dir(follow_symlinks=False):
+                if entry.stat(follow_symlinks=False).st_uid == os.getuid() and _is_left(Path(entry.path, HELD)):
+                    shutil.rmtree(entry.path, ignore_errors=True)
+
+
+def _is_left(file: Path) -> bool:
+    """Whether there is such a file, and no process holds it."""
+    try:
+        handle = os.open(file, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return is_held(handle, file)
+    except OSError:
+        return False
+    finally:
+        os.close(handle)
