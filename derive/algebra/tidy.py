@@ -77,7 +77,7 @@ def _tidied_scalar(value: Expr) -> Expr:
         if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
-        return shortest((in_front(value), in_front(_expanded_above(value))))
+        return shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value)))
     return shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
 
 

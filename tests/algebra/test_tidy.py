@@ -37,6 +37,7 @@ TIDY = [
     (Integer(3), Integer(3)),
     (pi / 2, pi / 2),
     (x, x),
+    ((sin(sqrt(a) * x) ** 2 + cos(sqrt(a) * x) ** 2) * sqrt(a) * y, sqrt(a) * y),
 ]
 
 
