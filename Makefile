@@ -73,6 +73,7 @@ schemas: .venv/.runtime
 	@$(PYTHON) -m tools.schemas
 
 mutants: .venv/.tests
+	@$(PYTHON) -m tests.differential
 	@$(PYTHON) -m tests.perturbation
 	@$(PYTHON) -m tests.mutation
 
