@@ -9,7 +9,7 @@ import pytest
 from mpmath import mp
 from sympy import Symbol
 
-from tests.differential import DIGITS, Drawn, derived, disagreement, compared, drawn
+from tests.differential import DIGITS, Drawn, compared, derived, disagreement, drawn
 
 COUNT = 12  # `make mutants` tries 300
 
