@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, partial
 
 from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, igcd, ilcm, sin
@@ -31,7 +31,7 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         gathered = by_rates(
             Add(*(term for term in Add.make_args(value) if term not in rooted)), moving, highest, halves
         )
-        apart = [*Add.make_args(gathered), *map(tidied, rooted)]
+        apart = [*Add.make_args(gathered), *_alike_together(map(tidied, rooted))]
         return Add(*(term for term in apart if term != 0), evaluate=False)
     present = [s for s in orders if value.has(s)]
     try:
@@ -49,6 +49,15 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
     parts = [part for part in parts if part != 0]  # sin^2 + cos^2 - 1 is seen to vanish only here
     return Add(*parts, evaluate=len(parts) < 2)
+
+
+def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
+    """Terms that differ by a number as one of them, in their order."""
+    numbers: dict[Expr, Expr] = {}
+    for term in terms:
+        number, rest = term.as_coeff_Mul()
+        numbers[rest] = numbers.get(rest, Integer(0)) + number
+    return [Mul(number, rest, evaluate=not rest.is_Add) for rest, number in numbers.items()]
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Expr, Float, sin, sqrt, symbols
+from sympy import Expr, Float, cos, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -82,3 +82,55 @@ lagrangian: sqrt(r_dot**2/sin(alpha)**2 + r**2*phi_dot**2)
     assert at(motion, **here, r_ddot=0, phi_ddot=0) != pytest.approx(0, abs=1e-3)
     speed = sqrt((0.6 / sin(0.4)) ** 2 + (1.3 * 0.9) ** 2)
     assert at(steps["conserved_phi"].value, **here) == pytest.approx(float(1.3**2 * 0.9 / speed))
+
+
+def test_a_disc_that_rolls_on_waves_has_equations_of_motion(tmp_path: Path) -> None:
+    """On a flat road what moves the centre by F turns the disc by R F."""
+    given = """\
+coordinates: {x: length, phi: angle}
+bodies:
+  disc:
+    shape: disc
+    radius: R
+    mass: m
+    turned: phi
+    centre: [x + R*A/b*sin(x/b)/sqrt(1 + A**2/b**2*sin(x/b)**2), A*cos(x/b) + R/sqrt(1 + A**2/b**2*sin(x/b)**2)]
+rolling: {body: disc, at: [x, A*cos(x/b)], force: F}
+gravity: g
+"""
+    letters = "m: mass, R: length, A: length, b: length, g: acceleration"
+    steps = solved(tmp_path, problem(letters, given, "equations_of_motion"))
+    left = {name: explicit(steps[f"motion_{name}"].value).residual for name in ("x", "phi")}
+    still = {"m": 2, "R": 0.3, "A": 0, "b": 1.7, "g": 9, "x": 0.4, "x_dot": 0.7, "phi": 1.0, "phi_dot": 0.2}
+
+    def slope(name: str, letter: str) -> float:
+        rest = {"x_ddot": 0, "phi_ddot": 0, "F": 0}
+        return at(left[name], **still, **{**rest, letter: 1}) - at(left[name], **still, **rest)
+
+    assert slope("x", "x_ddot") == pytest.approx(2) and slope("phi", "phi_ddot") == pytest.approx(2 * 0.3**2 / 2)
+    assert abs(slope("phi", "F") / slope("x", "F")) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("taken_out", ["", ", for: g", ", for: s", ", for: C"])
+def test_a_heavy_top_nods_about_its_steady_precession(tmp_path: Path, taken_out: str) -> None:
+    """Omega^2 + (M g l)^2/(A Omega)^2 - 2 M g l cos(alpha)/A, where M g l + A Omega^2 cos(alpha) = C w Omega."""
+    given = f"""\
+coordinates: {{phi: angle, theta: angle, psi: angle}}
+axes: {{body: [{{z: phi}}, {{x: theta}}, {{z: psi}}]}}
+bodies: {{top: {{moments: [A, A, C], mass: M, middle: [0, 0, l], held: pivot, turned: body}}}}
+gravity: g
+conserved: {{psi: C*w}}
+results:
+  circle: {{steady: lagrangian, values: {{theta: alpha}}, symbol: [Omega, s]}}
+  nutation: {{frequency: effective_potential, results: circle{taken_out}}}
+"""
+    letters = (
+        "M: mass, l: length, g: acceleration, A: moment of inertia, C: moment of inertia, "
+        "alpha: 'angle in (0, pi/2)', w: angular speed"
+    )
+    nutation = solved(tmp_path, problem(letters, given, "circle, nutation"))["nutation_squared"].value
+    weight, A, C, Omega, tilt = 0.8 * 0.5 * 9.0, 0.7, 0.4, 1.5, 0.6
+    w = (weight + A * Omega**2 * float(cos(tilt))) / (C * Omega)
+    there = {"M": 0.8, "l": 0.5, "g": 9.0, "A": A, "C": C, "Omega": Omega, "alpha": tilt, "w": w}
+    expected = Omega**2 + (weight / (A * Omega)) ** 2 - 2 * weight * float(cos(tilt)) / A
+    assert at(nutation, **there, s=w - Omega * float(cos(tilt))) == pytest.approx(expected)
