@@ -37,6 +37,7 @@ from sympy import (
     log,
     pi,
     sec,
+    sign,
     sin,
     sinh,
     sqrt,
@@ -102,6 +103,8 @@ class FunctionRing(TrigRing):
             return self._letter_of_power(expr, 2, ONE)
         if isinstance(expr, Abs) and all(part.is_real for part in expr.args[0].as_numer_denom()):
             return self._absolute(expr.args[0])
+        if isinstance(expr, sign) and expr.args[0].is_real:  # where it is not zero
+            return self.product(self.form(expr.args[0]), self.one_over(self._absolute(expr.args[0])))
         return super().function(expr) if isinstance(expr, sin | cos) or expr in {I, pi} else self._opaque(expr)
 
     # --- letters ------------------------------------------------------------------------------------------------

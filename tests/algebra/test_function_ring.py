@@ -31,6 +31,7 @@ from sympy import (
     tanh,
     zoo,
 )
+from sympy import sign as sgn
 
 from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.function_ring import HIGHEST, FunctionRing, factors_under_a_root
@@ -46,6 +47,8 @@ z = Symbol("z")
 f, q = Function("f"), Function("q")(t)
 
 EQUAL = [
+    (sgn(x - a), (x - a) / Abs(x - a)),
+    (sgn(x - a) ** 3, -sgn(a - x)),
     # roots
     (
         sqrt((a * cos(x) - a) ** 2 + (a * sin(x) + 2 * y) ** 2),  # one angle: 1/4 of it here, 1/2 of it there

@@ -11,7 +11,7 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.building.solution import rendered
 from derive.steps.step import Quantity
-from tests.stock.described import course_with, edited, solved
+from tests.stock.described import course_with, edited, messages, solved
 
 m, k, l, d, g, A = symbols("m k l d g A", positive=True)
 x, x_ddot, y = symbols("x x_ddot y", real=True)
@@ -126,3 +126,39 @@ def test_the_energy_of_a_spring_does_not_depend_on_which_end_is_named_first(tmp_
     )
     energies = [solved(tmp_path, text)["potential_energy"].value for text in (one, other)]
     assert equal(*energies)
+
+
+def test_a_cart_between_two_walls_may_be_at_rest_beyond_them_if_the_springs_are_long(tmp_path: Path) -> None:
+    """Beyond the wall at d: k(x - l) + k(x - d - l) = 0, which is there for 2 l > d."""
+    second = (", length: l}", ", length: l}, {constant: k, from: [0, 0], to: [x, 0], length: l}]")
+    walls = edited(WALL, ("springs: {", "springs: [{"), second)
+    steps = solved(tmp_path, walls)
+    assert {value.expand() for value in rests(steps)} == {d / 2, d / 2 - l, d / 2 + l}
+    assert "If 2l > d there is also" in rendered(course_with(tmp_path, walls), "trial/one").texts["text"]
+
+
+def test_a_support_that_is_shaken_keeps_the_side_that_it_has_at_rest(tmp_path: Path) -> None:
+    shaken = edited(
+        WALL,
+        ("at: [x, 0]", "at: [l + x, 0]"),
+        ("from: [d, 0], to: [x, 0]", "from: [A*cos(omega*t), 0], to: [l + x, 0]"),
+        ("A: length}", "A: length, omega: angular speed}"),
+        (", equilibria, stability", ""),
+    )
+    value = explicit(solved(tmp_path, shaken)["motion_x"].value).residual
+    there = {"m": 2, "k": 3, "x": 0.5, "x_ddot": 0.7, "A": 1.1, "omega": 1, "t": 0, "l": 4}
+    assert value.xreplace({s: Rational(str(there[s.name])) for s in value.free_symbols}).evalf() == pytest.approx(
+        2 * 0.7 + 3 * (0.5 - 1.1)
+    )
+
+
+def test_an_equilibrium_that_needs_two_conditions_is_refused_with_both(tmp_path: Path) -> None:
+    second = (", length: l}", ", length: l}, {constant: k, from: [0, 0], to: [x, 0], length: A}]")
+    said = messages(tmp_path, edited(WALL, ("springs: {", "springs: [{"), second))
+    assert any("has a state of rest" in each and " only if " in each for each in said), said
+
+
+def test_hamiltons_equations_have_the_force_of_a_spring_along_a_line(tmp_path: Path) -> None:
+    steps = solved(tmp_path, edited(WALL, ("equations_of_motion, equilibria, stability", "hamilton_equations")))
+    p_dot = steps["canonical_p_x"].value.right
+    assert equal(p_dot, k * (d - x) * (Abs(d - x) - l) / Abs(d - x))

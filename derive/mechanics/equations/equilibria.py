@@ -29,6 +29,7 @@ from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import Rest
 from derive.mechanics.equations.reach import lies_within
 from derive.mechanics.equations.sides import (
+    SidesOpen,
     State,
     how_sides_are_taken,
     keeps_sides,
@@ -182,6 +183,11 @@ def _factored(force: Expr) -> Expr:
 def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
     try:
         found = _on_all_sides(forces)
+    except SidesOpen as fault:
+        where = ", ".join(f"{q} = {value}" for q, value in fault.state.values.items())
+        message = f"`{of.key}` has a state of rest {where} only if {fault.state.exists} and {fault.other}"
+        help_line = "say on which side it is: give a coordinate a range, such as `x: positive length`"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     except Unsolved as fault:
         message = f"the states of rest of `{of.key}` have no closed form: where {fault.factor} vanishes is not known"
         help_line = "give a state of rest that you know where it is needed, `at={theta: 0}`"

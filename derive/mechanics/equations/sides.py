@@ -25,6 +25,14 @@ class State:
     exists: Relation | None = None
 
 
+class SidesOpen(Unsolved):
+    """A state on whose existence the letters must decide by two conditions at once."""
+
+    def __init__(self, state: State, other: Relation):
+        super().__init__(other.residual)
+        self.state, self.other = state, other
+
+
 def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
     """Each choice of u or -u for every distance |u| in the forces; at u = 0 the force has no direction."""
     sizes = sorted({size for f in forces.values() for size in f.atoms(Abs) if size.has(*forces)}, key=str)
@@ -43,8 +51,8 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
             return None
         if sign is None:
             exists = positive(there)
-            if state.exists not in (None, exists):
-                raise Unsolved(each)
+            if state.exists is not None and state.exists != exists:
+                raise SidesOpen(state, exists)
             state = replace(state, exists=exists)
     return state
 

@@ -353,14 +353,14 @@ def _near_rest(each: Central) -> Central | None:
     """With the branch that is positive where all coordinates are zero; itself where there are no branches."""
     if each.along is None:
         return each
-    at_rest = _at_zero(each.along)
+    at_rest = _undriven(each.along)
     if not coordinates_in(each.along) or not at_rest.is_nonzero:
         return None
     return replace(each, branch=each.along if at_rest.is_positive else -each.along)
 
 
 def _has_natural_length(each: Central) -> bool:
-    return each.branch is not None and is_zero(each.pull.xreplace({each.distance: _at_zero(each.branch)}))
+    return each.branch is not None and is_zero(each.pull.xreplace({each.distance: _undriven(each.branch)}))
 
 
 def _is_balanced(system: System, between: Sequence[Central]) -> bool:
@@ -373,6 +373,11 @@ def _is_balanced(system: System, between: Sequence[Central]) -> bool:
 
 def _at_zero(value: Expr) -> Expr:
     return value.xreplace(dict.fromkeys(coordinates_in(value), ZERO))
+
+
+def _undriven(way: Expr) -> Expr:
+    """The way between two places where all coordinates are zero, without what a prescribed motion adds to it."""
+    return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not term.has(TIME)))
 
 
 def _is_sum_of_letters(way: Expr) -> bool:
