@@ -75,6 +75,7 @@ schemas: .venv/.runtime
 	@$(PYTHON) -P -m tools.schemas
 
 mutants: .venv/.tests
+	@$(PYTHON) -P -m tests.differential
 	@$(PYTHON) -P -m tests.perturbation
 	@$(PYTHON) -P -m tests.mutation
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, partial
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, igcd, ilcm, sin
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, igcd, ilcm, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
@@ -22,13 +22,16 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
     """The terms gathered by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
+    if (directed := _by_directions(value)) is not None:
+        plain, turning = directed
+        return Add(*Add.make_args(by_rates(plain, moving, highest, halves)), *turning, evaluate=plain == 0)
     orders = [rate(q, n) for n in range(highest, 0, -1) for q in moving]
     rooted = [term for term in Add.make_args(value) if _has_root_of(term, moving)]
     if rooted and len(rooted) < len(Add.make_args(value)):
         gathered = by_rates(
             Add(*(term for term in Add.make_args(value) if term not in rooted)), moving, highest, halves
         )
-        apart = [*Add.make_args(gathered), *map(tidied, rooted)]
+        apart = [*Add.make_args(gathered), *_alike_together(map(tidied, rooted))]
         return Add(*(term for term in apart if term != 0), evaluate=False)
     present = [s for s in orders if value.has(s)]
     try:
@@ -46,6 +49,41 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
         parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
     parts = [part for part in parts if part != 0]  # sin^2 + cos^2 - 1 is seen to vanish only here
     return Add(*parts, evaluate=len(parts) < 2)
+
+
+def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
+    """Terms that differ by a number as one of them, in their order."""
+    numbers: dict[Expr, Expr] = {}
+    for term in terms:
+        number, rest = term.as_coeff_Mul()
+        numbers[rest] = numbers.get(rest, Integer(0)) + number
+    return [Mul(number, rest, evaluate=not rest.is_Add) for rest, number in numbers.items()]
+
+
+def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
+    """k u - k l u/|u| as the part without directions and the terms with one, u/|u|; None where |u| divides nothing.
+
+    With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so that only the first power of each s is left.
+    """
+    powers = {power for power in value.atoms(Pow) if isinstance(power.base, Abs) and power.exp.is_Integer}
+    if not any(power.exp.is_negative for power in powers):
+        return None
+    ways = {size: Dummy("s", real=True) for size in sorted(value.atoms(Abs), key=str)}
+    named: dict[Expr, Expr] = {size: s * size.args[0] for size, s in ways.items()}
+    named |= {power: ways[power.base] ** (power.exp % 2) * power.base.args[0] ** power.exp for power in powers}
+    polynomial = value.xreplace(named).expand().as_poly(*ways.values())
+    if polynomial is None:
+        return None
+    found: dict[tuple[int, ...], Expr] = {}
+    for exponents, coefficient in polynomial.terms():
+        odd = tuple(n % 2 for n in exponents)
+        found[odd] = found.get(odd, Integer(0)) + coefficient
+    plain = found.pop((0,) * len(ways), Integer(0))
+    turning = []
+    for odd, coefficient in found.items():
+        direction = Mul(*(size.args[0] / size for size, n in zip(ways, odd, strict=True) if n))
+        turning += [Mul(front, direction)] if (front := tidied(coefficient)) != 0 else []
+    return plain, turning
 
 
 def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
@@ -83,11 +121,13 @@ def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collec
     groups: dict[tuple[Expr, ...], list[Expr]] = {}
     for n, constants, others in terms:
         groups.setdefault((n, *sorted(constants, key=str)), []).append(Mul(*others))
-    parts = [
-        Mul(*front, Add(*others), evaluate=False) if len(others) > 1 and len(front) > 1 else Mul(*front, *others)
-        for front, others in groups.items()
-    ]
-    return Add(*parts, evaluate=False) if len(groups) < len(terms) else value
+    parts: list[Expr] = []
+    for front, others in groups.items():
+        if len(others) > 1 and len(front) > 1:
+            parts.append(Mul(*front, Add(*others), evaluate=False))
+        else:
+            parts += [Mul(*front, each) for each in others]
+    return Add(*parts, evaluate=False) if len(parts) < len(terms) else value
 
 
 def with_constants_together(value: Expr, moving: Collection[Symbol]) -> Expr:

@@ -1,4 +1,7 @@
-"""Partial derivatives of sums, products, whole powers, sines and cosines, in the form that SymPy gives them."""
+"""Partial derivatives of sums, products, whole powers, sines and cosines, in the form that SymPy gives them.
+
+The derivative of a distance |u| along a line is u/|u| times that of u, where u is not zero.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Symbol, cos, diff, sin
+from sympy import Abs, Add, Expr, Integer, MatrixBase, Mul, Pow, Symbol, cos, diff, sign, sin
 
 __all__ = ["derivative"]
 
@@ -57,7 +60,16 @@ def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
         inner = _derivative(expr.args[0], s)
         outer = cos(expr.args[0]) if isinstance(expr, sin) else -sin(expr.args[0])
         return outer * inner if inner else ZERO
-    return diff(expr, s)
+    if isinstance(expr, Abs) and expr.args[0].is_real:
+        inner = _derivative(expr.args[0], s)
+        return expr.args[0] / expr * inner if inner else ZERO
+    return _along_distances(expr, s)
+
+
+def _along_distances(expr: Expr, s: Symbol) -> Expr:
+    """What SymPy differentiates, with u/|u| for the sign of u."""
+    found = diff(expr, s)
+    return found.replace(sign, lambda u: u / Abs(u)) if found.has(sign) else found
 
 
 def _by_factors(product: Mul, s: Symbol) -> list[Expr]:

@@ -406,6 +406,10 @@ def _both_squared(left: Relation, right: Relation) -> bool:
 def _ratio(above: Expr, below: Expr) -> Expr:
     if above.has(Float) or below.has(Float):  # what is not exact is not cancelled
         return above / below
+    for turn in (Integer(1), Integer(-1)):  # where some points show that, cancelling could take a minute to find it
+        samples = list(_samples(above, turn * below, FIRST))
+        if samples and all(sample.agree for sample in samples):
+            return turn
     try:
         found = cancel(together(_by_cosines(above) / _by_cosines(below)))
     except PolynomialError:
@@ -420,13 +424,10 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:
             found = cancel(slopes[0] / slopes[1])
-            if not found.has(letter) and _never_vanishes(found) and _is_nothing(above - found * below):
+            apart = above - found * below
+            if not found.has(letter) and _never_vanishes(found) and (apart.expand() == 0 or vanishes(apart)):
                 return found
     return None
-
-
-def _is_nothing(difference: Expr) -> bool:
-    return difference.expand() == 0 or vanishes(difference)
 
 
 def _by_cosines(expr: Expr) -> Expr:

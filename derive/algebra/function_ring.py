@@ -13,6 +13,7 @@ Source: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal 
 from __future__ import annotations
 
 from functools import lru_cache
+from math import gcd
 from typing import Any
 
 from sympy import (
@@ -36,6 +37,7 @@ from sympy import (
     log,
     pi,
     sec,
+    sign,
     sin,
     sinh,
     sqrt,
@@ -101,6 +103,8 @@ class FunctionRing(TrigRing):
             return self._letter_of_power(expr, 2, ONE)
         if isinstance(expr, Abs) and all(part.is_real for part in expr.args[0].as_numer_denom()):
             return self._absolute(expr.args[0])
+        if isinstance(expr, sign) and expr.args[0].is_real:  # where it is not zero
+            return self.product(self.form(expr.args[0]), self.one_over(self._absolute(expr.args[0])))
         return super().function(expr) if isinstance(expr, sin | cos) or expr in {I, pi} else self._opaque(expr)
 
     # --- letters ------------------------------------------------------------------------------------------------
@@ -214,9 +218,11 @@ class FunctionRing(TrigRing):
             return self.power(Form({1: 1}), n % 4)
         if of.terms.keys() == {0} and not factor.is_Rational:  # such as sin^2 + cos^2
             return self.form(Pow(Rational(of.terms[0], of.below), Rational(n, q)))
-        key = (Pow, q, frozenset(of.terms.items()), of.below)
         if len(of.terms) > 1:
-            return self._letter_of_power(key, q, of, n)
+            number, of = _number_in_front(of)
+            letter = self._letter_of_power((Pow, q, frozenset(of.terms.items())), q, of, n)
+            return self.product(self.form(Pow(number, Rational(n, q))), letter)
+        key = (Pow, q, frozenset(of.terms.items()), of.below)
         whole, rest = divmod(n, q)
         front = self.power(of, whole) if whole >= 0 else self.power(self.one_over(of), -whole)
         return self.product(front, self._letter_of_power(key, q, of, rest)) if rest else front
@@ -233,8 +239,18 @@ class FunctionRing(TrigRing):
     def _size(self, form: Form) -> Form:
         if form.terms and form.terms[max(form.terms)] < 0:
             form = self.difference(Form({}), form)
-        key = (Abs, frozenset(form.terms.items()), form.below)
-        return self._letter_of_power(key, 2, self.product(form, form))
+        if not form.terms:
+            return form
+        number, form = _number_in_front(form)
+        size = self._letter_of_power((Abs, frozenset(form.terms.items())), 2, self.product(form, form))
+        return self.product(self.form(number), size)
+
+
+def _number_in_front(form: Form) -> tuple[Rational, Form]:
+    """The positive number that all terms have in common, and the sum of what is left of them."""
+    content = gcd(*form.terms.values())
+    terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
+    return Rational(content, form.below), form._replace(terms=terms, below=1)
 
 
 # --- what stands under a root ----------------------------------------------------------------------------------------

@@ -37,7 +37,7 @@ from sympy.polys.polyerrors import PolynomialError
 from derive.algebra import trig_polynomials
 from derive.algebra.expressions import explicit
 from derive.algebra.function_ring import HIGHEST, FunctionRing
-from derive.algebra.ranges import settled
+from derive.algebra.ranges import settled, with_positive_factors_out
 from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.sparse_polynomials import Outside
 from derive.algebra.trig_polynomials import asked
@@ -55,7 +55,7 @@ def vanishes(expr: Expr) -> bool:
     try:
         return trig_polynomials.is_zero(expr)
     except Outside:
-        return _vanishes_by_relations(expr)
+        return _vanishes_by_relations(with_positive_factors_out(expr))
 
 
 def is_identity(left: Expr, right: Expr) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, floor, oo, pi, sin, tan
+from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, floor, oo, pi, sin, tan, together
 from sympy.simplify.fu import TR5, TR6
 
 
@@ -124,6 +124,29 @@ def settled(value: Any) -> Any:
         return value
     sizes = {size: sign * size.args[0] for size in value.atoms(Abs) if (sign := sign_within(size.args[0]))}
     return value.xreplace(sizes) if sizes else value
+
+
+def with_positive_factors_out(value: Expr) -> Expr:
+    """sqrt(u^2 + v^2/sin(a)^2) as sqrt(u^2 sin(a)^2 + v^2)/sin(a), where the range of a makes sin(a) positive."""
+    known = _KNOWN.get()
+    if not known:
+        return value
+    roots = [p for p in value.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(sin, cos, tan)]
+    drawn = {root: found for root in roots if root.base.free_symbols & known.keys() and (found := _drawn_out(root))}
+    return value.xreplace(drawn) if drawn else value
+
+
+def _drawn_out(root: Pow) -> Expr | None:
+    outside, inside = Integer(1), Integer(1)
+    above, below = together(root.base).as_numer_denom()
+    for part, sign in ((above, 1), (below, -1)):
+        for factor in Mul.make_args(part):
+            base, power = factor.as_base_exp()
+            if base.has(sin, cos, tan) and power.is_Integer and sign_within(base) == 1:
+                outside *= Pow(base, sign * power * root.exp)
+            else:
+                inside *= Pow(factor, sign)
+    return outside * Pow(inside, root.exp) if outside != 1 else None
 
 
 def sign_within(expr: Expr) -> int | None:

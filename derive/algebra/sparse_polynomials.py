@@ -22,7 +22,7 @@ WIDTH = 24  # bits for the power of a letter, its sign included
 PARTS = 64  # into which a letter that stands for an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # power that a letter may have
 HIGHEST = 60  # power of a sum, and multiple of an angle
-WORK = 200_000  # products of two terms that one expression may take
+WORK = 200_000  # products of two terms that one expression may take where it is to be written
 LETTERS = 120  # and forms that are kept; with more the table is begun anew
 FORMS = 20_000
 
@@ -54,7 +54,7 @@ class Ring:
     The lowest two bits of a monomial count factors i, at most one; then each letter has `WIDTH` bits.
     """
 
-    highest = HIGHEST
+    highest, work = HIGHEST, WORK
 
     def __init__(self) -> None:
         self.letters: dict[object, int] = {}
@@ -110,7 +110,7 @@ class Ring:
             for monomial, coefficient in form.terms.items():
                 terms[monomial] = terms.get(monomial, 0) + coefficient * scale
         cost = sum(form.cost + len(form.terms) for form in forms)
-        return _checked(Form(_without_zeros(terms), below, max(form.reach for form in forms), cost))
+        return self._checked(Form(_without_zeros(terms), below, max(form.reach for form in forms), cost))
 
     def difference(self, left: Form, right: Form) -> Form:
         opposite = {monomial: -coefficient for monomial, coefficient in right.terms.items()}
@@ -125,7 +125,7 @@ class Ring:
     def product(self, a: Form, b: Form) -> Form:
         cost = a.cost + b.cost + len(a.terms) * len(b.terms)
         terms: Terms = {}
-        found = _checked(Form(terms, a.below * b.below, a.reach + b.reach, cost))
+        found = self._checked(Form(terms, a.below * b.below, a.reach + b.reach, cost))
         for m, c in a.terms.items():
             for n, d in b.terms.items():
                 monomial, coefficient = m + n, c * d
@@ -144,12 +144,11 @@ class Ring:
                 found = self.product(form, found)
         return found
 
+    def _checked(self, form: Form) -> Form:
+        if form.cost > self.work or form.reach > FARTHEST:
+            raise Outside
+        return form
+
 
 def _without_zeros(terms: Terms) -> Terms:
     return {monomial: coefficient for monomial, coefficient in terms.items() if coefficient}
-
-
-def _checked(form: Form) -> Form:
-    if form.cost > WORK or form.reach > FARTHEST:
-        raise Outside
-    return form

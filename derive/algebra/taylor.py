@@ -12,7 +12,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 
-from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, nan, series, sin, tan, together, zoo
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Integer,
+    Mul,
+    Pow,
+    Rational,
+    Symbol,
+    cos,
+    diff,
+    exp,
+    nan,
+    series,
+    sin,
+    tan,
+    together,
+    zoo,
+)
 
 from derive.algebra.expressions import stand_in
 from derive.algebra.normal_form import vanishes
@@ -133,6 +151,8 @@ class _Arithmetic:
             return self._product(sine, self._one_over(cosine))
         if not expr.free_symbols & self._letters.keys():
             return self._constant(expr)
+        if isinstance(expr, Abs) and expr.args[0].is_real:
+            return self._size(self.of(expr.args[0]))
         raise NoSeries
 
     def _constant(self, expr: Expr) -> Series:
@@ -178,6 +198,12 @@ class _Arithmetic:
         for k in self._orders[1:]:
             found.append(Add(*(Rational(j, k) * u[j] * found[k - j] for j in range(1, k + 1) if u[j])))
         return tuple(found)
+
+    def _size(self, u: Series) -> Series:
+        """|u| has the sign of u in front; where u vanishes it has no series."""
+        if u[0] == 0:
+            raise NoSeries
+        return (Abs(u[0]), *(u[0] / Abs(u[0]) * part for part in u[1:]))
 
     def _turning(self, u: Series) -> tuple[Series, Series]:
         """The sine and the cosine."""

@@ -7,6 +7,7 @@ How the result then stands on paper is decided by `derive.render.notation.notati
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import combinations
 from typing import Any
 
 from sympy import (
@@ -30,7 +31,7 @@ from sympy import (
     tan,
 )
 from sympy.polys.polyerrors import PolynomialError
-from sympy.simplify.fu import TR10i
+from sympy.simplify.fu import TR10i, bottom_up
 
 from derive.algebra.coefficients import is_multiplied_out
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit
@@ -77,7 +78,7 @@ def _tidied_scalar(value: Expr) -> Expr:
         if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
-        return shortest((in_front(value), in_front(_expanded_above(value))))
+        return shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value)))
     return shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
 
 
@@ -149,7 +150,28 @@ def _by_squares(value: Expr) -> list[Expr]:
 def _by_one_angle(value: Expr) -> list[Expr]:
     """cos a cos b + sin a sin b written as cos(a - b), and the like."""
     angles = {function.args[0] for function in value.atoms(sin, cos)}
-    return [TR10i(expand(value))] if len(angles) > 1 and value.atoms(sin) else []
+    if len(angles) < 2 or not value.atoms(sin):
+        return []
+    spread_out = expand(value)
+    found = bottom_up(spread_out, lambda part: _turned_together(part) if part.is_Add else part)
+    return [found] if found != spread_out else []
+
+
+def _turned_together(total: Expr) -> Expr:
+    """Sums of angles for those terms of a sum that are a pair, c cos a cos b and c sin a sin b, or with sin a cos b."""
+    seen: dict[Any, set[int]] = {}
+    for n, term in enumerate(total.args):
+        number, product = term.as_coeff_Mul()
+        turning = [factor.as_base_exp()[0] for factor in Mul.make_args(product)]
+        for one, other in combinations([f for f in turning if isinstance(f, sin | cos)], 2):
+            if one.args != other.args:
+                key = abs(number), product / (one * other), frozenset((one.args, other.args)), one.func == other.func
+                seen.setdefault(key, set()).add(n)
+    paired = set().union(*(terms for terms in seen.values() if len(terms) > 1))
+    if not paired:
+        return total
+    apart = [term for n, term in enumerate(total.args) if n not in paired]
+    return Add(TR10i(Add(*(total.args[n] for n in sorted(paired)))), *apart)
 
 
 def _has_roots(value: Expr) -> bool:

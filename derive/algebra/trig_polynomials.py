@@ -26,6 +26,7 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
+WORK = 3_000_000  # products of two terms that a question may take: a sum that is not decided costs far more elsewhere
 LONGEST, STEEPEST = 60, 8  # operations that an angle is written with, and power in it
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
@@ -121,6 +122,8 @@ class Finer(Exception):
 
 class TrigRing(Ring):
     """The polynomials in letters, in exp(i q) of angles, and in one over each sum that is divided by."""
+
+    work = WORK
 
     def __init__(self, units: dict[object, int]) -> None:
         super().__init__()

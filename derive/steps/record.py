@@ -160,6 +160,12 @@ def assumed() -> list[Relation]:
     return list(run.assumed) if run is not None else []
 
 
+def assumed_in_words() -> list[Relation]:
+    """Those of them that a step states in words."""
+    run = current_run.get()
+    return list(run.in_words) if run is not None else []
+
+
 def established() -> list[Quantity]:
     """What this run has established so far."""
     run = current_run.get()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Add, Expr, Mul, Rational, Symbol, cos, expand, sin, symbols
+from sympy import Abs, Add, Expr, Mul, Rational, Symbol, cos, expand, sin, symbols
 
 from derive.algebra.collect import (
     by_accelerations,
@@ -105,6 +105,20 @@ def test_terms_of_one_constant_stand_together_and_others_stay() -> None:
     found = with_weights_in_front(value, [x, y, z], {m, n})
     assert len(found.args) == 2 and (found - value).expand() == 0
     assert with_weights_in_front(n * rate(z) ** 2 / 2, [z], {n}) == n * rate(z) ** 2 / 2
+
+
+def test_terms_without_a_constant_are_added_up() -> None:
+    """The smallest kinetic energy that was once refused: the squares of two rates were multiplied."""
+    m, x, y = symbols("m x y", positive=True)
+    value = m * rate(x) * rate(y) + rate(x) ** 2 / 2 + rate(y) ** 2 / 2
+    assert (with_weights_in_front(value, [x, y], {m}) - value).expand() == 0
+
+
+def test_the_pull_of_a_spring_along_a_line_has_its_direction_as_a_factor() -> None:
+    k, l, d = symbols("k l d", positive=True)
+    x = symbols("x", real=True)
+    value = (k * (Abs(x - d) - l) * (x - d) / Abs(x - d)).expand()
+    assert set(by_rates(value, [x]).args) == {k * (x - d), k * l * (d - x) / Abs(x - d)}
 
 
 def test_masses_before_one_function_of_an_angle_are_added_up() -> None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, diff, exp, log, sin, sqrt, symbols
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, exp, log, sin, sqrt, symbols
 
 from derive.algebra.derivatives import derivative
+from derive.algebra.normal_form import vanishes
 
 a, b = symbols("a b", positive=True)
 q, p = symbols("q p", real=True)
@@ -33,6 +34,13 @@ VALUES = [
 @pytest.mark.parametrize("letter", [q, p])
 def test_the_derivative_is_that_of_sympy(value: Expr, letter: Symbol) -> None:
     assert derivative(value, letter) == diff(value, letter)
+
+
+def test_the_derivative_of_a_distance_along_a_line_is_its_direction() -> None:
+    way = a - q
+    assert vanishes(derivative(abs(way), q) + way / abs(way))
+    assert vanishes(derivative(sqrt(abs(way)), q) + way / (2 * abs(way) ** Rational(3, 2)))
+    assert derivative((abs(way) - b) ** 2, q, 2).subs(q, 3 * a).simplify() == 2
 
 
 @pytest.mark.parametrize("value", VALUES, ids=str)

@@ -31,6 +31,7 @@ from sympy import (
     tanh,
     zoo,
 )
+from sympy import sign as sgn
 
 from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.function_ring import HIGHEST, FunctionRing, factors_under_a_root
@@ -46,7 +47,13 @@ z = Symbol("z")
 f, q = Function("f"), Function("q")(t)
 
 EQUAL = [
+    (sgn(x - a), (x - a) / Abs(x - a)),
+    (sgn(x - a) ** 3, -sgn(a - x)),
     # roots
+    (
+        sqrt((a * cos(x) - a) ** 2 + (a * sin(x) + 2 * y) ** 2),  # one angle: 1/4 of it here, 1/2 of it there
+        sqrt(2) * sqrt(a**2 - a**2 * cos(x) + 2 * a * y * sin(x) + 2 * y**2),
+    ),
     (sqrt(6), sqrt(2) * sqrt(3)),
     (sqrt(a**2 - b**2), sqrt(a + b) * sqrt(a - b)),
     (1 / sqrt(x**2 + a), sqrt(x**2 + a) / (x**2 + a)),

@@ -17,6 +17,7 @@ from derive.algebra.ranges import (
     settled,
     sign_within,
     strict_sign_within,
+    with_positive_factors_out,
     within,
 )
 from derive.algebra.tidy import tidied
@@ -151,3 +152,10 @@ def test_a_range_holds_the_numbers_between_its_ends(number: Expr, closed: tuple[
 def test_a_range_without_an_end_holds_whatever_is_large() -> None:
     assert POSITIVE.holds(Integer(10) ** 12)
     assert not POSITIVE.holds(Integer(0))
+
+
+def test_factors_whose_sign_a_range_settles_leave_a_root() -> None:
+    root = sqrt(x**2 / sin(alpha) ** 2 + a**2)
+    assert with_positive_factors_out(root) == sqrt(x**2 + a**2 * sin(alpha) ** 2) / sin(alpha)
+    assert with_positive_factors_out(sqrt(x**2 / sin(beta) ** 2 + a**2)) == sqrt(x**2 / sin(beta) ** 2 + a**2)
+    assert equal(x / (root * sin(alpha)), x / sqrt(x**2 + a**2 * sin(alpha) ** 2))

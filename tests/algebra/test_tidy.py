@@ -37,6 +37,7 @@ TIDY = [
     (Integer(3), Integer(3)),
     (pi / 2, pi / 2),
     (x, x),
+    ((sin(sqrt(a) * x) ** 2 + cos(sqrt(a) * x) ** 2) * sqrt(a) * y, sqrt(a) * y),
 ]
 
 
@@ -189,3 +190,11 @@ def test_one_and_the_square_of_a_tangent_is_the_square_of_a_secant() -> None:
 )
 def test_one_minus_a_square_is_the_other_square_and_an_angle_one_fraction(value: Expr, tidy: Expr) -> None:
     assert tidied(value) == tidied(tidy) == tidy
+
+
+def test_pairs_of_terms_become_a_cosine_of_a_difference_beside_others() -> None:
+    u, v = symbols("u v", real=True)
+    together = M * cos(u) * cos(v) + M * sin(u) * sin(v) + a * cos(u) * y + b * sin(v) * x
+    assert tidied(together).has(cos(u - v)) and equal(tidied(together), together)
+    alone = M * cos(u) * cos(v) + a * sin(u) * sin(v) + b * x
+    assert not tidied(alone).has(cos(u - v), cos(u + v)) and equal(tidied(alone), alone)

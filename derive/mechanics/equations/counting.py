@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Rational, Symbol, diff, lambdify, pi
+from sympy import Abs, Expr, Rational, Symbol, lambdify, pi
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import Relation, explicit
 from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters
+LITTLE = 1e-9
 
 
 def is_countable(sought: Sequence[Symbol]) -> bool:
@@ -24,28 +26,40 @@ def is_countable(sought: Sequence[Symbol]) -> bool:
     return len(sought) == 1 and (known is None or True not in known.closed)
 
 
-def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found: Expr) -> Verdict:
-    """Whether the force changes its sign as often as there are values, for some numbers in place of the letters."""
-    force = diff(explicit(potential.value), q)
+def signs_counted(
+    potential: Quantity, q: Symbol, states: Sequence[tuple[Expr, Relation | None]], found: Expr
+) -> Verdict:
+    """Whether the force changes its sign as often as there are states, for some numbers in place of the letters.
+
+    states   each value with the condition under which there is rest
+    A force that jumps to the other sign, as that of a spring does where its length |u| is zero, vanishes nowhere there.
+    """
+    force = derivative(explicit(potential.value), q)
     letters = {s for s in force.free_symbols if s != q}
     once_round = potential.coordinates.get(q) == "angle" and is_zero(force.subs(q, q + 2 * pi) - force)
     drawn = points(letters, 4099)
     for _, point in zip(range(TRIALS), drawn, strict=False):
-        there = [value.xreplace(point).evalf() for value in (*values, found)]
-        *numbers, own = [float(value) if _is_place(value, q) else None for value in there]
-        expected = sorted(number for number in numbers if number is not None)
+        values = [(value.xreplace(point).evalf(), _holds(exists, point)) for value, exists in states]
+        expected = sorted(float(value) for value, is_there in values if is_there and _is_place(value, q))
+        own = found.xreplace(point).evalf()
         curve = lambdify([q], force.xreplace(point), "math")
+        inside = [size.args[0].xreplace(point) for size in force.atoms(Abs) if size.has(q)]
+        side = lambdify([q], [u > 0 for u in inside], "math")
         scale = max([abs(x) for x in expected if x] or [1.0])
         known = range_of(q)
         grid = _grid(once_round, bool(q.is_positive), scale) if known is None else _grid_within(known)
-        signs = [s for s in (_sign(curve, x) for x in grid) if s]
-        changes = sum(1 for one, other in pairwise(signs) if one != other)
-        if changes != len(expected) or own is not None and own not in expected:
+        signs = [(s, side(x)) for x in grid if (s := _sign(curve, x))]
+        changes = sum(1 for one, other in pairwise(signs) if one[0] != other[0] and one[1] == other[1])
+        if changes != len(expected) or all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
             where = tuple((str(s), str(x)) for s, x in point.items())
             return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
         if any(not math.isfinite(x) for x in expected):
             return Verdict(Grade.REFUTED, "a value is not finite")
     return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
+
+
+def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
+    return exists is None or bool((exists.residual.xreplace(dict(point)) > 0) == (exists.mark == ">"))
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:

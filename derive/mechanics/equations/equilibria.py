@@ -11,11 +11,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, sin
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
-from derive.algebra.collect import by_terms
+from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Factors, Partial, Relation, Slope, Terms, explicit, rate, scalar, stand_in
@@ -27,6 +27,15 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.counting import is_countable, signs_counted
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.reach import lies_within
+from derive.mechanics.equations.sides import (
+    SidesOpen,
+    State,
+    how_sides_are_taken,
+    keeps_sides,
+    on_its_side,
+    on_known_sides,
+    sides_of,
+)
 from derive.mechanics.equations.unknowns import may_vanish
 from derive.mechanics.equations.zeros import Unsolved, Zero, factors_of, zeros_of
 from derive.mechanics.systems.constraint import Kept
@@ -164,14 +173,6 @@ def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
         raise Rejected(Complaint("constrained", message, help=help_line))
 
 
-@dataclass(frozen=True)
-class State:
-    """Values of coordinates at rest; those that are left out may be any."""
-
-    values: Mapping[Symbol, Expr]
-    exists: Relation | None = None
-
-
 def _factored(force: Expr) -> Expr:
     try:
         return min((factor(force), force), key=length)
@@ -181,7 +182,12 @@ def _factored(force: Expr) -> Expr:
 
 def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
     try:
-        found = _solved(list(forces.values()), list(forces), State({}))
+        found = _on_all_sides(forces)
+    except SidesOpen as fault:
+        where = ", ".join(f"{q} = {value}" for q, value in fault.state.values.items())
+        message = f"`{of.key}` has a state of rest {where} only if {fault.state.exists} and {fault.other}"
+        help_line = "say on which side it is: give a coordinate a range, such as `x: positive length`"
+        raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     except Unsolved as fault:
         message = f"the states of rest of `{of.key}` have no closed form: where {fault.factor} vanishes is not known"
         help_line = "give a state of rest that you know where it is needed, `at={theta: 0}`"
@@ -208,6 +214,14 @@ def _in_range(of: Quantity, state: State) -> bool:
         )
         raise Rejected(Complaint("range", message, help=f"give {open_} a wider range, or none"))
     return all(inside.values())
+
+
+def _on_all_sides(forces: Mapping[Symbol, Expr]) -> list[State]:
+    found: list[State] = []
+    for branches in sides_of(forces):
+        solved = _solved([force.xreplace(dict(branches)) for force in forces.values()], list(forces), State({}))
+        found += [there for state in solved if (there := on_its_side(state, list(branches.values()))) is not None]
+    return [state for state in found if keeps_sides(state)]
 
 
 def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
@@ -292,6 +306,8 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
 def _term_by_term(force: Expr, q: Symbol) -> Expr:
     """G M m/r^2 - l^2/(m r^3), not (G M m^2 r - l^2)/(m r^3)."""
     below = force.as_numer_denom()[1]
+    if below.has(Abs):
+        return by_rates(force, [q])
     return by_terms(force.expand()) if below.has(q) and not below.has(sin, cos) else force
 
 
@@ -380,11 +396,11 @@ def _rest(
     def no_force(found: Any) -> tuple[Expr, Expr]:
         marks = [stand_in(f"u_{i}") for i in range(len(sought))]
         there = dict(zip(held, [found] if single else found, strict=True))
-        left = [slope_otherwise(potential, q).xreplace(there) for q in sought]
+        left = [on_known_sides(slope_otherwise(potential, q).xreplace(there), state.exists) for q in sought]
         return Add(*(tidied(force) * mark for force, mark in zip(left, marks, strict=True))), ZERO
 
     def counted(found: Any) -> Verdict:
-        return signs_counted(potential, sought[0], [each.values[sought[0]] for each in states], found)
+        return signs_counted(potential, sought[0], [(each.values[sought[0]], each.exists) for each in states], found)
 
     distances = tuple(Integer(i) for i, q in enumerate(held) if q.is_positive)
     outcome = "where" if state.exists is not None else "only" if len(states) == 1 else "always"
@@ -405,6 +421,7 @@ def _rest(
                 "angles": tuple(q for q in sought if potential.coordinates.get(q) == "angle"),
                 "states": tuple(tuple(each.values.items()) for each in states),
             },
+            words={"seen": how_sides_are_taken(sought)},
         ),
         key=f"rest_{n + 1}" if len(states) > 1 else "rest",
         kind=dict(potential.coordinates)[held[0]] if single else None,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, lcm, sin, together
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, lcm, nan, sin, together, zoo
 from sympy.matrices import MatrixBase
 
 from derive.algebra.collect import by_accelerations, spread
@@ -283,6 +283,9 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
             message = f"`{equation.key}` holds the time itself, so that it has no constant coefficients"
             raise Rejected(Complaint("changes", message))
         left = lasting(_at_rest(value, moving, place))
+        if left.has(nan, zoo):
+            message = f"`{equation.key}` has no value at {where}, where a distance or a denominator is zero"
+            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))
         if not is_zero(left):
             message = f"`{equation.key}` is not in equilibrium at {where}: {left} is left for 0"
             raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the states of rest"))

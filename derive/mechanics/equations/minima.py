@@ -29,6 +29,7 @@ from derive.mechanics.equations.equilibria import (
 )
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.linearised import place_given
+from derive.mechanics.equations.sides import on_known_sides
 from derive.mechanics.equations.stability import Shape, slope
 from derive.mechanics.equations.stable_where import StableWhere
 from derive.mechanics.equations.zeros import border_of, positive, sign_where
@@ -63,7 +64,7 @@ class Place:
         return explicit(self.potential.value)
 
     def second(self, one: Symbol, other: Symbol) -> Expr:
-        return tidied(derivative(self.energy, one, other).xreplace(dict(self.values)))
+        return tidied(on_known_sides(derivative(self.energy, one, other).xreplace(dict(self.values)), self.exists))
 
 
 def stability(
@@ -129,7 +130,7 @@ def _check_level(place: Place) -> None:
         raise Rejected(Complaint("wrong-argument", f"`{place.potential.key}` depends on none of these coordinates"))
     for q, value in place.values.items():
         require_constant("stability", "value", value)
-        force = tidied(derivative(place.energy, q).xreplace(dict(place.values)))
+        force = tidied(on_known_sides(derivative(place.energy, q).xreplace(dict(place.values)), place.exists))
         if not is_zero(force):
             where = ", ".join(f"{s} = {v}" for s, v in place.values.items())
             message = f"`{place.potential.key}` is not level at {where}: its slope by {q} is {force}"

@@ -10,10 +10,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, expand, factor, sin, sqrt
+from sympy import Add, Dummy, Expr, Integer, Mul, Symbol, cos, diff, factor, sin, sqrt
 from sympy.simplify.fu import TR5, TR6
 
-from derive.algebra.amplitudes import determinant_of
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, At, Partial, Ratio, Relation, Slope, bound, explicit, rate, scalar
 from derive.algebra.length import length
@@ -21,6 +20,7 @@ from derive.algebra.ranges import never_vanishes_within, strict_sign_within
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.equations.about_motion import About, alone, determinant_about, letter_of_value
 from derive.mechanics.equations.equilibria import RestOf, matter_behind
 from derive.mechanics.equations.inequalities import sign_by_factors
 from derive.mechanics.equations.oscillations import SquareOf
@@ -31,6 +31,7 @@ from derive.mechanics.systems.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.systems.dalembert import Load, Matter
 from derive.mechanics.systems.effective import ReducedMatter, SeenWith
 from derive.mechanics.systems.forced import ActedOn
+from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import coordinates_of
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
@@ -226,33 +227,6 @@ def _left_along(matter: Matter, steady: Steady, q: Symbol) -> Expr:
 # --- small oscillations about it --------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class About:
-    """A potential energy of one coordinate, what sees it, where, and what holds there besides.
-
-    rates     of the cyclic coordinates there
-    momenta   what the letters of their momenta are there, where these are not given themselves
-    letter    one that the condition of the steady motion determines, and its value
-    """
-
-    potential: Quantity
-    matter: Matter
-    q: Symbol
-    place: Expr
-    rates: Mapping[Symbol, Expr]
-    momenta: Mapping[Symbol, Expr]
-    letter: Mapping[Symbol, Expr]
-
-    def there(self, value: Expr) -> Expr:
-        """The value at that place, where nothing but the cyclic coordinates moves."""
-        still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
-        return bound(explicit(value), still).subs(self.q, self.place)
-
-    def known(self, value: Expr) -> Expr:
-        """With the momenta that belong to the rates, and by the condition without one letter."""
-        return bound(bound(value, self.momenta), self.letter)
-
-
 def frequency_squared_about(
     of: Quantity, at: Quantity, without: Expr | None = None, symbol: str = "omega_0", key: str = "frequency_squared"
 ) -> Quantity:
@@ -276,7 +250,8 @@ def frequency_squared_about(
     curvature = about.there(diff(energy, q, 2))
     if is_zero(mass):
         raise Rejected(Complaint("wrong-argument", f"nothing has a mass along {q.name} there, so nothing oscillates"))
-    result = _of_plain_sign(lecture_form(about.known(curvature / mass)))
+    forms = {each: _of_plain_sign(lecture_form(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
+    about, result = min(forms.items(), key=lambda form: length(form[1]))
     exists = at.needed(Rest).exists if at.fact(Rest) is not None else None
     told = {
         **{f"momentum_{n}": (p, value) for n, (p, value) in enumerate(about.momenta.items(), 1)},
@@ -292,10 +267,10 @@ def frequency_squared_about(
         lines=Lines(
             put_in=None,
             arranged=lambda _: result,
-            motion={**about.letter, **{p: about.known(value) for p, value in about.momenta.items()}},
+            motion={s: about.known(value) for s, value in (*about.letter.items(), *about.momenta.items())},
             means={scalar(symbol): sqrt(curvature / mass)},
         ),
-        routes={"all_coordinates": lambda found: (about.known(_determinant(about, found)), ZERO)},
+        routes={"all_coordinates": lambda found: (about.known(determinant_about(about, found)), ZERO)},
         outcome=_sort(result, exists),
         key=key,
         kind="squared angular speed",
@@ -352,7 +327,12 @@ def _about_steady(of: Quantity, at: Quantity, without: Expr | None) -> About:
     place = steady.values[q]
     about = About(of, matter, q, place, steady.rates, {}, {})
     going = {rate(s): v for s, v in steady.rates.items()}
-    momenta = {c.symbol: lecture_form(about.there(bound(explicit(c.value), going))) for c in seen.constants}
+    kept = {fact.momentum: fact.value for each in of.ancestors() if (fact := each.fact(KeptMomentum)) is not None}
+    momenta: dict[Symbol, Expr] = {}
+    for c in seen.constants:
+        value = lecture_form(about.there(bound(explicit(c.value), going)))
+        given = kept.get(c.symbol)
+        momenta.update({c.symbol: value} if given is None else letter_of_value(given, value, steady.lagrangian, of))
     whole = About(of, matter, q, place, steady.rates, momenta, {})
     mass = about.there(diff(matter.momentum_along(q), rate(q)))
     value = whole.known(about.there(diff(explicit(of.value), q, 2)) / mass)
@@ -379,49 +359,13 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
     if is_zero(condition):
         return {}
     letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
-    ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := _alone(condition, s)) is not None]
+    ways = [{s: found} for s in letters if isinstance(s, Symbol) and (found := alone(condition, s)) is not None]
     if not ways:
         message = f"`frequency_squared_about`: `{at.key}` cannot be solved for {without or 'any letter'}"
-        others = [s.name for s in sorted(condition.free_symbols, key=str) if _alone(condition, s) is not None]
+        others = [s.name for s in sorted(condition.free_symbols, key=str) if alone(condition, s) is not None]
         help_line = f"it can be for {' or '.join(others)}" if others else None
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
-    return min(ways, key=lambda way: (int(lecture_form(bound(value, way)).count_ops()), str(way)))
-
-
-def _alone(condition: Expr, s: Symbol) -> Expr | None:
-    """The letter by the condition, in which it stands in the first degree, or in the second alone."""
-    polynomial = condition.as_numer_denom()[0].as_poly(s)
-    powers = [n for (n,) in polynomial.monoms()] if polynomial is not None else []
-    if powers == [1, 0]:
-        a, b = polynomial.all_coeffs()
-        return tidied(-b / a)
-    if powers == [2, 0] and s.is_positive:
-        a, _, b = polynomial.all_coeffs()
-        return tidied(sqrt(tidied(-b / a)))
-    return None
-
-
-def _determinant(about: About, found: Expr) -> Expr:
-    """Of what first order leaves of d'Alembert's principle, where every displacement grows as e^(s t), s^2 = -omega^2.
-
-    The cyclic coordinates have the factor s in each entry, which is taken out of their rows and columns.
-    """
-    matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
-    moving = [about.q, *about.rates]
-    s = Dummy("s")
-    still = {rate(q, n): ZERO for q in moving for n in (1, 2)} | {rate(q): v for q, v in about.rates.items()}
-
-    def entry(i: int, j: int) -> Expr:
-        left = explicit(matter.inertia_along(moving[int(i)]) - matter.force_along(moving[int(i)]))
-        other = moving[int(j)]
-        slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
-        at_place = [each.xreplace({**still, about.q: about.place}) for each in slopes]
-        if j:  # a cyclic coordinate stands there by its rates alone: counted by its rate
-            return at_place[1] + s * at_place[2]
-        return at_place[0] + s * at_place[1] + s**2 * at_place[2]
-
-    matrix = ImmutableDenseMatrix(len(moving), len(moving), entry)
-    polynomial = expand(determinant_of(matrix)).as_poly(s)
-    lowest = min(n for (n,) in polynomial.monoms())
-    powers = [(n - lowest, c) for (n,), c in polynomial.terms()]
-    return Add(*(c * (s**n if n % 2 else (-found) ** (n // 2)) for n, c in powers))
+    if len(ways) == 1:
+        return ways[0]
+    value = lecture_form(value)
+    return min(ways, key=lambda way: (length(tidied(bound(value, way))), str(way)))

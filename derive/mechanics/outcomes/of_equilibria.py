@@ -11,7 +11,7 @@ from itertools import combinations_with_replacement
 from typing import Any
 
 from mpmath import mp
-from sympy import Dummy, Expr, Rational, im, lambdify, prime
+from sympy import Abs, Dummy, Expr, Rational, im, lambdify, prime
 from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
@@ -54,17 +54,33 @@ def _holds(condition: Relation, point: dict[Any, Expr]) -> bool:
 
 
 def _letters(facts: Judged) -> set[Any]:
-    found = set().union(*(entry.free_symbols for entry in _entries(facts.result)))
+    found = set().union(*(entry.free_symbols for entry in (*_entries(facts.result), *_sided_forces(facts))))
+    found -= set(facts.inputs.get("sought", ()))
     exists = facts.inputs.get("exists")
     return found | (set(exists.free_symbols) if exists is not None else set())
 
 
 def _is_there(facts: Judged, point: dict[Any, Expr]) -> bool:
-    """It is real, and what is a distance is positive."""
+    """It is real, what is a distance is positive, and no force is left there."""
     if not _is_real(facts.result, point):
         return False
     entries = _entries(facts.result)
-    return all(entries[int(i)].xreplace(point).evalf(30) > 0 for i in facts.inputs["distances"])
+    if not all(entries[int(i)].xreplace(point).evalf(30) > 0 for i in facts.inputs["distances"]):
+        return False
+    there = dict(zip(facts.inputs["sought"], entries, strict=False))
+    return all(abs(force.xreplace(there).xreplace(point).evalf(30)) < LITTLE for force in _sided_forces(facts))
+
+
+def _sided_forces(facts: Judged) -> list[Expr]:
+    """The forces that have another formula on each side of a place, as that of a spring along a line."""
+    sought = facts.inputs.get("sought", ())
+    if len(sought) != len(_entries(facts.result)):
+        return []
+    return [force for i in range(len(sought)) if (force := _force(facts, i)).has(Abs)]
+
+
+def _force(facts: Judged, i: int) -> Expr:
+    return explicit(facts.inputs[f"condition_{i}"].residual)
 
 
 def _anywhere(facts: Judged) -> bool:
@@ -89,7 +105,7 @@ def _all_are_told(facts: Judged) -> bool:
     sought = facts.inputs["sought"]
     if is_countable(sought):
         return True
-    forces = tuple(explicit(facts.inputs[f"condition_{i}"].residual) for i in range(len(sought)))
+    forces = tuple(_force(facts, i) for i in range(len(sought)))
     return none_is_missing(forces, sought, facts.inputs["angles"], facts.inputs["states"])
 
 

@@ -294,11 +294,11 @@ def _rates_of_its_equations(facts: Judged, outcome: str) -> bool:
 
 def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """What each multiplier has as a factor in the equation is the derivative of a function that is told, by its
-    coordinate or by its rate."""
+    coordinate or by its rate; but for what friction, which is given by the multiplier, adds to it."""
     q = facts.inputs["coordinate"]
     by = rate(q) if facts.words.get("between") == "rates" else q
     told = [explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")]
-    residual = explicit(facts.result).residual
+    residual = explicit(facts.result).residual + explicit(facts.inputs.get("applied", Integer(0)))
     if facts.words.get("between") == "both":
         return bool(told)
     along = [diff(function, by) for function in told]

@@ -199,8 +199,8 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     constants   momenta of cyclic coordinates, as `conserved` yields them
     The rates of the cyclic coordinates are steps of their own.
     Second route: by mass points and forces: -dR/dp is the rate of the cyclic coordinate, dR/dq_dot and dR/dq of the
-    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot with the
-    rates put in.
+    others are the sums of m v . dr/dq and of F . dr/dq + m v . d(dr/dq)/dt; and it is T - U - p q_dot, plus the sum of
+    q v . A of charges in magnetic fields, with the rates put in.
     Errors: no constant is given; one belongs to another Lagrangian; no coordinate is left; a force without a potential
     energy acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
@@ -229,7 +229,8 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 
     def energies(found: Expr) -> tuple[Expr, Expr]:
         assert parts is not None
-        return found, bound(explicit(parts.kinetic.value), put_in) - parts.potential.value - carried
+        whole = explicit(parts.kinetic.value) + explicit(matter.energy_in_fields())
+        return found, bound(whole, put_in) - parts.potential.value - carried
 
     def law(L: Expr, *both: Expr) -> Expr:
         n = len(constants)

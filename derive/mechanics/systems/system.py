@@ -60,7 +60,10 @@ class Weight:
 
 @dataclass(frozen=True)
 class Central:
-    """A potential energy U(r) of the distance between two places, J, and the pull along the line between them, N."""
+    """A potential energy U(r) of the distance between two places, J, and the pull along the line between them, N.
+
+    branch   which of u and -u is the distance |u| of two places on one line, where the system takes one of them
+    """
 
     start: Location
     end: Location
@@ -68,23 +71,34 @@ class Central:
     energy: Expr
     pull: Expr
     massless: bool = False
+    branch: Expr | None = None
 
     @property
     def is_spring(self) -> bool:
         return self.distance is DISTANCE
 
     @cached_property
-    def length(self) -> Expr:
-        """Of a way along one line, its component there, where that is positive at rest and then taken to stay so."""
+    def along(self) -> Expr | None:
+        """What has the distance as its absolute value, where the way between the places stays on one line."""
         components = [c for c in (self.end - self.start).components if c != 0]
         if len(components) == 1 and _is_sum_of_letters(components[0]):
-            (way,) = components
-            return _of_one_sign(way, self.is_spring) or Abs(way)
+            return components[0]
         length = sqrt(factor(tidied(Add(*(c**2 for c in components)))))
-        along = next(iter(length.atoms(Abs)), ZERO)
-        if length != along or not isinstance(along, Abs):
-            return length
-        return _of_one_sign(along.args[0], self.is_spring) or length
+        sizes = length.atoms(Abs)
+        if len(sizes) != 1 or length.has(Pow):
+            return None
+        (size,) = sizes
+        return length.xreplace({size: size.args[0]})
+
+    @cached_property
+    def length(self) -> Expr:
+        """The distance; one of its branches where the system takes one, and then the page states the condition."""
+        if self.branch is not None:
+            assume(Relation(self.branch, ">", ZERO), self.is_spring)
+            return self.branch
+        if self.along is not None:
+            return Abs(self.along)
+        return sqrt(factor(tidied(Add(*(c**2 for c in (self.end - self.start).components)))))
 
     def pulls(self) -> tuple[Load, Load]:
         """The forces at its two ends, towards each other where the energy grows with the distance."""
@@ -193,7 +207,7 @@ class System:
         self.particles = tuple(part for part in parts if isinstance(part, Particle))
         self.bodies = tuple(part for part in parts if isinstance(part, PlacedBody))
         self.weights = tuple(part for part in parts if isinstance(part, Weight))
-        self.between = tuple(part for part in parts if isinstance(part, Central))
+        self.between: tuple[Central, ...] = tuple(part for part in parts if isinstance(part, Central))
         self.charges = tuple(part for part in parts if isinstance(part, Charge))
         charged = tuple(c.stored for c in self.charges if not is_nothing(c.electric))
         self.stored = (*(part for part in parts if isinstance(part, StoredEnergy)), *charged)
@@ -203,6 +217,7 @@ class System:
         self.dampers = tuple(part for part in parts if isinstance(part, Damper))
         self.constraints = tuple(part for part in parts if isinstance(part, Constraint))
         self._check()
+        self.between = _with_branches(self)
 
     def _check(self) -> None:
         if not self.particles and not self.bodies:
@@ -403,26 +418,54 @@ def mass_points(placed: PlacedBody) -> list[MassPoint]:
     return [point for point in points if point.mass != 0]
 
 
-def _of_one_sign(way: Expr, in_words: bool) -> Expr | None:
-    """The way as a length that is taken to stay positive, where it has a sign at rest."""
-    moving = coordinates_in(way)
-    at_rest = way.xreplace(dict.fromkeys(moving, ZERO))
-    if not moving or not at_rest.is_nonzero:
+def _with_branches(system: System) -> tuple[Central, ...]:
+    """Springs and other potentials of a distance, each with the branch of |x - d| that it has near rest.
+
+    A distance along a line is |u|, and which of u and -u it is depends on the side. One of the two is taken only where
+    the place at which all coordinates are zero is singled out: there the spring has its natural length, or there all
+    forces with a potential energy balance. Then the coordinates are displacements from that place, as for carts at
+    x_1 and d + x_2, and the page states that u keeps its sign. Elsewhere, as for a cart at x with a spring to a wall at
+    d, nothing favours a side: |x - d| stays, and whatever solves for x solves for both sides.
+    """
+    sided = tuple(_near_rest(each) for each in system.between)
+    balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
+    return tuple(
+        near if near is not None and (balanced or _has_natural_length(near)) else each
+        for each, near in zip(system.between, sided, strict=True)
+    )
+
+
+def _near_rest(each: Central) -> Central | None:
+    """With the branch that is positive where all coordinates are zero; itself where there are no branches."""
+    if each.along is None:
+        return each
+    at_rest = _undriven(each.along)
+    if not coordinates_in(each.along) or not at_rest.is_nonzero:
         return None
-    length = way if at_rest.is_positive else -way
-    stays = Relation(length, ">", ZERO)
-    if not _is_so(stays, moving):
-        raise Unverified(Complaint("unverified", f"a distance of {stays} would be negative at rest"))
-    assume(stays, in_words)
-    return length
+    return replace(each, branch=each.along if at_rest.is_positive else -each.along)
+
+
+def _has_natural_length(each: Central) -> bool:
+    return each.branch is not None and is_zero(each.pull.xreplace({each.distance: _undriven(each.branch)}))
+
+
+def _is_balanced(system: System, between: Sequence[Central]) -> bool:
+    """Whether no coordinate has a force with a potential energy where all coordinates are zero."""
+    energy = Add(*(each.energy.xreplace({each.distance: each.branch or each.length}) for each in between))
+    energy += Add(*(each.energy for each in system.stored))
+    energy += Add(*(mass * system.gravity * at.height for mass, at in system.masses))
+    return all(is_zero(_at_zero(diff(explicit(energy), q))) for q in system.coordinates)
+
+
+def _at_zero(value: Expr) -> Expr:
+    return value.xreplace(dict.fromkeys(coordinates_in(value), ZERO))
+
+
+def _undriven(way: Expr) -> Expr:
+    """The way between two places where all coordinates are zero, without what a prescribed motion adds to it."""
+    return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not term.has(TIME)))
 
 
 def _is_sum_of_letters(way: Expr) -> bool:
     """Whether it is a sum of letters, each with its sign and nothing else: such a sum is in no factors."""
     return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)
-
-
-def _is_so(condition: Relation, coordinates: Mapping[Symbol, str]) -> bool:
-    """Whether it is a length that is positive where all coordinates are zero."""
-    at_rest = condition.residual.xreplace(dict.fromkeys(coordinates, ZERO))
-    return bool(condition.mark == ">" and at_rest.is_positive)

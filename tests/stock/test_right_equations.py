@@ -1,0 +1,136 @@
+"""Equations that are right and were once refused, or took minutes: the algebra behind them decides what it must."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from sympy import Expr, Float, cos, sin, sqrt, symbols
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import Relation, explicit
+from tests.stock.described import solved
+
+m, M, k, g, mu = symbols("m M k g mu", positive=True)
+x, y = symbols("x y", real=True)
+
+
+def problem(symbols: str, given: str, answer: str) -> str:
+    lines = "\n".join(f"  {line}" for line in given.strip().splitlines())
+    return (
+        f"title: T\nsolve: system\nsymbols: {{{symbols}}}\ngiven:\n{lines}\nstatement: S.\n"
+        f"parts:\n  - {{ask: Find it., answer: [{answer}]}}\n"
+    )
+
+
+def at(value: Expr, **numbers: float) -> float:
+    return float(value.xreplace({s: Float(numbers[s.name]) for s in value.free_symbols}).evalf())
+
+
+def test_axes_that_turn_at_a_rate_with_a_root_leave_a_plain_kinetic_energy(tmp_path: Path) -> None:
+    """The sines and cosines of sqrt(k/M) t go out: Coriolis and centrifugal terms are left."""
+    given = """\
+coordinates: {x: length, y: length}
+axes: {frame: [{z: sqrt(k/M)*t}]}
+particles: {ball: {mass: m, at: {in: frame, by: [x, y, 0]}}}
+"""
+    steps = solved(tmp_path, problem("m: mass, M: mass, k: spring constant", given, "equations_of_motion"))
+    w, (x_dot, y_dot, x_ddot) = sqrt(k / M), symbols("x_dot y_dot x_ddot", real=True)
+    kinetic = steps["kinetic_energy"].value
+    assert not kinetic.has(sin) and equal(kinetic, m * ((x_dot - w * y) ** 2 + (y_dot + w * x) ** 2) / 2)
+    assert equal(explicit(steps["motion_x"].value), Relation(m * (x_ddot - 2 * w * y_dot - w**2 * x), "=", 0))
+
+
+def test_a_routhian_keeps_what_a_magnetic_field_adds(tmp_path: Path) -> None:
+    """p = m r^2 phi_dot + q B r^2/2, so R = m r_dot^2/2 - (p - q B r^2/2)^2/(2 m r^2)."""
+    given = """\
+coordinates: {r: positive length, phi: angle}
+particles: {ion: {mass: m, at: [r*cos(phi), r*sin(phi), 0]}}
+charges: {charge: q, at: ion, magnetic: [0, 0, B]}
+"""
+    steps = solved(tmp_path, problem("m: mass, q: charge, B: magnetic field", given, "routhian"))
+    found = at(steps["routhian"].value, m=2, q=3, B=5, r=0.5, r_dot=0.7, p_phi=1.1)
+    assert found == pytest.approx(0.7**2 - (1.1 - 3 * 5 * 0.5**2 / 2) ** 2 / (2 * 2 * 0.5**2))
+
+
+def test_friction_may_act_along_the_coordinate_that_a_constraint_ties(tmp_path: Path) -> None:
+    """Up a straight wire at 45 degrees: (-g sin 45 - mu g cos 45) cos 45."""
+    given = """\
+coordinates: {x: length, y: length}
+particles: {bead: {mass: m, at: [x, y]}}
+gravity: g
+constraints: {condition: y - x, force: N}
+forces: {components: [-mu*N, -mu*N], at: [x, y]}
+"""
+    steps = solved(tmp_path, problem("m: mass, g: acceleration, mu: positive number", given, "accelerations, N"))
+    for coordinate in "xy":
+        assert equal(steps[f"acceleration_{coordinate}"].value, -g * (1 + mu) / 2)
+    assert equal(next(each.value for each in steps.values() if str(each.symbol) == "N"), m * g / 2)
+
+
+def test_geodesics_of_a_cone_are_derived(tmp_path: Path) -> None:
+    """By the arc length, with r the distance from the axis: r'' = r phi'^2 sin(alpha)^2, and r^2 phi' is constant."""
+    given = """\
+coordinates: {r: positive length, phi: angle}
+lagrangian: sqrt(r_dot**2/sin(alpha)**2 + r**2*phi_dot**2)
+"""
+    steps = solved(tmp_path, problem("alpha: 'angle in (0, pi/2)'", given, "equations_of_motion, conserved"))
+    motion = explicit(steps["motion_r"].value).residual
+    here = {"alpha": 0.4, "r": 1.3, "r_dot": 0.6, "phi_dot": 0.9}
+    along = {"r_ddot": 1.3 * 0.9**2 * sin(0.4) ** 2, "phi_ddot": -2 * 0.6 * 0.9 / 1.3}
+    assert at(motion, **here, **along) == pytest.approx(0, abs=1e-12)
+    assert at(motion, **here, r_ddot=0, phi_ddot=0) != pytest.approx(0, abs=1e-3)
+    speed = sqrt((0.6 / sin(0.4)) ** 2 + (1.3 * 0.9) ** 2)
+    assert at(steps["conserved_phi"].value, **here) == pytest.approx(float(1.3**2 * 0.9 / speed))
+
+
+def test_a_disc_that_rolls_on_waves_has_equations_of_motion(tmp_path: Path) -> None:
+    """On a flat road what moves the centre by F turns the disc by R F."""
+    given = """\
+coordinates: {x: length, phi: angle}
+bodies:
+  disc:
+    shape: disc
+    radius: R
+    mass: m
+    turned: phi
+    centre: [x + R*A/b*sin(x/b)/sqrt(1 + A**2/b**2*sin(x/b)**2), A*cos(x/b) + R/sqrt(1 + A**2/b**2*sin(x/b)**2)]
+rolling: {body: disc, at: [x, A*cos(x/b)], force: F}
+gravity: g
+"""
+    letters = "m: mass, R: length, A: length, b: length, g: acceleration"
+    steps = solved(tmp_path, problem(letters, given, "equations_of_motion"))
+    left = {name: explicit(steps[f"motion_{name}"].value).residual for name in ("x", "phi")}
+    still = {"m": 2, "R": 0.3, "A": 0, "b": 1.7, "g": 9, "x": 0.4, "x_dot": 0.7, "phi": 1.0, "phi_dot": 0.2}
+
+    def slope(name: str, letter: str) -> float:
+        rest = {"x_ddot": 0, "phi_ddot": 0, "F": 0}
+        return at(left[name], **still, **{**rest, letter: 1}) - at(left[name], **still, **rest)
+
+    assert slope("x", "x_ddot") == pytest.approx(2) and slope("phi", "phi_ddot") == pytest.approx(2 * 0.3**2 / 2)
+    assert abs(slope("phi", "F") / slope("x", "F")) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("taken_out", ["", ", for: g", ", for: s", ", for: C"])
+def test_a_heavy_top_nods_about_its_steady_precession(tmp_path: Path, taken_out: str) -> None:
+    """Omega^2 + (M g l)^2/(A Omega)^2 - 2 M g l cos(alpha)/A, where M g l + A Omega^2 cos(alpha) = C w Omega."""
+    given = f"""\
+coordinates: {{phi: angle, theta: angle, psi: angle}}
+axes: {{body: [{{z: phi}}, {{x: theta}}, {{z: psi}}]}}
+bodies: {{top: {{moments: [A, A, C], mass: M, middle: [0, 0, l], held: pivot, turned: body}}}}
+gravity: g
+conserved: {{psi: C*w}}
+results:
+  circle: {{steady: lagrangian, values: {{theta: alpha}}, symbol: [Omega, s]}}
+  nutation: {{frequency: effective_potential, results: circle{taken_out}}}
+"""
+    letters = (
+        "M: mass, l: length, g: acceleration, A: moment of inertia, C: moment of inertia, "
+        "alpha: 'angle in (0, pi/2)', w: angular speed"
+    )
+    nutation = solved(tmp_path, problem(letters, given, "circle, nutation"))["nutation_squared"].value
+    weight, A, C, Omega, tilt = 0.8 * 0.5 * 9.0, 0.7, 0.4, 1.5, 0.6
+    w = (weight + A * Omega**2 * float(cos(tilt))) / (C * Omega)
+    there = {"M": 0.8, "l": 0.5, "g": 9.0, "A": A, "C": C, "Omega": Omega, "alpha": tilt, "w": w}
+    expected = Omega**2 + (weight / (A * Omega)) ** 2 - 2 * weight * float(cos(tilt)) / A
+    assert at(nutation, **there, s=w - Omega * float(cos(tilt))) == pytest.approx(expected)
