@@ -53,7 +53,8 @@ from derive.stock.keys.places import (
     coordinate_letters,
     is_letter,
 )
-from derive.stock.keys.results import RESULTS, Result, ResultKeys, names
+from derive.stock.keys.result_words import names
+from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 STATE = mapping_of(SCALAR)
 POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
