@@ -40,6 +40,13 @@ from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
+# the answers that depend on each key, by how their names begin
+DEPENDING = {
+    "about": ("inertia_tensor", "parallel", "moment", "radius", "turned", "principal", "perpendicular"),
+    "origin": ("centre_of_mass",),
+    "direction": ("moment_about",),
+    "turned": ("turned_tensor",),
+}
 
 
 @dataclass(frozen=True)
@@ -97,8 +104,28 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
         found = _bodies(written, known)
     made = tuple(r for name, keys in written.results.items() if (r := keys.read(name, known, faults)))
     return DescribedBodies(
-        chosen=known.chosen, measured=tuple(known.numbers.measured), bodies=tuple(found), results=made
+        made={result.name: result.uses for result in made},
+        without=_without(written),
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        bodies=tuple(found),
+        results=made,
     )
+
+
+def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
+    """For each key that specifies a point or an axis, the answers that do not depend on it."""
+    own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
+    asks = [*Answers(Asked(DescribedBody("", (), True))).asks()]
+    every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}
+    found = []
+    asked: list[tuple[str, Questions]] = [("", written), *own.items()]
+    for prefix, keys in asked:
+        for name in (name for name in DEPENDING if name in keys.values_at):
+            about = [each for each in asks if each.startswith(DEPENDING[name])]
+            of = {f"{one}{each}" for one in ([prefix] if prefix else own or [""]) for each in about}
+            found.append((Word.at(name, keys.places[name]), every - of))
+    return tuple(found)
 
 
 def _bodies(written: GivenBody, known: InLetters) -> list[Asked]:

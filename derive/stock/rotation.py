@@ -121,6 +121,13 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
     for other in ("rates", "along", "torque"):
         with faults:
             _one_way(written, "start", other)
+    for steady in ("rates", "along"):
+        with faults:
+            if written.torque and steady in written.values_at:
+                message = (
+                    f"`torque` has no effect beside `{steady}`: the torque that keeps up a given rotation is derived"
+                )
+                rejected("unused-key", message, written.places["torque"], f"leave it or `{steady}` out")
     with faults:
         if written.along is not None and written.rate is None:
             message = "a rotation along an axis needs its `rate`"
@@ -151,6 +158,8 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         r for name, keys in written.results.items() if (r := keys.read(name, with_components, faults))
     )
     return DescribedRotation(
+        made={result.name: result.uses for result in found["results"]},
+        without=_without(written),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
         told=tuple(
@@ -161,6 +170,18 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         place=written.places[""],
         **found,
     )
+
+
+def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
+    """The answers that do not depend on the `rate` of a rotation that is disturbed, and those not on the `torque`."""
+    asks = {*Answers(DescribedRotation()).asks()}
+    of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
+    without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
+    found = {
+        "rate": asks - of_rate if written.along is None else set[str](),
+        "torque": {name for name in asks if name.startswith(without_torque)},
+    }
+    return tuple((Word.at(name, written.places[name]), found[name]) for name in found if name in written.values_at)
 
 
 def _one_way(written: RotationKeys, first: str, second: str, required: bool = False) -> None:

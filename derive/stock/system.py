@@ -58,6 +58,12 @@ from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 STATE = mapping_of(SCALAR)
 POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
+INDIFFERENT_TO_STATES = (
+    "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
+    "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
+    "multipliers",
+)  # fmt: skip
+OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
 SYSTEM = "system"  # what the drawing of it is called
 
 
@@ -185,8 +191,11 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kind_of_lagrangian = given[1] if given is not None else "energy"
     with_own = InLetters({**_momenta(written.coordinates, letters, kind_of_lagrangian), **symbols, **own})
     with_own.numbers = known.numbers
+    results = tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults)))
     return DescribedSystem(
         letters=own,
+        made={result.name: result.uses for result in results},
+        without=_without(written, [*own]),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
         coordinates=tuple(
@@ -202,12 +211,24 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         kept=tuple(kept),
         at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
-        results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
+        results=results,
         blow=blow,
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
         given=given,
+    )
+
+
+def _without(written: SystemKeys, found: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
+    """The answers that do not depend on the state `at`, and those that do not depend on `conserved`."""
+    of_each = ("motion", "momentum", "acceleration")
+    one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
+    general = one | {*found, *INDIFFERENT_TO_STATES}
+    of_state = general | {f"{name}_{q}" for name in ("conserved", "constant") for q in written.coordinates}
+    found_for = {"at": {*of_state, *OF_CYCLIC}, "conserved": general}
+    return tuple(
+        (Word.at(key, written.places[key]), names) for key, names in found_for.items() if key in written.values_at
     )
 
 

@@ -44,7 +44,7 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.bodies import ENDS
-from derive.stock.keys.formulas import Formula, formula
+from derive.stock.keys.formulas import Formula, FoundLetter, formula
 from derive.stock.keys.result_verbs import VERBS, check_verb, schema_of_verbs
 from derive.stock.keys.result_words import function_or_name, names, nodes, value_or_infinity, value_put_in, whole_order
 from derive.stock.keys.starts import from_start
@@ -121,10 +121,14 @@ class ResultKeys(Record):
     def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
         """What is to be done, in letters; nothing after a complaint."""
         with faults:
+            known = letters.letters.get(name)
+            if known is not None and not isinstance(known, FoundLetter):
+                message = f"`{name}` is a letter of this problem already, so no result can be called so"
+                rejected("letter-clash", message, name.place, "give the result another name")
             verb = next(verb for verb in VERBS if getattr(self, verb) is not None)
             written = formula(self.value, letters.letters) if self.value else None
             return Result(
-                name=str(name),
+                name=name,
                 verb=verb,
                 of=() if VERBS[verb].of_formulas else names(getattr(self, verb)),
                 functions=tuple(function_or_name(node, letters) for node in nodes(self.bracket)),
@@ -167,7 +171,7 @@ RESULTS = mapping_of(Reader({**_RESULT.schema, **schema_of_verbs()}, _result))
 class Result:
     """One thing that is made of answers."""
 
-    name: str
+    name: Word
     verb: str
     of: tuple[Word, ...]
     formula: Formula | None = None
@@ -231,6 +235,12 @@ class Result:
         if len(of) != 1:
             rejected("wrong-argument", f"`{self.verb}` is about one answer, but these are {len(of)}", self.place)
         return of[0]
+
+    @property
+    def uses(self) -> tuple[Word, ...]:
+        """The names of the answers that it is made of."""
+        of_formula = self.formula.answers if self.formula is not None else ()
+        return (*self.of, *self.results, *of_formula, *(f for f in self.functions if isinstance(f, Word)))
 
     @property
     def letter(self) -> Expr:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from sympy import oo, pi, symbols
 
-from derive.course.given import symbol_of_kind
 from derive.course.expression import Declared
+from derive.course.given import symbol_of_kind
 from derive.course.stock import InLetters
 from derive.course.yaml_tree import Mapping, Source, Tree, Word, yaml_tree
 from derive.errors import Rejected
