@@ -58,7 +58,8 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
     """Letters that are declared, and occur neither in what is given nor in what it is compared with."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
-    used = {*_names(written.given), *_names(written.reference), *compared, *behind, TIME.name}
+    drawn = {name for each in written.drawings.values() for name in each.values}  # of which the drawing tells
+    used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
     for name, sort in written.symbols.items():
         if name in used or sort in exact:
             continue
