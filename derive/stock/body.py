@@ -32,7 +32,6 @@ from derive.mechanics import (
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
-from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn
@@ -278,15 +277,21 @@ class Answers:
 
 def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for."""
-    asks: dict[str, Callable[[], object]] = {}
-    for one in described.bodies:
-        prefix = f"{one.described.called.replace(' ', '_')}_" if one.described.called else ""
-        answers = Answers(one)
-        drawn(answers.body)
-        asks |= {f"{prefix}{name}": answer for name, answer in answers.asks().items()}
-    by_name = ByName(asks, "a body")
-    asks |= {result.name: partial(result.made, by_name.named, {}) for result in described.results}
-    return answered(asked, by_name)
+    of = _answers(described)
+    for one in of.values():
+        drawn(one.body)
+    return _by_name(described, of).answers(asked)
+
+
+def _answers(described: DescribedBodies) -> dict[str, Answers]:
+    """Those of each body, by what stands before their names."""
+    called = {one.described.called.replace(" ", "_"): one for one in described.bodies}
+    return {f"{name}_" if name else "": Answers(one) for name, one in called.items()}
+
+
+def _by_name(described: DescribedBodies, of: Mapping[str, Answers]) -> ByName:
+    asks = {f"{prefix}{name}": answer for prefix, one in of.items() for name, answer in one.asks().items()}
+    return ByName(asks, "a body", described.results, again=lambda: _by_name(described, _answers(described)))
 
 
 STOCK = Stock(GivenBody, read, solve)

@@ -47,7 +47,6 @@ from derive.mechanics import (
 from derive.mechanics.bodies.body import Body, axis_vector
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
-from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn_free, drawn_turning
@@ -412,16 +411,18 @@ class Answers:
 def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for."""
     answers = Answers(described)
-    asks = answers.asks()
-    by_name = ByName(asks, "a rotation")
-    asks |= {result.name: partial(result.made, by_name.named, {}) for result in described.results}
-    found = answered(asked, by_name)
+    found = _by_name(described, answers).answers(asked)
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
     elif described.about in ("centre", CENTRE_OF_MASS):
         turns = {"changing", "angular_momentum"} <= vars(answers).keys()  # as far as what is asked has needed them
         drawn_free(answers, turns and not (described.rate or described.start or described.torque))
     return found
+
+
+def _by_name(described: DescribedRotation, answers: Answers) -> ByName:
+    again = lambda: _by_name(described, Answers(described))  # noqa: E731
+    return ByName(answers.asks(), "a rotation", described.results, again=again)
 
 
 STOCK = Stock(RotationKeys, read, solve)

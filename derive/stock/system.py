@@ -350,14 +350,11 @@ def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
 def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for, and a drawing of the system."""
     of = Answers(described)
-    asks = of.asks()
-    answers: dict[str, object] = {}
     if described.given is None:
         with told_at(described.place):
             start, blow = started(described.results, of.system), struck(described.blow, of.system)
             sketch(SYSTEM, of.system, named=described.named, start=start, blow=blow)
-    for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
-        answers[str(name)] = of.named(name)
+    answers = of.by_name.answers(asked)
     of.check_letters()
     return answers
 
