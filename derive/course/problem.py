@@ -209,7 +209,15 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:
     """What the script's `solve()` returns for what is given; what else it leaves is on the record."""
-    record = record or Run()
+    with solving(problem, record or Run()):
+        if isinstance(problem.script, StockScript):
+            return problem.script.stock.solve(problem.described, problem.asked)
+        return run(problem.script, {given.name: given.value for given in problem.givens})
+
+
+@contextmanager
+def solving(problem: Problem, record: Run) -> Iterator[None]:
+    """What is done inside is on that record, and knows all that is given."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -217,9 +225,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)
-        if isinstance(problem.script, StockScript):
-            return problem.script.stock.solve(problem.described, problem.asked)
-        return run(problem.script, {given.name: given.value for given in problem.givens})
+        yield
 
 
 @contextmanager

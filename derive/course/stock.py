@@ -80,11 +80,13 @@ class Stock:
     keys    what may stand under `given:`
     read    what it says in the declared letters, after complaints about what cannot be meant
     solve   its answers by the names that parts ask for; a name may stand for several steps
+    every   all that parts may ask for by name, each with its steps or with why it cannot be derived
     """
 
     keys: type[Record]
     read: Callable[[Any, Mapping[str, Declared], Faults], Described]
     solve: Callable[[Any, Sequence[Word]], Mapping[str, object]]
+    every: Callable[[Any], dict[str, Any]]
 
 
 @dataclass(frozen=True)

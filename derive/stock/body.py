@@ -12,7 +12,7 @@ from derive.course.expression import Declared
 from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
 from derive.course.stock import Described, InLetters, Stock, each
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, rejected
+from derive.errors import DeriveError, Faults, rejected
 from derive.mechanics import (
     centre_of_mass,
     inertia_tensor,
@@ -294,4 +294,9 @@ def _by_name(described: DescribedBodies, of: Mapping[str, Answers]) -> ByName:
     return ByName(asks, "a body", described.results, again=lambda: _by_name(described, _answers(described)))
 
 
-STOCK = Stock(GivenBody, read, solve)
+def every(described: DescribedBodies) -> dict[str, tuple[Quantity, ...] | DeriveError]:
+    """All that parts may ask for, or why it cannot be derived."""
+    return _by_name(described, _answers(described)).every()
+
+
+STOCK = Stock(GivenBody, read, solve, every)

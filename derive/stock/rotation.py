@@ -16,7 +16,7 @@ from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, Place, rejected
+from derive.errors import DeriveError, Faults, Place, rejected
 from derive.mechanics import (
     RigidBody,
     angle_between,
@@ -425,4 +425,9 @@ def _by_name(described: DescribedRotation, answers: Answers) -> ByName:
     return ByName(answers.asks(), "a rotation", described.results, again=again)
 
 
-STOCK = Stock(RotationKeys, read, solve)
+def every(described: DescribedRotation) -> dict[str, tuple[Quantity, ...] | DeriveError]:
+    """All that parts may ask for, or why it cannot be derived."""
+    return _by_name(described, Answers(described)).every()
+
+
+STOCK = Stock(RotationKeys, read, solve, every)

@@ -16,11 +16,12 @@ from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
-from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
+from derive.steps.step import Quantity
 from derive.stock.answering.moments import started, struck
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
@@ -359,4 +360,9 @@ def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object
     return answers
 
 
-STOCK = Stock(SystemKeys, read, solve)
+def every(described: DescribedSystem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
+    """All that parts may ask for, or why it cannot be derived."""
+    return Answers(described).by_name.every()
+
+
+STOCK = Stock(SystemKeys, read, solve, every)

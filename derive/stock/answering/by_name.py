@@ -48,7 +48,7 @@ class ByName:
     ):
         self.asks, self.what, self.again = dict(asks), what, again
         self.results = {str(result.name): result for result in results}
-        self._known: dict[str, Any] = {}
+        self._known: dict[str, tuple[Quantity, ...]] = {}
         self._in_progress: list[str] = []
         self._sought: frozenset[str] = frozenset()
         each([partial(self._check_free, result.name) for result in results])
@@ -90,14 +90,30 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """All that is offered, or why it cannot be derived."""
+        """All that there is under the names that are offered; of a result also why it cannot be derived."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
-                found[name] = self._derived(name, None)
+                found[name] = self._derived_alone(name)
             except DeriveError as error:
-                found[name] = error
+                if name in self.results:
+                    found[name] = error
         return found
+
+    def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
+        """With nothing else on the record whose letter it might need, unless it goes with what is there."""
+        try:
+            return self._derived(name, None)
+        except DeriveError:
+            if self.again is None:
+                raise
+            with recorded(self._copied_run()):
+                return self.again()._derived(name, None)
+
+    def _copied_run(self) -> Run:
+        """A record on which nothing is established, for the same problem."""
+        run = current_run.get() or Run()
+        return Run(assumed=[*run.assumed], in_words=[*run.in_words], numbers=run.numbers, letters=run.letters)
 
     def _derived(self, name: str, place: Place | None) -> tuple[Quantity, ...]:
         if name in self._in_progress:
@@ -106,10 +122,10 @@ class ByName:
             self._in_progress.append(name)
             try:
                 with told_at(place):
-                    self._known[name] = self.asks[name]()
+                    self._known[name] = tuple(returned_quantities(self.asks[name]()))
             finally:
                 self._in_progress.pop()
-        return tuple(returned_quantities(self._known[name]))
+        return self._known[name]
 
     def _by_number(self, name: Word) -> tuple[Quantity, ...]:
         """Of `frequency_2` the step of that key, or the second of what `frequency` yields."""
@@ -132,7 +148,7 @@ class ByName:
     def _there(self) -> dict[str, Quantity]:
         """The steps by key that answers have led to."""
         run = current_run.get()
-        known = with_ancestors(q for value in self._known.values() for q in returned_quantities(value))
+        known = with_ancestors(q for quantities in self._known.values() for q in quantities)
         return {**{q.key: q for q in (run.established if run is not None else ())}, **known}
 
     def _leading_to(self, name: Word) -> str | None:
@@ -140,9 +156,7 @@ class ByName:
         that neither the order of parts nor what was asked for before has a say in it."""
         if self.again is None or name in self._sought:
             return None
-        run = current_run.get() or Run()
-        copy = Run(assumed=[*run.assumed], in_words=[*run.in_words], numbers=run.numbers, letters=run.letters)
-        with recorded(copy):
+        with recorded(self._copied_run()):
             there = self.again()
             there._sought = self._sought | {str(name)}
             for likely in (True, False):
@@ -174,7 +188,7 @@ class ByName:
         run = current_run.get()
         if run is None or result.name not in self._known:
             return
-        own = [q.step for q in returned_quantities(self._known[result.name])]
+        own = [q.step for q in self._known[result.name]]
         if any(q.key == result.name and q.step not in own for q in run.established):
             message = f"`{result.name}` is the key of a step already, so no result can be called so"
             rejected("name-clash", message, result.name.place, "give the result another name")

@@ -337,8 +337,9 @@ class Answers:
                 if self.rolling
                 else "nothing rolls in this system",
             ),
-            "angular_velocity": lambda: tuple(
-                angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane
+            "angular_velocity": lambda: self._some(
+                tuple(angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane),
+                "no body of this system turns in space: in a plane its angular velocity is the rate of an angle",
             ),
             "accelerations": lambda: accelerations(*self.motions.values()),
             "multipliers": lambda: multipliers(*self.motions.values()),
