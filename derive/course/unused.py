@@ -8,6 +8,7 @@ from collections.abc import Mapping as Table
 
 from derive.algebra.expressions import TIME
 from derive.course.given import Given, Measured
+from derive.course.placement import HIDDEN
 from derive.course.stock import Described
 from derive.course.written import ProblemKeys, SortOfLetter
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
@@ -30,6 +31,7 @@ def unused_in(
     behind = {each.symbol.name for each in measured} - {*written.values}  # letters that numbers have taken
     exact = {given.kind.each for given in givens if given.written is not None}  # where another number takes a letter
     found = [*_letters(written, behind, exact)]
+    found += [*_drawings(written), *_points(written)]
     if described is not None:
         needed = needed_for(asked, described.made)
         found += [
@@ -72,6 +74,22 @@ def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:
     """Whether a letter may be the acceleration of free fall of a system that is described without it."""
     is_system = given is not None and given.get("coordinates") is not None and given.get("lagrangian") is None
     return is_system and sort == ACCELERATION and given is not None and given.get(GRAVITY) is None
+
+
+def _drawings(written: ProblemKeys) -> Iterator[Complaint]:
+    """What is said of a drawing that is not shown."""
+    for name, each in written.drawings.items():
+        hidden = isinstance(each.at, Scalar) and each.at.text == HIDDEN
+        for key in (key for key in ("caption", "width") if hidden and key in each.values_at):
+            message = f"`{key}` has no effect on `{name}`, which is hidden"
+            yield Complaint("unused-key", message, each.places[key], help="leave it out", severity="warning")
+
+
+def _points(written: ProblemKeys) -> Iterator[Complaint]:
+    for part in written.parts:
+        if part.points == 0:
+            message, help_line = "this part carries no points", "leave `points` out"
+            yield Complaint("points", message, part.places["points"], help=help_line, severity="warning")
 
 
 def _of_limit(limit: object) -> Iterator[str]:

@@ -196,7 +196,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     return DescribedSystem(
         letters=own,
         made={result.name: result.uses for result in results},
-        without=_without(written, [*own]),
+        without=_without(written, [*own], [*blow.letters] if blow else []),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
         coordinates=tuple(
@@ -221,13 +221,18 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     )
 
 
-def _without(written: SystemKeys, found: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
+def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
     """The answers that do not depend on the state `at`, and those that do not depend on `conserved`."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
     of_state = general | {f"{name}_{q}" for name in ("conserved", "constant") for q in written.coordinates}
-    found_for = {"at": {*of_state, *OF_CYCLIC}, "conserved": general}
+    of_rest = {"stability", "linearised", "normal_modes", "frequency", "period"}
+    found_for = {
+        "at": {*of_state, *OF_CYCLIC},
+        "conserved": general,
+        "blow": {*of_state, *OF_CYCLIC, *of_rest} - {*impulses},
+    }
     return tuple(
         (Word.at(key, written.places[key]), names) for key, names in found_for.items() if key in written.values_at
     )
