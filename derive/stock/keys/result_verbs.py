@@ -49,7 +49,7 @@ VERBS: Mapping[str, Verb] = {
     "roots": Verb(
         "the roots of an equation; of another answer, where it vanishes",
         {"for": "a letter, or `cos(theta)`"},
-        {"symbol": "one for each root"},
+        {"root": "one of several: `positive`, `negative`, `largest`, `smallest`, `2`", "symbol": "one for each root"},
     ),
     "limit": Verb(
         "the limiting case; of an equation what is left of it, `{limit: motion_x, for: Omega, to: 0, order: 1}` to the "

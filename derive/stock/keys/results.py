@@ -44,6 +44,7 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.bodies import ENDS
+from derive.stock.keys.chosen_root import chosen_root
 from derive.stock.keys.formulas import Formula, FoundLetter, formula
 from derive.stock.keys.result_verbs import VERBS, check_verb, schema_of_verbs
 from derive.stock.keys.result_words import function_or_name, names, nodes, value_or_infinity, value_put_in, whole_order
@@ -116,6 +117,10 @@ class ResultKeys(Record):
     start_rate: Tree | None = key("the rate at the start; without it zero", SCALAR)
     within: tuple[Tree, ...] = key("between which values it is sought, such as `[0, pi/2]`", ENDS)
     case: Word | None = key("`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open", TEXT)
+    root: Word | None = key(
+        "which of several roots: `positive`, `negative`, `largest`, `smallest`, or its number, `2`",
+        Reader(SCALAR.schema, TEXT.read),
+    )
     symbol: Tree | None = key("the letter of what is found, or one for each of several", NAMES)
 
     def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
@@ -147,6 +152,7 @@ class ResultKeys(Record):
                 start_rate=value_or_infinity(self.start_rate, letters) if self.start_rate else None,
                 within=tuple(value_or_infinity(node, letters) for node in self.within),
                 case=str(self.case) if self.case else None,
+                root=self.root,
                 symbols=names(self.symbol),
                 place=name.place,
             )
@@ -188,6 +194,7 @@ class Result:
     start_rate: Expr | None = None
     within: tuple[Expr, ...] = ()
     case: str | None = None
+    root: Word | None = None
     symbols: tuple[Word, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
@@ -290,7 +297,8 @@ def _put_in(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
 def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     only = result.only(of)
     key = None if isinstance(only.value, Relation) else result.name  # zeros are called as what they were asked by
-    return roots(only, result.letter, **result.named({"symbols": tuple(map(str, result.symbols)), "key": key}))
+    found = roots(only, result.letter, **result.named({"symbols": tuple(map(str, result.symbols)), "key": key}))
+    return found if result.root is None else chosen_root(found, result.root)
 
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
