@@ -123,7 +123,7 @@ def printed(
     notation = _notation(tuple(document.dimensions.items()), level is Level.BRIEF)
     of_numbers = faults_of_numbers(problem, derivation, values, solved.drawings)
     Faults(fault for fault in of_numbers if fault.severity == "error").stop()
-    warnings = (*document.warnings, *of_numbers, *failures)
+    warnings = (*problem.warnings, *document.warnings, *of_numbers, *failures)
     solution = Solution(
         alone(document), words, notation, problem, derivation, values, solved.compared, warnings, level.value
     )

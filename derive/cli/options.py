@@ -121,8 +121,10 @@ def parser_of_commands() -> argparse.ArgumentParser:
     diff.add_argument("--format", choices=("text", "json"), default="text", help="(default text)")
     why = command("why", "what made a page stale, and what mends it", "FILE|ID|SET", "build/hw9/block.pdf")
     named(why.add_argument("what", metavar="FILE|ID|SET", help="a page below build/, a problem, a set"), "outputs")
-    listed = command("list", "list the problems", "[SET]", "hw9")
-    named(listed.add_argument("set", nargs="?", metavar="SET", help="only those of a set"), "sets")
+    listed = command("list", "list the problems, or what can be asked of one", "[SET|ID]", "hw9/block --answers")
+    of = listed.add_argument("set", nargs="?", metavar="SET|ID", help="only those of a set; with --answers, a problem")
+    named(of, "ids and sets")
+    listed.add_argument("--answers", action="store_true", help="every name that parts of a problem may ask for")
     named(listed.add_argument("--topic", metavar="TOPIC", help="only those of a topic, a folder in a set"), "topics")
     schema = command("schema", "schemas by which editors complete and check", "[SORT]", "problem")
     sorts = ("problem", "set", "reference")
@@ -140,7 +142,7 @@ def parser_of_commands() -> argparse.ArgumentParser:
         sub.add_argument("--evidence", choices=EVIDENCE, help="how much is told of the checks")
     for sub in (solve, check, build, doctor, why):
         sub.add_argument("--engine", metavar="NAME", help="of TeX; `derive doctor` lists them")
-    for sub in (solve, explain, diff, check, build, preview):
+    for sub in (solve, explain, diff, check, build, preview, listed):
         sub.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
     for sub in (check, build):
         sub.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")

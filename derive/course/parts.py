@@ -51,9 +51,11 @@ def _units(node: Tree, name: str, faults: Faults) -> tuple[Word, ...]:
         wrong_type(faults, f"`{name}`", "a unit", node)
         return ()
     units = tuple(Word.at(item.text.strip(), item.place) for item in items if isinstance(item, Scalar))
-    for unit in units:
+    for i, unit in enumerate(units):
         with faults:
             read_unit(unit, unit.place)
+        if unit in units[:i]:
+            faults.error("duplicate-answer", f"`{unit}` is listed twice", unit.place)
     return units
 
 

@@ -31,9 +31,10 @@ from derive.course.prose import Prose
 from derive.course.schema import read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, StockScript, stock_names, stock_script
+from derive.course.unused import unused_in
 from derive.course.written import SCRIPT, LimitKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
-from derive.errors import Faults, Place, did_you_mean, nearest
+from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
 from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4
@@ -68,6 +69,7 @@ class Problem:
     note: Prose | None = None
     limits: tuple[LimitKeys, ...] = ()
     reference: str = ""
+    warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
     @property
     def set_id(self) -> str:
@@ -83,12 +85,7 @@ class Problem:
     @property
     def asked(self) -> tuple[Word, ...]:
         """What all its parts ask for, and what is looked at in limiting cases."""
-        answers = [answer for part in self.parts for answer in part.answers]
-        limited = [name for each in self.limits for name in (each.of, each.step, each.known) if name]
-        first: dict[str, Word] = {}
-        for name in (*answers, *limited):  # a limit may be of a step on the way to an answer
-            first.setdefault(str(name), name)
-        return tuple(first.values())
+        return _asked(self.parts, self.limits)
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
@@ -162,6 +159,8 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
     _check_cases(written.parts, drawings, faults)
+    asked, given = _asked(written.parts, written.limits), (pinned.givens, pinned.measured, pinned.described)
+    warnings = () if faults else unused_in(written, asked, *given)
     faults.stop()
     assert written.title is not None
     assert written.statement is not None
@@ -186,7 +185,17 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         note=written.note,
         limits=written.limits,
         reference=as_text(written.reference),
+        warnings=warnings,
     )
+
+
+def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys]) -> tuple[Word, ...]:
+    answers = [answer for part in parts for answer in part.answers]
+    limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
+    first: dict[str, Word] = {}
+    for name in (*answers, *limited):  # a limit may be of a step on the way to an answer
+        first.setdefault(str(name), name)
+    return tuple(first.values())
 
 
 def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], faults: Faults) -> None:
@@ -200,7 +209,15 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:
     """What the script's `solve()` returns for what is given; what else it leaves is on the record."""
-    record = record or Run()
+    with solving(problem, record or Run()):
+        if isinstance(problem.script, StockScript):
+            return problem.script.stock.solve(problem.described, problem.asked)
+        return run(problem.script, {given.name: given.value for given in problem.givens})
+
+
+@contextmanager
+def solving(problem: Problem, record: Run) -> Iterator[None]:
+    """What is done inside is on that record, and knows all that is given."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -208,9 +225,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)
-        if isinstance(problem.script, StockScript):
-            return problem.script.stock.solve(problem.described, problem.asked)
-        return run(problem.script, {given.name: given.value for given in problem.givens})
+        yield
 
 
 @contextmanager

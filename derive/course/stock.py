@@ -6,7 +6,7 @@ letters are known, and the answers that are made of them. They are loaded by nam
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from importlib import import_module
@@ -61,12 +61,16 @@ class Described:
     letters   those that it brings in itself, coordinates and their rates
     chosen    those that stand for its numbers, which are `measured`
     told      what prose may mention by its key, besides letters
+    made      what is made of answers, by its name, with the names of the answers that it uses
+    without   keys on which some answers do not depend, with the names of these
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
     chosen: Mapping[str, Declared] = field(default_factory=dict)
     measured: tuple[Measured, ...] = ()
     told: tuple[Given, ...] = ()
+    made: Mapping[Word, tuple[Word, ...]] = field(default_factory=dict, repr=False, compare=False)
+    without: tuple[tuple[Word, Collection[str]], ...] = field(default=(), repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -76,11 +80,13 @@ class Stock:
     keys    what may stand under `given:`
     read    what it says in the declared letters, after complaints about what cannot be meant
     solve   its answers by the names that parts ask for; a name may stand for several steps
+    every   all that parts may ask for by name, each with its steps or with why it cannot be derived
     """
 
     keys: type[Record]
     read: Callable[[Any, Mapping[str, Declared], Faults], Described]
     solve: Callable[[Any, Sequence[Word]], Mapping[str, object]]
+    every: Callable[[Any], dict[str, Any]]
 
 
 @dataclass(frozen=True)

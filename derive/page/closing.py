@@ -10,6 +10,7 @@ from sympy import MatrixBase
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import Relation
 from derive.course.problem import Problem
+from derive.errors import Complaint
 from derive.page.numbering import Number
 from derive.page.signs import sign_before
 from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, around_chain, filled
@@ -19,6 +20,19 @@ from derive.steps.step import Step
 
 PUT_IN = "substitution.put_in"  # of which the sentence names what is put into
 Nodes = tuple[Inline, ...]
+
+
+def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]:
+    """The cases that the page does not have, since the result does not depend on their letters now."""
+    found = []
+    for keys, given in zip(derivation.closing, problem.limits, strict=True):
+        if not keys:
+            of = given.of or given.step
+            letters = [str(given.letter)] if given.letter else [str(letter) for letter in given.where]
+            on = " and ".join(f"`{letter}`" for letter in letters)
+            message = f"this case is left out: `{of}` does not depend on {on}"
+            found.append(Complaint("unused-limit", message, given.places[""], severity="warning"))
+    return found
 
 
 def limiting_cases(

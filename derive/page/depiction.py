@@ -138,6 +138,19 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
     return found
 
 
+def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    """Keys of plots that the problem gives for a drawing that is not one."""
+    found = []
+    for placement in problem.drawings:
+        no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
+        said = {"range": placement.range is not None, "cases": bool(placement.cases)}
+        for name in (name for name in said if said[name] and no_plot):
+            message = f"`{name}` has no effect on `{placement.key}`, which is not a plot"
+            place = placement.range.place if placement.range and name == "range" else placement.place
+            found.append(Complaint("unused-key", message, place, help="leave it out", severity="warning"))
+    return found
+
+
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
     """The index of the first part by whose end everything that the drawing shows is derived; nothing if none has."""
     known: set[str] = set()

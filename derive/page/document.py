@@ -27,9 +27,9 @@ from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
-from derive.page.closing import limiting_cases
+from derive.page.closing import limiting_cases, limits_left_out
 from derive.page.cross_references import References, found_before
-from derive.page.depiction import caption_numbers, depictions, letters_not_drawn
+from derive.page.depiction import caption_numbers, depictions, keys_of_plots, letters_not_drawn
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
@@ -164,6 +164,8 @@ class _Writer:
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
                 *letters_not_drawn(problem, self.drawings),
+                *keys_of_plots(problem, self.drawings),
+                *limits_left_out(problem, self.derivation),
             ),
             evidence=evidence,
         )

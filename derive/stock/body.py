@@ -12,7 +12,7 @@ from derive.course.expression import Declared
 from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
 from derive.course.stock import Described, InLetters, Stock, each
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, rejected
+from derive.errors import DeriveError, Faults, rejected
 from derive.mechanics import (
     centre_of_mass,
     inertia_tensor,
@@ -32,7 +32,6 @@ from derive.mechanics import (
 from derive.mechanics.bodies.body import Body
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
-from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn
@@ -40,6 +39,13 @@ from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
+# the answers that depend on each key, by how their names begin
+DEPENDING = {
+    "about": ("inertia_tensor", "parallel", "moment", "radius", "turned", "principal", "perpendicular"),
+    "origin": ("centre_of_mass",),
+    "direction": ("moment_about",),
+    "turned": ("turned_tensor",),
+}
 
 
 @dataclass(frozen=True)
@@ -97,8 +103,28 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
         found = _bodies(written, known)
     made = tuple(r for name, keys in written.results.items() if (r := keys.read(name, known, faults)))
     return DescribedBodies(
-        chosen=known.chosen, measured=tuple(known.numbers.measured), bodies=tuple(found), results=made
+        made={result.name: result.uses for result in made},
+        without=_without(written),
+        chosen=known.chosen,
+        measured=tuple(known.numbers.measured),
+        bodies=tuple(found),
+        results=made,
     )
+
+
+def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
+    """For each key that specifies a point or an axis, the answers that do not depend on it."""
+    own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
+    asks = [*Answers(Asked(DescribedBody("", (), True))).asks()]
+    every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}
+    found = []
+    asked: list[tuple[str, Questions]] = [("", written), *own.items()]
+    for prefix, keys in asked:
+        for name in (name for name in DEPENDING if name in keys.values_at):
+            about = [each for each in asks if each.startswith(DEPENDING[name])]
+            of = {f"{one}{each}" for one in ([prefix] if prefix else own or [""]) for each in about}
+            found.append((Word.at(name, keys.places[name]), every - of))
+    return tuple(found)
 
 
 def _bodies(written: GivenBody, known: InLetters) -> list[Asked]:
@@ -251,15 +277,26 @@ class Answers:
 
 def solve(described: DescribedBodies, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for."""
-    asks: dict[str, Callable[[], object]] = {}
-    for one in described.bodies:
-        prefix = f"{one.described.called.replace(' ', '_')}_" if one.described.called else ""
-        answers = Answers(one)
-        drawn(answers.body)
-        asks |= {f"{prefix}{name}": answer for name, answer in answers.asks().items()}
-    by_name = ByName(asks, "a body")
-    asks |= {result.name: partial(result.made, by_name.named, {}) for result in described.results}
-    return answered(asked, by_name)
+    of = _answers(described)
+    for one in of.values():
+        drawn(one.body)
+    return _by_name(described, of).answers(asked)
 
 
-STOCK = Stock(GivenBody, read, solve)
+def _answers(described: DescribedBodies) -> dict[str, Answers]:
+    """Those of each body, by what stands before their names."""
+    called = {one.described.called.replace(" ", "_"): one for one in described.bodies}
+    return {f"{name}_" if name else "": Answers(one) for name, one in called.items()}
+
+
+def _by_name(described: DescribedBodies, of: Mapping[str, Answers]) -> ByName:
+    asks = {f"{prefix}{name}": answer for prefix, one in of.items() for name, answer in one.asks().items()}
+    return ByName(asks, "a body", described.results, again=lambda: _by_name(described, _answers(described)))
+
+
+def every(described: DescribedBodies) -> dict[str, tuple[Quantity, ...] | DeriveError]:
+    """All that parts may ask for, or why it cannot be derived."""
+    return _by_name(described, _answers(described)).every()
+
+
+STOCK = Stock(GivenBody, read, solve, every)

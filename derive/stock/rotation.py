@@ -16,7 +16,7 @@ from derive.course.given import Given
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, Place, rejected
+from derive.errors import DeriveError, Faults, Place, rejected
 from derive.mechanics import (
     RigidBody,
     angle_between,
@@ -47,7 +47,6 @@ from derive.mechanics import (
 from derive.mechanics.bodies.body import Body, axis_vector
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
-from derive.stock.keys.answers import answered
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
 from derive.stock.keys.outlines import drawn_free, drawn_turning
@@ -121,6 +120,13 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
     for other in ("rates", "along", "torque"):
         with faults:
             _one_way(written, "start", other)
+    for steady in ("rates", "along"):
+        with faults:
+            if written.torque and steady in written.values_at:
+                message = (
+                    f"`torque` has no effect beside `{steady}`: the torque that keeps up a given rotation is derived"
+                )
+                rejected("unused-key", message, written.places["torque"], f"leave it or `{steady}` out")
     with faults:
         if written.along is not None and written.rate is None:
             message = "a rotation along an axis needs its `rate`"
@@ -151,6 +157,8 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         r for name, keys in written.results.items() if (r := keys.read(name, with_components, faults))
     )
     return DescribedRotation(
+        made={result.name: result.uses for result in found["results"]},
+        without=_without(written),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
         told=tuple(
@@ -161,6 +169,18 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
         place=written.places[""],
         **found,
     )
+
+
+def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
+    """The answers that do not depend on the `rate` of a rotation that is disturbed, and those not on the `torque`."""
+    asks = {*Answers(DescribedRotation()).asks()}
+    of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
+    without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
+    found = {
+        "rate": asks - of_rate if written.along is None else set[str](),
+        "torque": {name for name in asks if name.startswith(without_torque)},
+    }
+    return tuple((Word.at(name, written.places[name]), found[name]) for name in found if name in written.values_at)
 
 
 def _one_way(written: RotationKeys, first: str, second: str, required: bool = False) -> None:
@@ -391,10 +411,7 @@ class Answers:
 def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for."""
     answers = Answers(described)
-    asks = answers.asks()
-    by_name = ByName(asks, "a rotation")
-    asks |= {result.name: partial(result.made, by_name.named, {}) for result in described.results}
-    found = answered(asked, by_name)
+    found = _by_name(described, answers).answers(asked)
     if described.body is not None:
         drawn_turning(answers, "angle_between" in asked)
     elif described.about in ("centre", CENTRE_OF_MASS):
@@ -403,4 +420,14 @@ def solve(described: DescribedRotation, asked: Sequence[Word]) -> dict[str, obje
     return found
 
 
-STOCK = Stock(RotationKeys, read, solve)
+def _by_name(described: DescribedRotation, answers: Answers) -> ByName:
+    again = lambda: _by_name(described, Answers(described))  # noqa: E731
+    return ByName(answers.asks(), "a rotation", described.results, again=again)
+
+
+def every(described: DescribedRotation) -> dict[str, tuple[Quantity, ...] | DeriveError]:
+    """All that parts may ask for, or why it cannot be derived."""
+    return _by_name(described, Answers(described)).every()
+
+
+STOCK = Stock(RotationKeys, read, solve, every)

@@ -16,11 +16,12 @@ from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
-from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
 from derive.mechanics.systems.coordinates import kind_of_rate
 from derive.mechanics.systems.phase_space import kind_of_momentum
 from derive.mechanics.systems.places import Location
+from derive.steps.step import Quantity
 from derive.stock.answering.moments import started, struck
 from derive.stock.answering.of_systems import Answers, constant
 from derive.stock.keys.blows import BLOW, BlowKeys, DescribedBlow
@@ -53,10 +54,17 @@ from derive.stock.keys.places import (
     coordinate_letters,
     is_letter,
 )
-from derive.stock.keys.results import RESULTS, Result, ResultKeys, names
+from derive.stock.keys.result_words import names
+from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 STATE = mapping_of(SCALAR)
 POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
+INDIFFERENT_TO_STATES = (
+    "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
+    "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
+    "multipliers",
+)  # fmt: skip
+OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
 SYSTEM = "system"  # what the drawing of it is called
 
 
@@ -185,8 +193,11 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     kind_of_lagrangian = given[1] if given is not None else "energy"
     with_own = InLetters({**_momenta(written.coordinates, letters, kind_of_lagrangian), **symbols, **own})
     with_own.numbers = known.numbers
+    results = tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults)))
     return DescribedSystem(
         letters=own,
+        made={result.name: result.uses for result in results},
+        without=_without(written, [*own], [*blow.letters] if blow else []),
         chosen=known.chosen,
         measured=tuple(known.numbers.measured),
         coordinates=tuple(
@@ -202,12 +213,29 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         kept=tuple(kept),
         at=_state({} if rest else _values(written.at, faults), letters, with_own, faults),
         at_rest=rest,
-        results=tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults))),
+        results=results,
         blow=blow,
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
         given=given,
+    )
+
+
+def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
+    """The answers that do not depend on the state `at`, and those that do not depend on `conserved`."""
+    of_each = ("motion", "momentum", "acceleration")
+    one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
+    general = one | {*found, *INDIFFERENT_TO_STATES}
+    of_state = general | {f"{name}_{q}" for name in ("conserved", "constant") for q in written.coordinates}
+    of_rest = {"stability", "linearised", "normal_modes", "frequency", "period"}
+    found_for = {
+        "at": {*of_state, *OF_CYCLIC},
+        "conserved": general,
+        "blow": {*of_state, *OF_CYCLIC, *of_rest} - {*impulses},
+    }
+    return tuple(
+        (Word.at(key, written.places[key]), names) for key, names in found_for.items() if key in written.values_at
     )
 
 
@@ -329,16 +357,18 @@ def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
 def solve(described: DescribedSystem, asked: Sequence[Word]) -> dict[str, object]:
     """The answers by the names that parts ask for, and a drawing of the system."""
     of = Answers(described)
-    asks = of.asks()
-    answers: dict[str, object] = {}
     if described.given is None:
         with told_at(described.place):
             start, blow = started(described.results, of.system), struck(described.blow, of.system)
             sketch(SYSTEM, of.system, named=described.named, start=start, blow=blow)
-    for name in sorted(asked, key=lambda name: name not in asks):  # the key of a step comes after what it comes of
-        answers[str(name)] = of.named(name)
+    answers = of.by_name.answers(asked)
     of.check_letters()
     return answers
 
 
-STOCK = Stock(SystemKeys, read, solve)
+def every(described: DescribedSystem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
+    """All that parts may ask for, or why it cannot be derived."""
+    return Answers(described).by_name.every()
+
+
+STOCK = Stock(SystemKeys, read, solve, every)

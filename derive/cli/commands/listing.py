@@ -1,12 +1,14 @@
-"""`derive list`: the problems of a course."""
+"""`derive list`: the problems of a course, or all that the parts of one may ask for."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
-from derive.cli.asked import new_id_of, root_of, warn_of_names
+from derive.cli.asked import new_id_of, problem_id_of, root_of, warn_of_names
+from derive.cli.running import waiting
 from derive.cli.terminal import table
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
@@ -15,6 +17,8 @@ def list_problems(arguments: argparse.Namespace) -> int:
     from derive.course.problem_set import known_set, problem_paths, topic_of
 
     root = root_of(arguments)
+    if arguments.answers:
+        return _list_answers(arguments, root)
     warn_of_names(root)
     within = f"{known_set(root, new_id_of(arguments.set))}/" if arguments.set else ""
     paths = {problem: path for problem, path in sorted(problem_paths(root).items()) if problem.startswith(within)}
@@ -29,6 +33,22 @@ def list_problems(arguments: argparse.Namespace) -> int:
     rows = [("problem", "topic", "points", "title"), *found]
     without = [(row[0], *row[2:]) for row in rows]
     print(table(rows if any(topics.values()) else without))
+    return 0
+
+
+def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
+    from derive.building.answers import answers_of
+    from derive.building.workers import done, job_of
+    from derive.course.problem_set import path_of
+
+    if not arguments.set or "/" not in (problem_id := problem_id_of(arguments.set)):
+        message = "`--answers` lists those of one problem"
+        raise Misused(Complaint("no-such-problem", message, help="name it, such as `derive list hw9/block --answers`"))
+    path_of(root, problem_id)
+    with waiting(f"deriving {problem_id}"):
+        work = partial(answers_of, root, problem_id)
+        rows = done(job_of(root, problem_id, work, arguments.time_limit))
+    print(table(rows))
     return 0
 
 

@@ -37,6 +37,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.quadratics import roots_together
 from derive.mechanics.equations.reach import is_out_of_range
 from derive.mechanics.equations.unknowns import (
+    ValueOf,
     coordinates_of,
     factors_elsewhere,
     is_number,
@@ -221,7 +222,7 @@ def _step(
                 "count": Integer(len(kept)),
             },
         ),
-        facts=[root],
+        facts=[root, ValueOf(unknown)],
     )
 
 
@@ -441,8 +442,7 @@ def _numbered(name: str, n: int) -> str:
 
 
 def _names(unknown: Expr, count: int, key: str | None) -> list[str]:
-    letter = letter_of(unknown).name
-    name = key or (letter if isinstance(unknown, Symbol) else f"{letter}_root")
+    name = key or f"{letter_of(unknown).name}{'' if isinstance(unknown, Symbol) else '_root'}"
     return [name] if count == 1 else [f"{name}_{i + 1}" for i in range(count)]
 
 

@@ -13,6 +13,7 @@ from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, e
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.unknowns import (
+    ValueOf,
     coordinates_of,
     lecture_form,
     left_over,
@@ -178,6 +179,9 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
             raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no equation for a letter"))
     else:
         target, value = quantity.symbol, quantity.value
+        root = quantity.fact(ValueOf)
+        if root is not None and not quantity.symbol.free_symbols & explicit(of.value).free_symbols:
+            target = root.unknown  # t_2 for t, where the original has t
     value = explicit(value)
     if isinstance(value, MatrixBase):
         raise Rejected(

@@ -7,6 +7,7 @@ where its letter stands in any other way, it cannot be taken for an unknown.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -42,13 +43,20 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, coordinate_named
-from derive.steps.step import Quantity
+from derive.steps.step import Fact, Quantity
 
 __all__ = ["unknown"]
 
 LARGEST = 2500  # operations of what is still multiplied out and factored
 SHORT = 40  # of what may be written with multiples of an angle
 INVERSE = {cos: acos, sin: asin, tan: atan}
+
+
+@dataclass(frozen=True)
+class ValueOf(Fact):
+    """One of several values of an unknown, which has a letter of its own: t_2 is a value of t."""
+
+    unknown: Expr
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:

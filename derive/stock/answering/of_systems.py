@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, Protocol
 
@@ -12,7 +11,7 @@ from sympy import Expr, Integer, Symbol
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.course.stock import told_at
 from derive.course.yaml_tree import Word
-from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, rejected
+from derive.errors import Complaint, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import (
     Coordinate,
     System,
@@ -46,6 +45,7 @@ from derive.mechanics.systems.system import ActsOnNothing
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, current_run
 from derive.steps.step import Quantity, is_zero
+from derive.stock.answering.by_name import ByName
 from derive.stock.answering.held_rest import rest_with_forces
 from derive.stock.answering.of_blows import BlowAnswers
 from derive.stock.keys.blows import DescribedBlow
@@ -53,8 +53,6 @@ from derive.stock.keys.parts import Part
 from derive.stock.keys.placed import put, rolls
 from derive.stock.keys.results import Result
 from derive.witness.facts import Rest
-
-DIGITS = "0123456789"
 
 
 class OfSystem(Protocol):
@@ -99,8 +97,6 @@ class Answers:
         self.coordinates = {
             name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
         }
-        self._on_the_way: list[str] = []
-        self._known: dict[str, Any] = {}
         self._moving: dict[str, Quantity] = {}
         self._blow: BlowAnswers | None = None
 
@@ -289,9 +285,18 @@ class Answers:
     def state(self) -> dict[Any, Expr] | Quantity | None:
         """The state about which the motion is small, if one is given."""
         if self.described.at_rest is not None:
-            return self._one_of("equilibria", self.described.at_rest)
+            return self._state_called(self.described.at_rest)
         found = {self.coordinates[name]: value for name, value in self.described.at}
         return found or None
+
+    def _state_called(self, name: Word) -> Quantity:
+        """`rest_2` or `equilibrium_2`, of those that there are."""
+        states = self.by_name.named(Word.at("equilibria", name.place))
+        found = self.by_name.one_of("equilibria", name, states)
+        if found is None:
+            help_line = f"they are {', '.join(f'`{q.key}`' for q in states)}"
+            rejected("no-such-answer", f"there is no equilibrium `{name}`", name.place, help_line)
+        return found
 
     @cached_property
     def linearised(self) -> tuple[Quantity, ...]:
@@ -356,8 +361,9 @@ class Answers:
                 if self.rolling
                 else "nothing rolls in this system",
             ),
-            "angular_velocity": lambda: tuple(
-                angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane
+            "angular_velocity": lambda: self._some(
+                tuple(angular_velocity(body.turned) for body in self.bodies.values() if not body.is_plane),
+                "no body of this system turns in space: in a plane its angular velocity is the rate of an angle",
             ),
             "accelerations": lambda: accelerations(*self.motions.values()),
             "multipliers": lambda: multipliers(*self.motions.values()),
@@ -373,9 +379,13 @@ class Answers:
             found[constraint.force.name] = partial(self._one_of, "multipliers", constraint.force.name)
         if self.described.blow is not None:
             found |= self.blow_of(self.described.blow).asks()
-        for result in self.described.results:
-            found[result.name] = partial(result.made, self.named, self.coordinates)
         return found
+
+    @cached_property
+    def by_name(self) -> ByName:
+        """These, and what is made of them."""
+        again = partial(_again, self.described)
+        return ByName(self.asks(), "", self.described.results, self.coordinates, again)
 
     def blow_of(self, described: DescribedBlow) -> BlowAnswers:
         if self._blow is None:
@@ -407,7 +417,7 @@ class Answers:
 
     def _one_of(self, several: str, key: str) -> Quantity:
         assert self.described.place is not None
-        found = {q.key: q for q in self.named(Word.at(several, self.described.place))}
+        found = {q.key: q for q in self.by_name.named(Word.at(several, self.described.place))}
         if key not in found:
             raise Rejected(Complaint("wrong-argument", f"`{several}` has no `{key}`", help=did_you_mean(key, found)))
         return found[key]
@@ -420,37 +430,10 @@ class Answers:
             conserved(self.lagrangian, self.coordinates[name])  # which says why its momentum is not
         return self.cyclic[name]
 
-    def _on_the_way_to(self, name: Word, asks: Collection[str]) -> tuple[Quantity, ...]:
-        """The step of that key among those that answers have led to, or that lead to the equations of motion; of
-        several with numbers, `rate_1`, `rate_2`, all."""
-        steps = {q.key: q for known in self._known.values() for q in returned_quantities(known)}
-        for further in ("", "lagrangian", "equations_of_motion"):
-            if further:
-                with suppress(DeriveError):
-                    self.named(Word.at(further, name.place))
-                steps = {q.key: q for q in self.established} | steps
-            found = [q for key, q in steps.items() if key == name or key.rstrip(DIGITS) == f"{name}_"]
-            if found:
-                return tuple(found)
-        help_line = did_you_mean(name, (*asks, *steps)) or f"one may ask for {', '.join(asks)}"
-        rejected("no-such-answer", f"there is no answer `{name}`", name.place, help_line)
-
     @property
     def established(self) -> Sequence[Quantity]:
         return run.established if (run := current_run.get()) else []
 
-    def named(self, name: Word) -> tuple[Quantity, ...]:
-        """The steps of a name, or the one step of that key among those that a name has already led to."""
-        asks = self.asks()
-        if name in self._on_the_way:
-            rejected("circle", f"`{name}` is made of itself", name.place)
-        if name not in self._known and name not in asks:
-            return self._on_the_way_to(name, asks)
-        if name not in self._known:
-            self._on_the_way.append(name)
-            try:
-                with told_at(name.place):
-                    self._known[str(name)] = asks[name]()
-            finally:
-                self._on_the_way.pop()
-        return tuple(returned_quantities(self._known[name]))
+
+def _again(described: OfSystem) -> ByName:
+    return Answers(described).by_name

@@ -95,6 +95,11 @@ class CollisionKeys(Record):
         if self.along and self.restitution is None:
             help_line = "write `restitution: 1` where it is elastic, 0 where the two do not part"
             rejected("missing-key", "a collision along a normal needs its `restitution`", self.places[""], help_line)
+        if self.restitution is not None and not self.along:
+            message = "`restitution` has no effect on a collision without `along`: by default the two stay together"
+            rejected(
+                "unused-key", message, self.places["restitution"], "give the components of the common normal, `along`"
+            )
         ends = [(self.start, "from"), (self.end, "to"), (self.at, "at")]
         read: list[Callable[[], Any]] = [partial(places.at, place, name) for place, name in ends if place]
         read += [partial(letters.of_kind, node, "a component", "number") for node in self.along]

@@ -12,7 +12,7 @@ from sympy import Expr, Integer
 import derive.mechanics
 from derive.algebra.expressions import TIME, scalar
 from derive.course.expression import RESERVED, Declared, read_expression
-from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, record_of
+from derive.course.schema import SCALAR, TEXT, YES_OR_NO, Reader, Record, key, list_of, mapping_of, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, Rejected, did_you_mean, rejected
@@ -102,7 +102,7 @@ class PartKeys(ShapeKeys):
     at: tuple[Tree, ...] = key("where its centre of mass is, or its point `of`", PLACE)
     of: Word | None = key("which of its points is there: `end`, `corner`, `base`", TEXT)
     turned: Mapping[Word, Tree] = key("by which angles it is turned: `{x: pi/2}`", mapping_of(SCALAR))
-    cut_out: Word | None = key("whether it is cut out of the rest", Reader({"type": "boolean"}, TEXT.read))
+    cut_out: bool = key("whether it is cut out of the rest", YES_OR_NO)
 
 
 @dataclass(frozen=True)
@@ -195,7 +195,7 @@ class Bodies:
         if not written.parts:
             points = self._points(written)
             return DescribedBody(called, (self._alone(written, None),), False, None, points, place)
-        for size in (name for name in (*SIZES, "density") if name in written.values_at):
+        for size in (name for name in (*SIZES, "density", "limits") if name in written.values_at):
             message = f"a body made of parts has no `{size}` of its own"
             rejected("unknown-key", message, written.places[size], "give it for one of its parts")
         mass = self.letters.value(written.mass, "mass", "mass") if written.mass else None
@@ -235,9 +235,8 @@ class Bodies:
             angle = self.letters.of_kind(node, f"the angle of {name}", "angle")
             with told_at(axis.place):
                 part = part.turned(str(axis), angle)
-        cut_out = written.cut_out and written.cut_out.casefold() in ("true", "yes")
         with told_at(name.place):
-            return minus(part) if cut_out else part
+            return minus(part) if written.cut_out else part
 
     def _alone(self, written: ShapeKeys, whole_mass: Expr | None) -> Body:
         return self._shape(written, whole_mass) if written.shape else self._map(written)

@@ -109,6 +109,9 @@ class CentralKeys(Record):
         own = Dummy(name, positive=True)
         with_distance = InLetters({**letters.letters, name: Declared(name, own, "length")})
         energy = with_distance.of_kind(_there(self.energy), "energy", "energy")
+        if not energy.has(own):
+            message = f"this energy does not depend on the distance `{name}`, so no force acts"
+            rejected("unused-key", message, self.places["distance"])
         letter = scalar(name, positive=True)
         of = (energy.xreplace({own: letter}), letter, *_ends(self, places))
         return Part("central", of, massless(self.massless), self.places[""])
@@ -193,7 +196,11 @@ class ChargeKeys(Record):
         elif isinstance(self.magnetic, Scalar):
             fields.append(("B", letters.of_kind(self.magnetic, "magnetic", "magnetic field")))
         amount = letters.of_kind(_there(self.charge), "charge", "charge")
-        return Part("charge", (amount, places.at(_there(self.at), "at")), tuple(fields), self.places[""])
+        at = places.at(_there(self.at), "at")
+        if not fields:
+            message = "a charge without a field has no effect"
+            rejected("missing-key", message, self.places[""], "give it `electric` or `magnetic`")
+        return Part("charge", (amount, at), tuple(fields), self.places[""])
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from sympy import Expr
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import did_you_mean, rejected
+from derive.errors import Faults, did_you_mean, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
 from derive.mechanics.systems.places import Axes, Location
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
@@ -55,6 +55,7 @@ class MovingBodyKeys(BodyKeys):
         if self.centre is not None and self.held is not None:
             message = "a body has either `centre` or `held`, not both: each says where it is"
             rejected("twice", message, self.places["held"], "leave one of them out")
+        self._check_used()
         if self.turned is None:
             rejected("missing-key", "a body needs `turned`, which says how it is turned", self.places[""])
         body: DescribedBody | RigidBody = (
@@ -68,6 +69,25 @@ class MovingBodyKeys(BodyKeys):
             named.append(("held", self._point(letters, body)))
             named.append(("on", places.at(self.on, "on") if self.on else None))
         return Part("body", (body, turned), tuple(named), self.places[""])
+
+    def _check_used(self) -> None:
+        """Each key has an effect beside the others."""
+        own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across"}
+        beside = {
+            "moments": [name for name in self.values_at if name not in own],
+            "centre": [name for name in ("on",) if name in self.values_at],
+        }
+        faults = Faults()
+        for first, others in beside.items():
+            for other in others if first in self.values_at else ():
+                message = f"`{other}` has no effect on a body with `{first}`"
+                faults.error("unused-key", message, self.places[other], help="leave one of them out")
+        if "middle" in self.values_at and "moments" not in self.values_at:
+            message = "`middle` has no effect on a body without `moments`"
+            faults.error(
+                "unused-key", message, self.places["middle"], help="its shape says where its centre of mass is"
+            )
+        faults.stop()
 
     def _turned(self, turned: Tree, places: Places, letters: InLetters) -> Axes | Expr:
         if isinstance(turned, Scalar) and turned.text.strip() in {str(name) for name in places.turns}:

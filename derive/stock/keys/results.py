@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from sympy import Expr, Integer, oo
+from sympy import Expr, Integer
 
 from derive.algebra.expressions import Relation, explicit
 from derive.course.expression import names_in
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
 from derive.course.stock import InLetters, each, told_at
-from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Faults, Place, rejected
 from derive.mechanics import (
     Coordinate,
     beats,
@@ -44,17 +44,14 @@ from derive.mechanics.systems.dalembert import Matter
 from derive.mechanics.systems.phase_space import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.bodies import ENDS
-from derive.stock.keys.formulas import Formula, formula
+from derive.stock.keys.chosen_root import chosen_root
+from derive.stock.keys.formulas import Formula, FoundLetter, formula
+from derive.stock.keys.result_verbs import VERBS, check_verb, schema_of_verbs
+from derive.stock.keys.result_words import function_or_name, names, nodes, value_or_infinity, value_put_in, whole_order
 from derive.stock.keys.starts import from_start
 
 NAMES = as_written(one_or_more(TEXT.schema), "the name of an answer, or a list of names")
 EXPRESSIONS = as_written(one_or_more(SCALAR.schema), "an expression, or a list of them")
-INFINITE = {"infinity": oo, "-infinity": -oo}
-VERBS = (
-    "solve", "put_in", "roots", "limit", "where", "maximum", "minimum", "leaves", "solution", "amplitude", "speed",
-    "period", "beats", "value", "rate", "steady",
-    "frequency", "bracket", "noether",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -120,48 +117,67 @@ class ResultKeys(Record):
     start_rate: Tree | None = key("the rate at the start; without it zero", SCALAR)
     within: tuple[Tree, ...] = key("between which values it is sought, such as `[0, pi/2]`", ENDS)
     case: Word | None = key("`underdamped`, `critically_damped` or `overdamped`, where the letters leave it open", TEXT)
+    root: Word | None = key(
+        "which of several roots: `positive`, `negative`, `largest`, `smallest`, or its number, `2`",
+        Reader(SCALAR.schema, TEXT.read),
+    )
     symbol: Tree | None = key("the letter of what is found, or one for each of several", NAMES)
 
     def read(self, name: Word, letters: InLetters, faults: Faults) -> Result | None:
         """What is to be done, in letters; nothing after a complaint."""
         with faults:
-            verbs = [verb for verb in VERBS if getattr(self, verb) is not None]
-            if len(verbs) != 1:
-                message = f"`{name}` needs one of {', '.join(f'`{verb}`' for verb in VERBS)}"
-                rejected("missing-key", message, name.place)
+            known = letters.letters.get(name)
+            if known is not None and not isinstance(known, FoundLetter):
+                message = f"`{name}` is a letter of this problem already, so no result can be called so"
+                rejected("letter-clash", message, name.place, "give the result another name")
+            verb = next(verb for verb in VERBS if getattr(self, verb) is not None)
             written = formula(self.value, letters.letters) if self.value else None
             return Result(
-                name=str(name),
-                verb=verbs[0],
-                of=names(getattr(self, verbs[0])) if verbs[0] not in OF_FORMULAS else (),
-                functions=tuple(_function(node, letters) for node in _nodes(self.bracket)),
-                gained=_end(self.gained, letters) if self.gained else None,
+                name=name,
+                verb=verb,
+                of=() if VERBS[verb].of_formulas else names(getattr(self, verb)),
+                functions=tuple(function_or_name(node, letters) for node in nodes(self.bracket)),
+                gained=value_or_infinity(self.gained, letters) if self.gained else None,
                 formula=written,
                 results=names(self.results),
-                unknowns=tuple(letters.read(node, "for")[0] for node in _nodes(self.unknowns)),
-                values=tuple(each([partial(_value, letter, node, letters) for letter, node in self.values.items()])),
-                to=_end(self.to, letters) if self.to else None,
-                order=_order(self.order),
+                unknowns=tuple(letters.read(node, "for")[0] for node in nodes(self.unknowns)),
+                values=tuple(
+                    each([partial(value_put_in, letter, node, letters) for letter, node in self.values.items()])
+                ),
+                to=value_or_infinity(self.to, letters) if self.to else None,
+                order=whole_order(self.order),
                 relation=str(self.relation or "="),
-                bound=_end(self.bound, letters) if self.bound else None,
-                start=_end(self.start, letters) if self.start else None,
-                start_rate=_end(self.start_rate, letters) if self.start_rate else None,
-                within=tuple(_end(node, letters) for node in self.within),
+                bound=value_or_infinity(self.bound, letters) if self.bound else None,
+                start=value_or_infinity(self.start, letters) if self.start else None,
+                start_rate=value_or_infinity(self.start_rate, letters) if self.start_rate else None,
+                within=tuple(value_or_infinity(node, letters) for node in self.within),
                 case=str(self.case) if self.case else None,
+                root=self.root,
                 symbols=names(self.symbol),
                 place=name.place,
             )
         return None
 
 
-RESULTS = mapping_of(record_of(ResultKeys, "a result", "a mapping such as `{limit: lagrangian, for: m, to: 0}`"))
+_RESULT = record_of(ResultKeys, "a result", "a mapping such as `{limit: lagrangian, for: m, to: 0}`")
+
+
+def _result(node: Tree, name: str, faults: Faults) -> ResultKeys | None:
+    """One of `results:`, whose keys go together."""
+    found = _RESULT.read(node, name, faults)
+    if found is not None:
+        check_verb(found, name, faults)
+    return found
+
+
+RESULTS = mapping_of(Reader({**_RESULT.schema, **schema_of_verbs()}, _result))
 
 
 @dataclass(frozen=True)
 class Result:
     """One thing that is made of answers."""
 
-    name: str
+    name: Word
     verb: str
     of: tuple[Word, ...]
     formula: Formula | None = None
@@ -169,7 +185,7 @@ class Result:
     gained: Expr | None = None
     results: tuple[Word, ...] = ()
     unknowns: tuple[Expr, ...] = ()
-    values: tuple[tuple[str, Expr], ...] = ()
+    values: tuple[tuple[Word, Expr], ...] = ()
     to: Expr | None = None
     order: int | None = None
     relation: str = "="
@@ -178,6 +194,7 @@ class Result:
     start_rate: Expr | None = None
     within: tuple[Expr, ...] = ()
     case: str | None = None
+    root: Word | None = None
     symbols: tuple[Word, ...] = ()
     place: Place | None = field(default=None, repr=False, compare=False)
 
@@ -195,9 +212,6 @@ class Result:
                 rejected("wrong-type", f"`bracket` is of two functions, but these are {len(both)}", self.place)
             with told_at(self.place):
                 return poisson_bracket(both[0], both[1], *coordinates.values(), among=more, key=self.name)
-        if self.symbols and self.verb not in LETTERED:
-            letter = self.symbols[0]
-            rejected("wrong-argument", f"what `{self.verb}` finds has no letter of its own", letter.place)
         if self.verb == "speed" and not self.results:
             more = self._motion_for_speed(of, answers, coordinates)
         with told_at(self.place):
@@ -228,6 +242,12 @@ class Result:
         if len(of) != 1:
             rejected("wrong-argument", f"`{self.verb}` is about one answer, but these are {len(of)}", self.place)
         return of[0]
+
+    @property
+    def uses(self) -> tuple[Word, ...]:
+        """The names of the answers that it is made of."""
+        of_formula = self.formula.answers if self.formula is not None else ()
+        return (*self.of, *self.results, *of_formula, *(f for f in self.functions if isinstance(f, Word)))
 
     @property
     def letter(self) -> Expr:
@@ -266,14 +286,19 @@ def _solve(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
 def _put_in(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     original = result.only(of)
     there = {s.name for quantity in (original, *more) for s in explicit(quantity.value).free_symbols}
-    values = {name: value for name, value in result.values if name in there}
+    state = {s.name for one in q.values() for s in (one.symbol, one.rate, one.acceleration)}
+    for name in (name for name, _ in result.values if name not in there | state):
+        message = f"`{original.key}` does not contain `{name}`, so its value has no effect"
+        rejected("unused-value", message, name.place, "leave it out")
+    values = {str(name): value for name, value in result.values if name in there}  # a state may say more
     return put_in(original, *more, key=result.name, **result.symbol, **(values or dict(result.values)))
 
 
 def _roots(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     only = result.only(of)
     key = None if isinstance(only.value, Relation) else result.name  # zeros are called as what they were asked by
-    return roots(only, result.letter, **result.named({"symbols": tuple(map(str, result.symbols)), "key": key}))
+    found = roots(only, result.letter, **result.named({"symbols": tuple(map(str, result.symbols)), "key": key}))
+    return found if result.root is None else chosen_root(found, result.root)
 
 
 def _limit(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
@@ -330,7 +355,7 @@ def _steady(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping
     strange = next((name for name, _ in result.values if name not in known), None)
     if strange is not None:
         message = f"`steady` has values of coordinates and rates, but `{strange}` is none"
-        rejected("no-such-coordinate", message, result.place)
+        rejected("no-such-coordinate", message, strange.place)
     L = result.only(of)
     turning = [one for one in q.values() if one.symbol not in explicit(L.value).free_symbols and one not in rates]
     if len(result.symbols) > len(turning):
@@ -354,17 +379,9 @@ def _frequency(result: Result, of: list[Quantity], more: list[Quantity], q: Mapp
 def _noether(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[str, Coordinate]) -> Any:
     strange = next((name for name, _ in result.values if name not in q), None)
     if strange is not None:
-        rejected("no-such-coordinate", f"`noether` shifts coordinates, but `{strange}` is none", result.place)
+        rejected("no-such-coordinate", f"`noether` shifts coordinates, but `{strange}` is none", strange.place)
     shift = {q[name]: value for name, value in result.values}
     return noether(result.only(of), shift, key=result.name, **result.named({"gained": result.gained}), **result.symbol)
-
-
-def _function(node: Tree, letters: InLetters) -> Word | Expr:
-    """The name of an answer, or a formula in letters, coordinates and momenta."""
-    if isinstance(node, Scalar) and not node.empty and [*names_in(node)] == [node.text.strip()]:
-        if node.text.strip() not in letters.letters:
-            return node.word
-    return letters.read(node, "a function")[0]
 
 
 def _one_of(answers: Callable[[Word], tuple[Quantity, ...]], name: Word) -> Quantity:
@@ -382,9 +399,6 @@ def _beats(result: Result, of: list[Quantity], more: list[Quantity], q: Mapping[
     slow, fast = of
     return beats(slow, fast, key=result.name, **result.symbol)
 
-
-LETTERED = ("put_in", "roots", "limit", "amplitude", "period", "beats", "value", "frequency", "steady", "noether")
-OF_FORMULAS = ("value", "bracket")
 
 _MAKERS: Mapping[str, Callable[..., Any]] = {
     "solve": _solve,
@@ -411,40 +425,3 @@ def _started(result: Result) -> Expr:
     if result.start is None:
         rejected("missing-key", f"`{result.verb}` needs `start`, the value at the start", result.place)
     return result.start
-
-
-def _nodes(node: Tree | None) -> tuple[Tree, ...]:
-    return () if node is None else node.items if isinstance(node, Sequence) else (node,)
-
-
-def names(node: Tree | None) -> tuple[Word, ...]:
-    """The names that stand there, one or several."""
-    found = []
-    for item in _nodes(node):
-        if not isinstance(item, Scalar) or item.empty:
-            rejected("wrong-type", "an answer is told by its name", item.place)
-        found.append(item.word)
-    return tuple(found)
-
-
-def _value(letter: Word, node: Tree, letters: InLetters) -> tuple[str, Expr]:
-    """A letter, a coordinate or a rate, and its value; what an answer does not contain changes nothing in it."""
-    if letter not in letters.letters:
-        help_line = did_you_mean(letter, letters.letters) or "it is a letter, a coordinate or a rate"
-        rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
-    return str(letter), _end(node, letters)
-
-
-def _end(node: Tree, letters: InLetters) -> Expr:
-    """An expression, or infinity."""
-    if isinstance(node, Scalar) and node.text.strip() in INFINITE:
-        return INFINITE[node.text.strip()]
-    return letters.read(node, "a value")[0]
-
-
-def _order(word: Word | None) -> int | None:
-    if word is None:
-        return None
-    if not word.isdigit() or len(word) > 2:
-        rejected("wrong-type", f"`order` must be a whole number, but it is `{word}`", word.place)
-    return int(word)

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from sympy import Rational, sqrt, symbols
 
 from derive.algebra.equality import equal
+from derive.course.yaml_tree import Word
+from derive.errors import Place, Rejected
+from derive.mechanics import let
+from derive.steps.step import Quantity
+from derive.stock.answering.by_name import ByName
 from tests.stock.bodies import BLOCK, CONE
 from tests.stock.described import edited, messages, solved
 
@@ -34,3 +40,25 @@ def test_what_is_made_of_itself_or_of_nothing_is_refused(tmp_path: Path) -> None
     )
     text = edited(CONE, made, ("answer: inertia_tensor", "answer: [one, three]"))
     assert messages(tmp_path, text) == ["7: `one` is made of itself", "7: a body has no answer called `four`"]
+
+
+def word(name: str, line: int) -> Word:
+    return Word.at(name, Place("p.yaml", line))
+
+
+def mass() -> Quantity:
+    return let("mass", lambda: M, kind="mass")
+
+
+def test_each_answer_is_under_its_name() -> None:
+    (found,) = ByName({"mass": mass, "speed": lambda: 1 / 0}, "a body").answers([word("mass", 1)]).values()
+    assert isinstance(found, tuple) and [quantity.key for quantity in found] == ["mass"]
+
+
+def test_all_names_that_are_no_answers_are_told() -> None:
+    with pytest.raises(Rejected) as refused:
+        ByName({"mass": mass}, "a body").answers([word("mas", 1), word("w", 2)])
+    assert [(c.message, c.help, c.place and c.place.line) for c in refused.value.complaints] == [
+        ("a body has no answer called `mas`", "did you mean `mass`?", 1),
+        ("a body has no answer called `w`", "one may ask for mass", 2),
+    ]

@@ -110,7 +110,7 @@ def test_what_cannot_be_meant_by_a_formula_is_told(made: str, said: str, tmp_pat
         ("values: {r: r_0}", "values: {m: r_0}", "but `m` is none"),
         ("symbol: Omega", "symbol: [Omega, Xi]", "`steady` has letters for the rates of 1 cyclic"),
         ("symbol: Omega", "symbol: r_0", "`r_0` stands for something else already"),
-        ("results: orbit, for: Omega", "for: Omega", "`frequency` needs the steady motion"),
+        ("results: orbit, for: Omega", "for: Omega", "`frequency` needs `results`"),
     ],
 )
 def test_what_is_no_steady_motion_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:

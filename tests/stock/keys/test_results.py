@@ -62,13 +62,15 @@ def test_a_letter_may_be_given_to_what_is_found(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("made", "said"),
     [
-        ("{where: acceleration_x, is: '>', for: m_1, symbol: a}", "what `where` finds has no letter of its own"),
+        ("{where: acceleration_x, is: '>', for: m_1, symbol: a}", "`symbol` has no effect on `where`"),
         ("{put_in: acceleration_x, values: {m_2: m_1}, symbol: [a, b]}", "`put_in` finds one thing, with one letter"),
         ("{for: m_2}", "`made` needs one of `solve`, `put_in`"),
         ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `solve`"),
         ("{limit: acceleration_z, for: m_2, to: 0}", "there is no answer `acceleration_z`"),
         ("{limit: made, for: m_2, to: 0}", "`made` is made of itself"),
-        ("{limit: acceleration_x, to: 0}", "`limit` needs one letter as its `for`"),
+        ("{limit: acceleration_x, to: 0}", "`limit` needs `for`"),
+        ("{limit: acceleration_x, for: [m_1, m_2], to: 0}", "`limit` needs one letter as its `for`"),
+        ("{put_in: acceleration_x, values: {m_1: m_2, l: x_0}}", "12: `acceleration_x` does not contain `l`"),
         ("{limit: accelerations, for: m_2, to: 0}", "`limit` is about one answer, but these are 2"),
         ("{speed: lagrangian, for: m_1, start: 0}", "`speed` needs a coordinate as its `for`"),
         ("{limit: acceleration_x, for: m_2, order: many}", "`order` must be a whole number, but it is `many`"),

@@ -12,7 +12,7 @@ from tests.stock.described import messages
 
 @pytest.mark.parametrize(
     ("values", "said"),
-    [("", "`solution` of several coordinates needs their `values`"), (", values: {C_1: Q}", "`C_1` is none")],
+    [("", "`solution` needs `start` or `values`"), (", values: {C_1: Q}", "`C_1` is none")],
 )
 def test_a_start_that_tells_nothing_is_refused(values: str, said: str, tmp_path: Path) -> None:
     found = messages(tmp_path, TWO.replace(", values: {q: Q}", values))

@@ -1,0 +1,152 @@
+"""What a problem's file says without effect: declared letters, coordinates, results and keys that nothing uses."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from collections.abc import Mapping as Table
+
+from derive.algebra.expressions import TIME
+from derive.course.given import Given, Measured
+from derive.course.placement import HIDDEN
+from derive.course.stock import Described
+from derive.course.written import ProblemKeys, SortOfLetter
+from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
+from derive.errors import Complaint
+
+GRAVITY, ACCELERATION = "gravity", "acceleration"
+OF_STATES = ("at", "results", "conserved", "coordinates")  # keys that say where a coordinate is, not what depends on it
+_NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
+_RATES = ("", "_dot", "_ddot")
+
+
+def unused_in(
+    written: ProblemKeys,
+    asked: Collection[Word],
+    givens: Collection[Given],
+    measured: Collection[Measured],
+    described: Described | None,
+) -> tuple[Complaint, ...]:
+    """A warning about each of them."""
+    behind = {each.symbol.name for each in measured} - {*written.values}  # letters that numbers have taken
+    exact = {given.kind.each for given in givens if given.written is not None}  # where another number takes a letter
+    found = [*_letters(written, behind, exact)]
+    found += [*_drawings(written), *_points(written)]
+    if described is not None:
+        needed = needed_for(asked, described.made)
+        found += [
+            *_coordinates(written.given),
+            *_axes(written.given),
+            *_results(described.made, needed),
+            *_keys(described, needed),
+        ]
+    return tuple(found)
+
+
+def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
+    """What parts ask for, and what that is made of; of `both_x_1` it may be `both`."""
+    found, waiting = set[str](), [str(name) for name in asked]
+    while waiting:
+        name = waiting.pop()
+        if name in found:
+            continue
+        found.add(name)
+        for result, uses in made.items():
+            if name == result or name.startswith(f"{result}_"):
+                waiting += [str(result), *map(str, uses)]
+    return found
+
+
+def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
+    """Letters that are declared, and occur neither in what is given nor in what it is compared with."""
+    compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
+    drawn = {name for each in written.drawings.values() for name in each.values}  # of which the drawing tells
+    used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
+    for name, sort in written.symbols.items():
+        if name in used or sort in exact:
+            continue
+        message = f"`{name}` is declared, but nothing under `given` uses it"
+        instead = f"write `gravity: {name}` under `given`, or " if _lacks_gravity(written.given, sort) else ""
+        yield Complaint("unused-letter", message, name.place, help=f"{instead}leave it out", severity="warning")
+
+
+def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:
+    """Whether a letter may be the acceleration of free fall of a system that is described without it."""
+    is_system = given is not None and given.get("coordinates") is not None and given.get("lagrangian") is None
+    return is_system and sort == ACCELERATION and given is not None and given.get(GRAVITY) is None
+
+
+def _drawings(written: ProblemKeys) -> Iterator[Complaint]:
+    """What is said of a drawing that is not shown."""
+    for name, each in written.drawings.items():
+        hidden = isinstance(each.at, Scalar) and each.at.text == HIDDEN
+        for key in (key for key in ("caption", "width") if hidden and key in each.values_at):
+            message = f"`{key}` has no effect on `{name}`, which is hidden"
+            yield Complaint("unused-key", message, each.places[key], help="leave it out", severity="warning")
+
+
+def _points(written: ProblemKeys) -> Iterator[Complaint]:
+    for part in written.parts:
+        if part.points == 0:
+            message, help_line = "this part carries no points", "leave `points` out"
+            yield Complaint("points", message, part.places["points"], help=help_line, severity="warning")
+
+
+def _of_limit(limit: object) -> Iterator[str]:
+    for value in vars(limit).values():
+        if isinstance(value, str):
+            yield value
+    where = getattr(limit, "where", {})
+    yield from (str(text) for pair in where.items() for text in pair)
+
+
+def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
+    """Coordinates on which no place, body or energy depends."""
+    coordinates = given.get("coordinates") if given is not None else None
+    if given is None or not isinstance(coordinates, Mapping):
+        return
+    used = {name for key, value in given.pairs if key.text not in OF_STATES for name in _names(value)}
+    for q, _ in coordinates.pairs:
+        if not used & {f"{q.text}{rate}" for rate in _RATES}:
+            message = f"no place, body, force or energy depends on the coordinate `{q.text}`"
+            yield Complaint("unused-letter", message, q.place, help="leave it out", severity="warning")
+
+
+def _axes(given: Mapping | None) -> Iterator[Complaint]:
+    """Axes along which no place is given, and which no body turns with."""
+    axes = given.get("axes") if given is not None else None
+    if given is None or not isinstance(axes, Mapping):
+        return
+    used = {name for key, value in given.pairs if key.text != "axes" for name in _names(value)}
+    for name, _ in axes.pairs:
+        if name.text not in used:
+            message = f"no place is along the axes `{name.text}`, and no body turns with them"
+            yield Complaint("unused-key", message, name.place, help="leave them out", severity="warning")
+
+
+def _results(made: Table[Word, Collection[Word]], needed: Collection[str]) -> Iterator[Complaint]:
+    for name in made:
+        if name not in needed:
+            message = f"no part asks for the result `{name}`, and no other result uses it"
+            help_line = "let a part ask for it, or leave it out"
+            yield Complaint("unused-result", message, name.place, help=help_line, severity="warning")
+
+
+def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
+    """Keys on which nothing depends that is asked for."""
+    for key, indifferent in described.without:
+        if {*needed} - {*described.made} <= {*indifferent}:
+            message = f"nothing that is asked for depends on `{key}`"
+            yield Complaint("unused-key", message, key.place, help="leave it out", severity="warning")
+
+
+def _names(node: Tree | None) -> Iterator[str]:
+    """Every name in the texts of a node; keys of mappings are no texts."""
+    if isinstance(node, Scalar):
+        yield from _NAME.findall(node.text)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _names(item)
+    elif isinstance(node, Mapping):
+        for _, value in node.pairs:
+            yield from _names(value)
