@@ -28,6 +28,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps import record
 from derive.steps.chain import (
+    approximation_evidence,
     bindings_of,
     check_last_line,
     evidence_of_routes,
@@ -107,12 +108,14 @@ class Scope:
     differ       in what the inputs may be about different things
     coordinates  those that the step brings in, with their kinds
     case_of      the general quantity of the same symbol that this is a particular case of
+    approximates the letter of the whole that a limit or a series is only about equal to, or the key of an equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
     differ: Collection[str] = ()
     coordinates: Mapping[Symbol, str] = field(default_factory=dict)
     case_of: Quantity | None = None
+    approximates: Any = None
 
     def around(self, together: Subject, result: Any) -> Subject:
         """What the inputs are about together, and what the result is about beyond that."""
@@ -172,6 +175,10 @@ def establish(
     evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **lines.means})
     evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
     check_last_line(key, chain, result, bindings, lines.motion)
+    approximates, about, rests = approximation_evidence(
+        key, symbol, chain, scope.approximates, [*quantities.values(), *parents]
+    )
+    evidence += rests
     evidence += evidence_of_routes(key, rule, result, routes or {})
     _check_told(key, telling.formulas)
     if not routes:
@@ -198,6 +205,8 @@ def establish(
         names=names_in([symbol, *(form.expr for form in chain)], bindings),
         motion=tuple(lines.motion.items()),
         law_at=_place_of_verb(sys._getframe(1)),
+        approximates=approximates,
+        about=about,
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
     record.add(quantity, scope.case_of)

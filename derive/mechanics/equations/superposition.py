@@ -25,7 +25,7 @@ from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.derivation import with_ancestors
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Form, Quantity, is_zero, value_behind
+from derive.steps.step import Form, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["motions_by_modes"]
 
@@ -82,6 +82,7 @@ def motions_by_modes(
     first, initial = _start(start, together), _start(start_rate or {}, together)
     swings = [s for s in _swings(modes, together, first, initial, case) if s.is_there]
     motion = [tidied_motion(Add(*(_part(s, i) for s in swings))) for i in range(len(first))]
+    equations += approximations_among(*start.values(), *(start_rate or {}).values())
     return tuple(_motion(equations, together, swings, motion, i, (first, initial), key) for i in range(len(first)))
 
 
@@ -186,7 +187,7 @@ def _motion(
 
     def put_back(found: Expr) -> tuple[Any, Any]:
         whole = [found if j == i else value for j, value in enumerate(motion)]
-        left = [with_motion(each, together, whole) for each in equations]
+        left = [with_motion(each, together, whole) for each in equations if each.fact(Linear) is not None]
         return ImmutableDenseMatrix([value.expand() for value in left]), ImmutableDenseMatrix([ZERO for _ in left])
 
     def from_the_start(found: Expr) -> tuple[Any, Any]:

@@ -1,0 +1,178 @@
+"""What `results:` made wrong once: approximations that became equalities, roots of a cosine, ranges, signs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from sympy import pi, sqrt, symbols
+
+from derive.algebra.equality import Grade, equal
+from derive.errors import DeriveError, Rejected, Unverified
+from derive.mechanics import beats, let, limiting_case, put_in, where
+from derive.steps.establish import Scope, establish
+from derive.steps.record import Run, recorded
+from derive.steps.step import Quantity
+from tests.courses import rendered_once
+from tests.stock.described import course_with, edited
+
+M, m, g, l, k, A, S = symbols("M m g l k A S", positive=True)
+
+PENDULUM_ON_CART = """\
+title: A pendulum on a heavy cart
+solve: system
+symbols: {M: mass, m: mass, l: length, g: acceleration}
+given:
+  coordinates: {x: length, theta: angle}
+  places: {cart: [x, 0]}
+  particles:
+    cart: {mass: M, at: cart}
+    bob: {mass: m, at: {from: cart, by: [l*sin(theta), -l*cos(theta)]}}
+  gravity: g
+  at: {x: 0, theta: 0}
+  results:
+    heavy: {limit: frequency_2, for: M, to: infinity}
+    period: {value: 2*pi/heavy, symbol: tau}
+statement: A cart of mass <<M>>, a pendulum with bob <<m>> on a rod <<l>>, and <<g>>.
+parts:
+  - ask: Find the frequencies.
+    answer: normal_modes
+  - ask: What is the frequency for a heavy cart, and the period?
+    answer: [heavy, period]
+values: {M: 2 kg, m: 1 kg, l: 1 m, g: 9.81 m/s^2}
+"""
+
+SWING = """\
+title: A pendulum
+solve: system
+symbols: {m: mass, g: acceleration, l: length, A: "angle in (0, pi/2)"}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  gravity: g
+  results:
+    v2: {speed: energy_function, for: theta, start: A}
+    tau: {period: v2, order: 2}
+    often: {value: 1/tau, symbol: nu}
+statement: A bob on a rod <<l>>, <<g>>, starting at <<A>>.
+parts:
+  - ask: Find it.
+    answer: tau
+values: {A: 85 deg, l: 1 m, g: 9.81 m/s^2}
+figures: 5
+"""
+
+
+def printed(folder: Path, text: str, form: str = "text") -> str:
+    """The page of a problem in a format."""
+    found = rendered_once(course_with(folder, text), "trial/one", only={form})
+    return found.texts.get(form) or getattr(found, form)
+
+
+def given(value: Any, key: str = "f", **more: Any) -> Quantity:
+    return let(key, lambda: value, **more)
+
+
+# --- an approximation never turns into an equality ---
+
+
+def test_a_limit_has_a_letter_of_its_own_and_what_follows_is_approximate(tmp_path: Path) -> None:
+    page = printed(tmp_path, PENDULUM_ON_CART)
+    assert "ω_2 → ω_2,∞ = √(g/l)" in page
+    assert "τ ≈ 2π/ω_2,∞ = 2π √(l/g)" in page
+    assert "τ =" not in page
+    numbers = [line for line in page.splitlines() if "rad/s" in line and "ω_2 =" in line]
+    assert len(numbers) == 1 and "3.836" in numbers[0]
+    assert "ω_2,∞ = √((9.81 m/s^2)/(1 m)) ≈ 3.132 rad/s" in page
+
+
+@pytest.mark.parametrize(
+    ("form", "said"),
+    [("latex", r"\row{\tau}{\approx\frac{2\pi}{\omega_{2,\infty}}=2\pi"), ("html", r"\omega_{2,\infty}")],
+)
+def test_every_format_prints_an_approximation_as_one(form: str, said: str, tmp_path: Path) -> None:
+    assert said in printed(tmp_path, PENDULUM_ON_CART, form).replace(" ", "")
+
+
+def test_the_json_says_what_is_approximate(tmp_path: Path) -> None:
+    data = json.loads(printed(tmp_path, PENDULUM_ON_CART, "json"))
+    steps = {step["key"]: step for step in data["steps"]}
+    assert steps["heavy"]["approximates"] == r"\omega_{2}" and not steps["heavy"]["about"]
+    assert steps["period"]["about"] and "about" not in steps["frequency_2"]
+    assert data["answers"]["period"]["text"].startswith("τ ≈ ")
+
+
+def test_everything_computed_from_an_approximation_is_approximate() -> None:
+    with recorded(Run()):
+        first = limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w", kind="angular speed"), M, 0)
+        other = given(sqrt(k / m), "v", symbol="v", kind="angular speed")
+        made = [
+            let("u", lambda w: 2 * pi / w, first),
+            put_in(given(l * symbols("w", real=True), "n", symbol="n"), first),
+            where(put_in(given(S**2 - symbols("w", real=True) ** 2, "d", symbol="d"), first), ">", 0, S),
+            beats(first, other),
+        ]
+    assert [quantity.step.about for quantity in made] == [True] * 4
+    assert {quantity.step.grade for quantity in made} == {Grade.APPROXIMATION}
+    assert equal(made[1].value, l * sqrt(g / l))
+
+
+def test_the_letter_that_the_author_gives_is_that_of_the_limit() -> None:
+    with recorded(Run()):
+        whole = given(sqrt((M + m) * g / (m * l)), "w", symbol="w")
+        assert str(limiting_case(whole, M, symbol="w_0").symbol) == "w_0"
+        with pytest.raises(Rejected, match="w is the letter of the whole"):
+            limiting_case(whole, M, symbol="w")
+
+
+def test_a_letter_has_one_value_in_a_run() -> None:
+    with recorded(Run()):
+        whole = given(sqrt((M + m) * g / (m * l)), "w", symbol="w")
+        given(g / l, "other", symbol="w_lim")
+        limit = limiting_case(whole, M)
+        assert str(limit.symbol) == "w_M_lim"
+        with pytest.raises(Rejected, match="both called w_M_lim"):
+            given(g, "third", symbol="w_M_lim")
+
+
+def test_a_result_that_breaks_off_is_refused_under_the_letter_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("derive.mechanics.equations.limits.letter_of_limit", lambda whole, *_: whole)
+    with pytest.raises(Unverified, match="needs a letter of its own"):
+        limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
+
+
+def test_a_restated_limit_says_the_same_of_its_letter() -> None:
+    with recorded(Run()):
+        limit = limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
+        again = establish(
+            "equations.let",
+            limit.symbol,
+            lambda w: w,
+            {"w": limit},
+            key="again",
+            definition=True,
+            scope=Scope(case_of=limit),
+        )
+    assert again.step.approximates == limit.step.approximates and not again.step.about and not again.exact
+
+
+def test_the_number_of_a_period_is_that_of_the_integral(tmp_path: Path) -> None:
+    """4 sqrt(l/g) K(sin(85 deg/2)) = 2.32275 s by tables of the elliptic integral; the series would give 2.2820 s."""
+    page = printed(tmp_path, SWING)
+    assert "≈ 2.3228 s" in page and "2.2820" not in page
+    assert "2π √(l/g) (1 + 1/16 A²)" in page
+
+
+def test_what_is_derived_from_a_series_has_only_figures_for_which_it_is_good(tmp_path: Path) -> None:
+    with pytest.raises(DeriveError, match="not good for 5 figures"):
+        printed(tmp_path, edited(SWING, ("answer: tau", "answer: often")))
+    small = printed(tmp_path, edited(SWING, ("answer: tau", "answer: often"), ("85 deg", "4 deg")))
+    assert "ν ≈ 1/τ_lim" in small and "≈ 0.49834 s^-1" in small
+
+
+def test_an_amplitude_at_which_nothing_swings_is_refused(tmp_path: Path) -> None:
+    over = edited(SWING, ("A: 85 deg", "A: 200 deg"), ("angle in (0, pi/2)", "angle in (0, 2*pi)"))
+    with pytest.raises(DeriveError, match="does not swing to and fro"):
+        printed(tmp_path, over)
