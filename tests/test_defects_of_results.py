@@ -7,16 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from sympy import pi, sqrt, symbols
+from sympy import Integer, cos, pi, sin, sqrt, symbols
 
 from derive.algebra.equality import Grade, equal
+from derive.algebra.expressions import Relation
+from derive.algebra.ranges import Range, within
 from derive.errors import DeriveError, Rejected, Unverified
-from derive.mechanics import beats, let, limiting_case, put_in, where
+from derive.mechanics import beats, let, limiting_case, put_in, roots, solved_for, where
 from derive.steps.establish import Scope, establish
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.courses import rendered_once
-from tests.stock.described import course_with, edited
+from tests.stock.described import course_with, edited, solved
 
 M, m, g, l, k, A, S = symbols("M m g l k A S", positive=True)
 
@@ -176,3 +178,77 @@ def test_an_amplitude_at_which_nothing_swings_is_refused(tmp_path: Path) -> None
     over = edited(SWING, ("A: 85 deg", "A: 200 deg"), ("angle in (0, pi/2)", "angle in (0, 2*pi)"))
     with pytest.raises(DeriveError, match="does not swing to and fro"):
         printed(tmp_path, over)
+
+
+# --- roots of an equation in cos(theta) are values of cos(theta) ---
+
+TWO_COSINES = """\
+title: Two roots for a cosine
+solve: system
+symbols: {m: mass, l: length, E_1: 'positive energy', E_2: 'positive energy'}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  potential: E_1*cos(theta)**2 - E_2*cos(theta)
+  results:
+    turn: {roots: potential_energy, for: cos(theta)}
+    force: {put_in: potential_energy, results: turn_2}
+statement: A bob on a rod.
+parts:
+  - ask: Where does the potential energy vanish?
+    answer: turn
+"""
+
+
+def test_the_roots_of_an_equation_in_a_cosine_are_cosines(tmp_path: Path) -> None:
+    page = printed(tmp_path, TWO_COSINES)
+    assert "cos θ = 0" in page and "cos θ = E_2/E_1" in page
+    assert "and, if E_1 ≥ E_2," in page
+    assert "θ_1" not in page and "θ_2" not in page
+
+
+def test_the_value_of_a_cosine_is_put_in_for_the_cosine(tmp_path: Path) -> None:
+    found = solved(tmp_path, edited(TWO_COSINES, ("answer: turn\n", "answer: [turn, force]\n")))["force"]
+    assert found.value == 0
+
+
+def test_the_letter_of_a_root_of_a_cosine_is_that_of_the_angle() -> None:
+    q, a = symbols("theta a", real=True)
+    found = roots(given(cos(q) ** 2 - a * cos(q)), cos(q), symbols=["alpha", "beta"])
+    assert [str(quantity.symbol) for quantity in found] == ["cos(alpha)", "cos(beta)"]
+
+
+def test_a_factor_that_was_divided_away_from_an_equation_is_a_further_solution() -> None:
+    q = symbols("theta", real=True)
+    (found,) = roots(given(Relation(sin(q) * (3 * cos(q) - 2), "=", Integer(0))), cos(q))
+    assert dict(found.step.roles)["elsewhere"] == Relation(sin(q), "=", 0)
+
+
+def test_the_square_of_a_root_is_not_called_the_root() -> None:
+    w = symbols("w", real=True)
+    found = roots(given((w**2 - k) * (w**2 - m)), w**2)
+    assert {quantity.symbol for quantity in found} == {w**2}
+
+
+def test_a_root_without_linear_term_has_its_sign_where_it_is_real() -> None:
+    """g = l w^2 cos(theta_0): for w > 0 there is one root, where cos(theta_0) > 0, although theta_0 may exceed pi/2."""
+    w, angle = symbols("w", positive=True), symbols("theta_0", real=True)
+    with within({angle: Range(Integer(0), pi)}):
+        (found,) = roots(given(l * w**2 * cos(angle) - g), w)
+    assert found.step.outcome == "only" and equal(found.value, sqrt(g / (l * cos(angle))))
+    assert dict(found.step.roles)["condition"] == Relation(cos(angle), ">", 0)
+    assert "excluded" not in dict(found.step.roles)
+
+
+def test_what_an_equation_has_below_already_must_not_vanish_either() -> None:
+    q, a = symbols("theta a", real=True)
+    (found,) = solved_for(given(Relation(m * a - g / sin(q), "=", Integer(0))), a)
+    assert dict(found.step.roles)["excluded"] == Relation(sin(q), "!=", 0)
+
+
+def test_a_root_with_a_number_replaces_its_unknown() -> None:
+    """f14: the second time at which y = v t - g t^2/2 vanishes, put into x = u t."""
+    (u, v), t = symbols("u v", positive=True), symbols("t", real=True)
+    landing = roots(given(v * t - g * t**2 / 2, "up", symbol="y"), t)
+    assert str(landing[1].symbol) == "t_2"
+    assert equal(put_in(given(u * t, "along", symbol="x"), landing[1]).value, 2 * u * v / g)

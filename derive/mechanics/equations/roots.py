@@ -37,6 +37,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.quadratics import roots_together
 from derive.mechanics.equations.reach import is_out_of_range
 from derive.mechanics.equations.unknowns import (
+    ValueOf,
     coordinates_of,
     factors_elsewhere,
     is_number,
@@ -169,8 +170,7 @@ def _step(
 ) -> Quantity:
     root, alone = kept[i], len(kept) == 1
     others = [(each.value, each.times - (each is root)) for each in every]
-    numbered = letter or _numbered(letter_of(unknown).name, i + 1)
-    name = unknown if alone and not letter else scalar(numbered, **_assumed(unknown))
+    name = _name(unknown, letter, 0 if alone else i + 1)
 
     def vieta(found: Expr) -> tuple[Any, Any]:
         """Sum and product of all roots, from the found one and the others, against the coefficients."""
@@ -181,12 +181,13 @@ def _step(
             [-rest[0] / leading, (-1) ** n * rest[-1] / leading]
         )
 
-    elsewhere = Mul(*factors_elsewhere(explicit(equation.value), unknown)) if is_number(equation) else ONE
+    elsewhere = Mul(*factors_elsewhere(residual_of("roots", equation, or_value=True), unknown))
+    condition = _condition(root, unknown)
     told = {
         role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
         for role, each in (
-            ("condition", _condition(root, unknown)),
-            ("excluded", may_vanish(_common_factor(polynomial, every) * root.coefficients[0])),
+            ("condition", condition),
+            ("excluded", _excluded(_common_factor(polynomial, every) * root.coefficients[0], condition)),
             ("existing", _existing(root, unknown, equation)),
             ("elsewhere", None if elsewhere == 1 else Relation(elsewhere, "=", ZERO)),
         )
@@ -201,7 +202,7 @@ def _step(
             put_in=None,
             law=Level.FULL,
             arranged=lambda _: root.value,
-            means={} if isinstance(name, Symbol) else meaning(unknown, root.value),
+            means={} if isinstance(name, Symbol) else meaning(name, root.value),
         ),
         routes={
             "put_back": lambda found: (polynomial.as_expr().xreplace({polynomial.gen: found}), ZERO),
@@ -211,7 +212,7 @@ def _step(
         key=key,
         kind=kind_of_unknown(unknown, coordinates_of(equation)),
         telling=Telling(
-            words={"asked": _asked(equation)},
+            words={"asked": _asked(equation), **({} if isinstance(unknown, Symbol) else {"seen": "function"})},
             formulas=told,
             judged_by={
                 "polynomial": polynomial.as_expr(),
@@ -221,8 +222,26 @@ def _step(
                 "count": Integer(len(kept)),
             },
         ),
-        facts=[root],
+        facts=[root, ValueOf(unknown)],
     )
+
+
+def _name(unknown: Expr, letter: str, number: int) -> Expr:
+    """The letter of a root; a root that is the value of cos(theta) is called so, with the letter of the angle."""
+    if not isinstance(unknown, Symbol):
+        return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
+    if not letter and not number:
+        return unknown
+    return scalar(letter or _numbered(unknown.name, number), **_assumed(unknown))
+
+
+def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
+    """What must not vanish, unless the condition says so already: cos(theta_0) > 0."""
+    excluded = may_vanish(divisor)
+    if excluded is None or condition is None or condition.mark != ">" or not is_zero(condition.right):
+        return excluded
+    left = [f for f in Mul.make_args(excluded.left) if f not in Mul.make_args(condition.left)]
+    return Relation(Mul(*left), "!=", ZERO) if left else None
 
 
 def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootOf]) -> str:
@@ -377,11 +396,14 @@ def _common_root(b: Expr, discriminant: Expr) -> Expr:
 
 
 def _sign(root: RootOf) -> int | None:
-    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive."""
+    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive.
+
+    Without a linear term a root is real only where a and c have opposite signs, so that one of the two decides.
+    """
     if len(root.coefficients) == 2:
         return sign_known(root.value)
     a, b, c = root.coefficients
-    upper = root.sign * (sign_known(a) or 0)
+    upper = root.sign * (sign_known(a) or (-(sign_known(c) or 0) if b == 0 else 0))
     product, total = sign_known(c / a), sign_known(-b / a)
     if product == -1 or b == 0:
         return upper or None

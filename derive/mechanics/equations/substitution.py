@@ -13,6 +13,7 @@ from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, e
 from derive.algebra.ranges import strict_sign_within
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.mechanics.equations.unknowns import (
+    ValueOf,
     coordinates_of,
     lecture_form,
     left_over,
@@ -194,8 +195,9 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """The letter of a result; a limit or a series that has another one stands for the whole."""
-    whole, own = quantity.step.approximates, quantity.symbol
+    """The letter of a result; a root, a limit or a series with another letter replaces the unknown or the whole."""
+    root, own = quantity.fact(ValueOf), quantity.symbol
+    whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
     return whole if isinstance(whole, Expr) and not is_there else own
 

@@ -7,6 +7,7 @@ where its letter stands in any other way, it cannot be taken for an unknown.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -42,13 +43,21 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, coordinate_named
-from derive.steps.step import Quantity
+from derive.steps.step import Fact, Quantity
 
 __all__ = ["unknown"]
 
 LARGEST = 2500  # operations of what is still multiplied out and factored
 SHORT = 40  # of what may be written with multiples of an angle
 INVERSE = {cos: acos, sin: asin, tan: atan}
+
+
+@dataclass(frozen=True)
+class ValueOf(Fact):
+    """The unknown of an equation that this is a root of: its value replaces that unknown, whatever it is called."""
+
+    missing = "is not a root of an equation"
+    unknown: Expr
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
@@ -264,10 +273,10 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-def may_vanish(value: Expr) -> Relation | None:
-    """What must not vanish where one divides by a value: those of its factors that nothing decides."""
-    factors = [f.as_base_exp()[0] for f in Mul.make_args(factored(tidied(value)))]
-    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
+def may_vanish(*values: Expr) -> Relation | None:
+    """What must not vanish where one divides by these values: those of their factors that nothing decides."""
+    factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
+    unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 
 

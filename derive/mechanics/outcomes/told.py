@@ -182,13 +182,17 @@ def _names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
 def _as_asked_for(facts: Judged, outcome: str) -> bool:
     """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
     given = facts.inputs["equation"]
-    beside = facts.inputs.get("elsewhere")
-    vanishes = beside is None or is_zero(explicit(given).subs(beside.left, 0))
+    beside, whole = facts.inputs.get("elsewhere"), explicit(given)
+    whole = whole.residual if isinstance(whole, Relation) else whole
+    vanishes = beside is None or all(is_zero(whole.subs(factor, 0)) for factor in Mul.make_args(beside.left))
     return vanishes and (facts.words["asked"] == "roots") == isinstance(given, Relation)
 
 
 def _as_asked(facts: Judged, outcome: str) -> bool:
+    is_letter = isinstance(facts.inputs["unknown"], Symbol)
     numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
+    if not is_letter:  # the value of a cosine is called a cosine
+        numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
     return numbered and limited and _as_asked_for(facts, outcome) and _is_a_root_just_where_told(facts)
 
