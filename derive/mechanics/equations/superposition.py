@@ -209,7 +209,10 @@ def _motion(
         ),
         routes={"put_back": put_back, "start": from_the_start},
         outcome="zero" if is_zero(motion[i]) else "generic",
-        telling=Telling(formulas=told),
+        telling=Telling(
+            formulas=told,
+            words={"seen": "all_told" if all(value != 0 for _, value in _starts(together, started)) else "others_zero"},
+        ),
         key=f"{key or 'of_t'}_{q.symbol.name}",
         kind=q.kind,
         parents=list(equations),
@@ -217,12 +220,15 @@ def _motion(
 
 
 def _told(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> dict[str, tuple[Any, Any]]:
-    """What is not zero at the start."""
+    """All that is not zero at the start."""
+    pairs = [(s, value) for s, value in _starts(together, started) if value != 0]
+    return {f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs, 1)}
+
+
+def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> list[tuple[Expr, Expr]]:
+    """Each displacement and each rate with its value at the start."""
     letters = [*(s.symbol for s in together.displacements), *(s.rate for s in together.displacements)]
-    pairs = [(s, value) for s, value in zip(letters, [*started[0], *started[1]], strict=True) if value != 0]
-    return {
-        f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs[:3], 1)
-    }
+    return list(zip(letters, [*started[0], *started[1]], strict=True))
 
 
 def _as_product(swings: Sequence[Swing], i: int) -> Expr | None:

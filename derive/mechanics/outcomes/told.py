@@ -126,6 +126,17 @@ def _starts_as_told(facts: Judged, outcome: str) -> bool:
     return right and _of_an_equation(facts, outcome)
 
 
+def _starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
+    """At the start the coordinate and its rate have the values that the sentence says, or zero where it says none."""
+    q = facts.inputs["coordinate"]
+    told = {each.left: each.right for role, each in facts.inputs.items() if role.startswith("start_")}
+    at_start = {q: facts.result.subs(TIME, 0), rate(q): diff(facts.result, TIME).subs(TIME, 0)}
+    others_zero = facts.words["seen"] == "others_zero"
+    return all(
+        is_zero(value - told[s]) if s in told else others_zero and is_zero(value) for s, value in at_start.items()
+    )
+
+
 def _taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
     """With what the letter that is taken out is said to be, the condition holds."""
     told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
@@ -311,6 +322,7 @@ def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
 
 _TABLE: dict[str, Told] = {
     "forced.equation_of_motion": _functions_of_its_constraints,
+    "superposition.motion": _starts_as_all_are_told,
     "roots.roots": _as_asked,
     "roots.roots_absent": _as_asked_for,
     "gyroscopic.characteristic": _an_oscillation,
