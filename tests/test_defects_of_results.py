@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 import pytest
 from sympy import Integer, cos, pi, sin, sqrt, symbols
@@ -13,12 +14,12 @@ from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import Range, within
 from derive.errors import DeriveError, Rejected, Unverified
-from derive.mechanics import beats, let, limiting_case, put_in, roots, solved_for, where
+from derive.mechanics import beats, let, limiting_case, maximum, minimum, put_in, roots, solved_for, where
 from derive.steps.establish import Scope, establish
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.courses import rendered_once
-from tests.stock.described import course_with, edited, solved
+from tests.stock.described import course_with, edited, messages, solved
 
 M, m, g, l, k, A, S = symbols("M m g l k A S", positive=True)
 
@@ -252,3 +253,140 @@ def test_a_root_with_a_number_replaces_its_unknown() -> None:
     landing = roots(given(v * t - g * t**2 / 2, "up", symbol="y"), t)
     assert str(landing[1].symbol) == "t_2"
     assert equal(put_in(given(u * t, "along", symbol="x"), landing[1]).value, 2 * u * v / g)
+
+
+# --- where a result is greatest or least ---
+
+THROW = """\
+title: The range of a projectile
+solve: system
+symbols: {m: mass, g: acceleration, v_0: speed, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, y: length}
+  particles: {ball: {mass: m, at: [x, y]}}
+  gravity: g
+  results:
+    along: {solution: motion_x, for: x, start: 0, start_rate: v_0*cos(alpha)}
+    up: {solution: motion_y, for: y, start: 0, start_rate: v_0*sin(alpha)}
+    landing: {roots: up, for: t}
+    range: {put_in: along, results: [landing_2]}
+    best: {maximum: range, for: alpha}
+statement: A ball.
+parts:
+  - ask: How far does it get, and which angle is best?
+    answer: [landing, range, best_alpha, best]
+"""
+
+DRIVEN = """\
+title: Resonance
+solve: system
+symbols: {m: mass, k: spring constant, b: damping constant, F: force, omega: angular speed}
+given:
+  coordinates: {x: length}
+  particles: {cart: {mass: m, at: [x, 0]}}
+  potential: k*x**2/2
+  damping: {constant: b, at: [x, 0]}
+  forces: {components: [F*cos(omega*t), 0], at: [x, 0]}
+  results:
+    steady: {amplitude: motion_x, for: x}
+    resonance: {maximum: steady, for: omega}
+values: {m: 1 kg, k: 1e6 N/m, b: 1e-3 kg/s, F: 1 N}
+statement: A cart.
+parts:
+  - {ask: Where is the amplitude greatest., answer: [resonance_omega, resonance]}
+"""
+
+
+def test_a_letter_with_a_range_is_chosen_from_it(tmp_path: Path) -> None:
+    steps = solved(tmp_path, THROW)
+    assert steps["best_alpha"].value == pi / 4
+    assert str(steps["best"].value) == "v_0**2/g"
+
+
+def test_the_least_energy_in_an_oscillator_potential() -> None:
+    """f10: U = l^2/(2 m r^2) + k r^2/2 is least at r = (l^2/(m k))^(1/4), where it is l sqrt(k/m)."""
+    r = symbols("r", positive=True)
+    place, least = minimum(given(l**2 / (2 * m * r**2) + k * r**2 / 2, symbol="U"), r)
+    assert equal(place.value**4, l**2 / (m * k))
+    assert equal(least.value, l * sqrt(k / m))
+
+
+def test_the_best_angle_up_a_slope_depends_on_the_slope() -> None:
+    alpha, beta = symbols("alpha beta", real=True)
+    slope = Range(Integer(0), pi / 2)
+    with within({alpha: slope, beta: slope}), recorded(Run()) as run:
+        run.assumed.append(Relation(cos(beta), "!=", Integer(0)))
+        reach = given(2 * sin(alpha) * cos(alpha + beta) / cos(beta) ** 2, symbol="X")
+        place, _ = maximum(reach, alpha, within=(0, pi / 2))
+    assert equal(place.value, pi / 4 - beta / 2)
+
+
+def test_a_place_that_may_lie_outside_of_the_interval_has_a_condition() -> None:
+    n = symbols("n", real=True)
+    place, top = maximum(given(M * n - m * n**2), n, within=(0, 1))
+    assert dict(place.step.roles)["inside_1"] == Relation(2 * m, ">", M)
+    assert equal(top.value, M**2 / (4 * m))
+
+
+def test_a_place_outside_of_the_interval_is_none() -> None:
+    n = symbols("n", real=True)
+    with pytest.raises(Rejected, match="does not vanish so for any n that is allowed"):
+        maximum(given(4 * n - n**2), n, within=(0, 1))
+
+
+def test_a_condition_that_leaves_the_interval_out_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    n = symbols("n", real=True)
+    monkeypatch.setattr("derive.mechanics.equations.extrema._inside", lambda *_: [])
+    with pytest.raises(Unverified):
+        maximum(given(M * n - m * n**2), n, within=(0, 1))
+
+
+def test_a_resonance_has_its_condition_though_numbers_fulfil_it(tmp_path: Path) -> None:
+    page = printed(tmp_path, DRIVEN)
+    assert "which exists if b² < 2k m" in page and "≈ 1000 s^-1" in page
+
+
+def test_there_is_no_resonance_with_too_much_damping(tmp_path: Path) -> None:
+    """b^2 = 4e6 kg^2/s^2 exceeds 2 k m = 2e6 kg^2/s^2."""
+    found = messages(tmp_path, edited(DRIVEN, ("b: 1e-3 kg/s", "b: 2000 kg/s")))
+    assert found == ["12: `maximum`: the slope of `steady` does not vanish so for any omega that is allowed"]
+
+
+def test_the_greatest_speed_is_the_root_of_its_square(tmp_path: Path) -> None:
+    """f11: v^2 = k (A^2 - x^2)/m at x = 0, so that v = A sqrt(k/m)."""
+    text = edited(
+        DRIVEN,
+        ("    steady: {amplitude: motion_x, for: x}\n", "    fast: {speed: energy_function, for: x, start: -F/k}\n"),
+        (
+            "    resonance: {maximum: steady, for: omega}\n",
+            "    at: {put_in: fast, values: {x: 0}}\n    top: {value: sqrt(at), symbol: v_max}\n",
+        ),
+        ("  damping: {constant: b, at: [x, 0]}\n", ""),
+        ("  forces: {components: [F*cos(omega*t), 0], at: [x, 0]}\n", ""),
+        ("answer: [resonance_omega, resonance]", "answer: top"),
+    )
+    steps = solved(tmp_path, text)
+    assert equal(steps["top"].value ** 2, steps["at"].value)
+
+
+def test_all_that_is_not_zero_at_the_start_is_named(tmp_path: Path) -> None:
+    text = """\
+title: Two coupled carts
+solve: system
+symbols: {m: mass, k: spring constant, A: length, B: length, v: speed, u: speed}
+given:
+  coordinates: {x_1: length, x_2: length}
+  particles: {one: {mass: m, at: [x_1, 0]}, two: {mass: m, at: [x_2, 0]}}
+  potential: k*(x_1**2 + x_2**2 + (x_1 - x_2)**2)/2
+  results:
+    both: {solution: normal_modes, values: {x_1: A, x_2: B, x_1_dot: v, x_2_dot: u}}
+statement: Two carts.
+parts:
+  - ask: Find the motion.
+    answer: both
+"""
+    page = normalize("NFC", " ".join(printed(tmp_path, text).split()))
+    assert "x_1 = A, x_2 = B, ẋ_1 = v, ẋ_2 = u at t = 0, determine" in page
+    assert "all else zero" not in page
+    fewer = normalize("NFC", " ".join(printed(tmp_path, edited(text, (", x_2_dot: u}", "}"))).split()))
+    assert "ẋ_1 = v at t = 0 and all else zero, determine" in fewer

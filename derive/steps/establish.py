@@ -172,7 +172,9 @@ def establish(
     check_can_hold(key, result)
     _check_number_of_names(key, symbol, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **lines.means})
+    told = lines.means.keys() & getattr(symbol, "free_symbols", set())  # x_dot of x_dot^2, whatever a parent says
+    others = {name: value for name, value in bindings.items() if name != symbol or not told}
+    evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
     evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
     check_last_line(key, chain, result, bindings, lines.motion)
     approximates, about, rests = approximation_evidence(

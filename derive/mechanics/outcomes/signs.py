@@ -8,6 +8,7 @@ from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol, prime
 
+from derive.algebra.node import explicit
 from derive.algebra.ranges import range_of, strict_sign_within
 from derive.algebra.relation import Relation
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
@@ -25,6 +26,15 @@ MARK_OF = {  # what a comparison is called
     "at_least": ">=",
     "at_most": "<=",
 }
+
+
+def is_so(condition: Relation, point: Any) -> bool:
+    """Whether a condition is true for these numbers."""
+    apart = value_at(explicit(condition.residual), point)
+    if condition.mark in {"=", "!="}:
+        return bool(apart == 0) == (condition.mark == "=")
+    ahead = apart if condition.mark[0] == ">" else -apart
+    return bool(ahead > 0 or ahead == 0 and condition.mark.endswith("="))
 
 
 def vanishes(facts: Judged) -> bool:
