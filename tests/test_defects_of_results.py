@@ -19,7 +19,7 @@ from derive.steps.establish import Scope, establish
 from derive.steps.record import Run, recorded
 from derive.steps.step import Quantity
 from tests.courses import rendered_once
-from tests.stock.described import course_with, edited, messages, solved
+from tests.stock.described import complaints, course_with, edited, messages, solved
 
 M, m, g, l, k, A, S = symbols("M m g l k A S", positive=True)
 
@@ -390,3 +390,43 @@ parts:
     assert "all else zero" not in page
     fewer = normalize("NFC", " ".join(printed(tmp_path, edited(text, (", x_2_dot: u}", "}"))).split()))
     assert "ẋ_1 = v at t = 0 and all else zero, determine" in fewer
+
+
+# --- what is assumed of letters ---
+
+SATELLITE = """\
+title: A dumbbell satellite
+solve: system
+symbols: {M: mass, m: mass, G: gravitational constant, l: length, r_0: length, Omega: angular speed}
+given:
+  coordinates: {theta: angle}
+  axes: {orbit: [{z: Omega*t}]}
+  places:
+    C: {in: orbit, by: [r_0, 0, 0]}
+    A: {from: C, by: [l*cos(theta), l*sin(theta), 0], in: orbit}
+    B: {from: C, by: [-l*cos(theta), -l*sin(theta), 0], in: orbit}
+  particles: {first: {mass: m, at: A}, second: {mass: m, at: B}}
+  central:
+    - {energy: -G*M*m/d, distance: d, from: [0, 0, 0], to: A}
+    - {energy: -G*M*m/d, distance: d, from: [0, 0, 0], to: B}
+  assume: [l < r_0]
+  at: {theta: 0}
+statement: A satellite.
+parts:
+  - ask: Is it stable?
+    answer: stability
+"""
+
+
+def test_a_satellite_is_stable_along_the_radius(tmp_path: Path) -> None:
+    page = printed(tmp_path, SATELLITE)
+    assert "Assume that l < r_0." in page
+    assert "the equilibrium is stable" in page
+
+
+def test_what_is_not_known_is_named_with_the_way_to_state_it(tmp_path: Path) -> None:
+    (found,) = complaints(tmp_path, edited(SATELLITE, ("  assume: [l < r_0]\n", "")))
+    assert found.message == (
+        "`stability`: the sentence for this result could not be confirmed: whether l < r_0 is not known"
+    )
+    assert found.help == "state it under `given:`, as `assume: [l < r_0]`"

@@ -39,7 +39,8 @@ from derive.steps.chain import (
     short,
     without_repeats,
 )
-from derive.steps.outcomes import GENERIC, Judged, holds, told_rightly
+from derive.steps.known_numbers import undecided
+from derive.steps.outcomes import GENERIC, ZERO, Doubt, Judged, holds, told_rightly
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
@@ -261,13 +262,19 @@ def _check_outcome(key: str, rule: str, outcome: str, facts: Judged, may_be_zero
     Whatever the rule: "zero" needs a result that vanishes, and one that vanishes is not `generic` where that was asked.
     """
     vanishing = is_zero(facts.result)
-    fits = vanishing if outcome == "zero" else not (outcome == GENERIC and may_be_zero and vanishing)
-    if not fits or not holds(rule, outcome, facts):
-        message = f"`{key}`: the outcome `{outcome}` does not fit the result {short(facts.result)}"
-        raise Unverified(Complaint("unverified", message))
-    if not told_rightly(rule, outcome, facts):
-        message = f"`{key}`: what its sentence tells of {', '.join(facts.inputs)} does not fit the result"
-        raise Unverified(Complaint("unverified", message))
+    if outcome == ZERO and not vanishing:
+        raise _not_confirmed(key, Doubt("the result is not known to be zero"))
+    if outcome == GENERIC and may_be_zero and vanishing:
+        raise _not_confirmed(key, Doubt("the result is zero"))
+    for judge in (holds, told_rightly):
+        verdict = judge(rule, outcome, facts)
+        if not verdict:
+            raise _not_confirmed(key, verdict if isinstance(verdict, Doubt) else undecided(facts.result))
+
+
+def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
+    message = f"`{key}`: the sentence for this result could not be confirmed: {doubt.reason}"
+    return Unverified(Complaint("unverified", message, help=doubt.help))
 
 
 def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
