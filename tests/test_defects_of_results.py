@@ -430,3 +430,23 @@ def test_what_is_not_known_is_named_with_the_way_to_state_it(tmp_path: Path) -> 
         "`stability`: the sentence for this result could not be confirmed: whether l < r_0 is not known"
     )
     assert found.help == "state it under `given:`, as `assume: [l < r_0]`"
+
+
+def test_a_force_that_changes_its_sign_at_a_pole_is_not_zero_there(tmp_path: Path) -> None:
+    """U = A d^2/(d - x)^2 + A d^2/(d + x)^2: the force vanishes at x = 0 alone, and U'' = 12 A/d^2 there."""
+    text = """\
+title: Between two walls
+solve: system
+symbols: {m: mass, d: length, A: positive energy}
+given:
+  coordinates: {x: length}
+  particles: {p: {mass: m, at: [x, 0]}}
+  potential: A*d**2/(d - x)**2 + A*d**2/(d + x)**2
+statement: A bead.
+parts:
+  - ask: Where is it in equilibrium?
+    answer: [equilibria, stability]
+"""
+    steps = solved(tmp_path, text)
+    d, energy = symbols("d A", positive=True)
+    assert equal(steps["stability"].value, 12 * energy / d**2)

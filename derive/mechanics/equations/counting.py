@@ -16,6 +16,7 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters
+HALVINGS, GROWN = 40, 100  # of an interval, and by how much a force has grown at a pole
 
 
 def is_countable(sought: Sequence[Symbol]) -> bool:
@@ -38,8 +39,9 @@ def signs_counted(potential: Quantity, q: Symbol, values: Sequence[Expr], found:
         scale = max([abs(x) for x in expected if x] or [1.0])
         known = range_of(q)
         grid = _grid(once_round, bool(q.is_positive), scale) if known is None else _grid_within(known)
-        signs = [s for s in (_sign(curve, x) for x in grid) if s]
-        changes = sum(1 for one, other in pairwise(signs) if one != other)
+        signs = [(x, s) for x in grid if (s := _sign(curve, x))]
+        turns = ((x, y) for (x, one), (y, other) in pairwise(signs) if one != other)
+        changes = sum(not _is_pole(curve, x, y) for x, y in turns)
         if changes != len(expected) or own is not None and own not in expected:
             where = tuple((str(s), str(x)) for s, x in point.items())
             return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
@@ -68,6 +70,18 @@ def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
 
 def _grid_within(known: Range) -> list[float]:
     return [float(known.at(Rational(2 * i + 1, 2 * STEPS))) for i in range(STEPS)]
+
+
+def _is_pole(curve: Any, low: float, high: float) -> bool:
+    """Whether the force changes its sign since it grows beyond all bounds there, as between two charges."""
+    sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        there = _sign(curve, middle)
+        if not there or middle in (low, high):
+            break
+        low, high = (middle, high) if there == sign else (low, middle)
+    return bool(min(abs(curve(low)), abs(curve(high))) > GROWN * before)
 
 
 def _sign(curve: Any, x: float) -> int:
