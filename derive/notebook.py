@@ -17,7 +17,7 @@ from derive.building.solved import Solved
 from derive.cli.asked import found_root, problem_id_of
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint, Misused, did_you_mean
-from derive.page.signs import sign_before
+from derive.page.signs import name_before, sign_before, sign_behind_name
 from derive.render.notation.latex import latex
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
@@ -135,6 +135,7 @@ class Opened:
     def _formula(self, step: Step, numbers: list[tuple[str, Any]]) -> Layout:
         """`theta = arccos(...) ~ 21.64 deg`."""
         lettered = step.symbol is not None
-        before = [self._notation.layout(step.symbol), Operator(sign_before(step.chain[-1]))] if lettered else []
+        sign = sign_behind_name(step, step.chain[-1])
+        before = [self._notation.layout(name_before(step)), Operator(sign)] if lettered else []
         behind = [item for sign, expr in numbers for item in (Operator(sign), self._notation.result(expr))]
         return row(*before, self._notation.result(step.result), *behind)

@@ -15,6 +15,8 @@ from typing import Any
 from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, floor, oo, pi, sin, tan, together
 from sympy.simplify.fu import TR5, TR6
 
+from derive.algebra.order import known_order
+
 
 @dataclass(frozen=True)
 class Range:
@@ -117,10 +119,21 @@ def rational_in_range(letter: Any, number: Expr) -> Expr:
     return there if there.is_Rational else Rational(str(there.evalf(20)))
 
 
+def fulfilling(point: Mapping[Any, Any]) -> dict[Any, Any]:
+    """Numbers for letters, changed so that they fulfil the relations that are taken to hold."""
+    order = known_order()
+    return order.at(point, _fits) if order else dict(point)
+
+
+def _fits(letter: Any, number: Expr) -> bool:
+    known = range_of(letter)
+    return known.holds(number) if known is not None else not (letter.is_positive and not number.is_positive)
+
+
 def settled(value: Any) -> Any:
     """The value without absolute values of what has one sign in the ranges of its letters."""
     known = _KNOWN.get()
-    if not known or not hasattr(value, "atoms") or not value.free_symbols & known.keys():
+    if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
     sizes = {size: sign * size.args[0] for size in value.atoms(Abs) if (sign := sign_within(size.args[0]))}
     return value.xreplace(sizes) if sizes else value
@@ -174,6 +187,8 @@ def _sign_of_factor(factor: Expr) -> int | None:
     if factor.is_positive or factor.is_negative:
         return 1 if factor.is_positive else -1
     if isinstance(factor, Add) and (sign := _sign_by_squares(factor)):
+        return sign
+    if known_order().touches(factor) and (sign := known_order().sign(factor, sign_within)):
         return sign
     if factor.free_symbols.isdisjoint(_KNOWN.get()):
         return None

@@ -22,7 +22,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import And, Not, Or
 
 from derive.algebra.expressions import PLUS_MINUS
-from derive.algebra.ranges import range_of
+from derive.algebra.ranges import fulfilling, range_of
 
 DIGITS = 50
 WORKING = (60, 160, 420)  # digits: the first decide as a rule, the others confirm what they found
@@ -66,7 +66,10 @@ def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> It
     """Two points: each letter that may be negative is so in one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
-        yield {letter: _drawn(letter, k, turn * s, source) for letter, k, s in zip(letters, scales, signs, strict=True)}
+        point = {
+            letter: _drawn(letter, k, turn * s, source) for letter, k, s in zip(letters, scales, signs, strict=True)
+        }
+        yield fulfilling(point)
 
 
 def _drawn(letter: Expr, scale: int, sign: int, source: Random) -> Expr:

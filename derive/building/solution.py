@@ -29,6 +29,7 @@ from derive.course.problem_set import problem_set
 from derive.course.prose import PROBLEM
 from derive.course.reference.comparison import Told, comparisons
 from derive.course.reference.statements import reference_path
+from derive.course.stock import told_at
 from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, Rejected, did_you_mean
@@ -341,7 +342,8 @@ def _value(
     compared = None if units else comparison_of(answer, numbers, key)
     if not numbers and not units and not form.figures and is_plain(answer):
         return None
-    value = compared or value_of(answer, numbers, *first, figures, key, more, case)
+    with told_at(getattr(asked, "place", None)):
+        value = compared or value_of(answer, numbers, *first, figures, key, more, case)
     return value or (coefficient_of(answer, figures, bool(form.figures)) if not numbers else None)
 
 

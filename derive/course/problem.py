@@ -20,7 +20,9 @@ from sympy import Integer, Symbol
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import IN_DEGREES, Amount, Relation, explicit
 from derive.algebra.kinds import Asked, about_kind, unit_of_kind
+from derive.algebra.order import Order, in_order
 from derive.algebra.ranges import Range, within
+from derive.course.assumed import Assumed, check_assumed, narrowed, order_of
 from derive.course.declared import declared_letters
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers
@@ -95,7 +97,21 @@ class Problem:
     @property
     def ranges(self) -> dict[Symbol, Range]:
         """Between which numbers letters lie, where that is declared."""
+        return narrowed(self._declared_ranges, self.assumed)
+
+    @property
+    def _declared_ranges(self) -> dict[Symbol, Range]:
         return {declared.symbol: declared.lies for declared in self.letters if declared.lies}
+
+    @property
+    def assumed(self) -> tuple[Assumed, ...]:
+        """Relations between letters that are taken to hold."""
+        return self.described.assumed if self.described else ()
+
+    @property
+    def order(self) -> Order:
+        """What these relations say of signs."""
+        return order_of(self.assumed, self.ranges)
 
     @property
     def letters(self) -> tuple[Declared, ...]:
@@ -225,13 +241,15 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
     with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)
+        for each in problem.assumed:
+            assume(each.relation)
         yield
 
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
     """What is done inside is on that record, and knows the ranges of the problem's letters."""
-    with recorded(record), within(problem.ranges):
+    with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 
 
@@ -341,6 +359,9 @@ def _described_by(
         return Pinned(symbols, (), values)
     described = script.stock.read(written, symbols, faults)
     symbols |= described.chosen
+    lies = {letter.symbol: letter.lies for letter in (*symbols.values(), *described.letters.values()) if letter.lies}
+    numbers = {measured.symbol: measured.si for measured in (*values, *described.measured)}
+    check_assumed(described.assumed, lies, numbers, faults)
     givens = tuple(Given(name, Asked(known.kind), known.symbol) for name, known in symbols.items())
     told = (given for given in described.told if given.name not in symbols)
     return Pinned(symbols, (*givens, *told), (*values, *described.measured), described)

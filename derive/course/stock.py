@@ -19,11 +19,13 @@ from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
+from derive.course.assumed import Assumed
 from derive.course.expression import Declared, read_expression
 from derive.course.given import Given, Measured, NumbersAsLetters
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import DeriveError, Faults, Place, rejected
+from derive.steps.known_numbers import DECIDES
 
 T = TypeVar("T")
 
@@ -63,6 +65,7 @@ class Described:
     told      what prose may mention by its key, besides letters
     made      what is made of answers, by its name, with the names of the answers that it uses
     without   keys on which some answers do not depend, with the names of these
+    assumed   relations between letters that are taken to hold
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
@@ -71,6 +74,7 @@ class Described:
     told: tuple[Given, ...] = ()
     made: Mapping[Word, tuple[Word, ...]] = field(default_factory=dict, repr=False, compare=False)
     without: tuple[tuple[Word, Collection[str]], ...] = field(default=(), repr=False, compare=False)
+    assumed: tuple[Assumed, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -119,6 +123,8 @@ def told_at(place: Place | None) -> Iterator[None]:
 
 def in_keys(help_line: str | None) -> str | None:
     """What a verb says that a script should do, as what a file should say."""
+    if help_line and help_line.startswith(DECIDES):
+        return f"state it under `given:`, as `assume: [{help_line.removeprefix(DECIDES).strip()}]`"
     return HELP_IN_KEYS.get(help_line, help_line) if help_line else None
 
 

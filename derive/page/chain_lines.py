@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Integral, MatrixBase, Rational, Symbol
+from sympy import Integral, MatrixBase, Rational, Symbol, preorder_traversal
 
 from derive.algebra.expressions import Relation
 from derive.page.abbreviations import shortened
 from derive.page.numbering import Number
-from derive.page.signs import sign_before
+from derive.page.signs import name_before, sign_before, sign_behind_name, sign_of_relation
 from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, names_asked
 from derive.steps.derivation import Derivation
-from derive.steps.step import NUMBERS, Form, Step
+from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Step
 
 EQUATION_OF = "equation_of_"  # a role, in a reason that names the equations of some of them
 
@@ -73,6 +73,7 @@ class ChainWriter:
         self.steps = {step.key: step for step in derivation.steps}
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self._short = shortened(derivation.steps)
+        self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
         """Those of the chain of a step, or only its result."""
@@ -105,12 +106,15 @@ class ChainWriter:
         if isinstance(form.expr, Relation) and numeric and before is not None:
             return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True, because=form.because)
         if isinstance(form.expr, Relation):
-            left, right = form.expr.left, form.expr.right
-            return ChainLine(left, form.expr.word, right, reason, numeric=numeric, because=form.because)
+            left, right, word = form.expr.left, form.expr.right, sign_of_relation(step, form.expr.word)
+            if step.about and word != "approx" and not reason:  # an inequality has no sign for about
+                reason = filled(self.words.labels["approximately"], {})
+            return ChainLine(left, word, right, reason, numeric=numeric, because=form.because)
+        own = step.breaks_off and form.because in ONLY_ABOUT and step.symbol in self._used
         return ChainLine(
-            left=step.symbol if before is None else None,
-            relation=sign_before(form),
-            right=form.expr,
+            left=name_before(step) if before is None else None,
+            relation=sign_behind_name(step, form) if before is None else sign_before(form),
+            right=Relation(step.symbol, "=", form.expr) if own else form.expr,
             reason=reason,
             presented=form.because == "result",
             numeric=numeric,
@@ -152,6 +156,18 @@ class ChainWriter:
             return [key]
         letters = {letter for form in of.chain for letter in getattr(form.expr, "free_symbols", ())}
         return [each for each in step.inputs if self.symbols.get(each) in letters]
+
+
+def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
+    """The letters of limits and series that other steps have, or numbers: those that the page has to introduce."""
+    own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
+    found = {step.symbol for step in values.values()} & own
+    for step in steps if own else ():
+        shown = [form.expr for form in step.chain]
+        shown += [step.symbol] if step.symbol not in own else [name_before(step)]
+        shown += [] if step.breaks_off else [told for _, told in step.roles]
+        found |= own & {part for expr in shown if expr is not None for part in preorder_traversal(expr)}
+    return found
 
 
 def _is_bare_number(value: Any) -> bool:

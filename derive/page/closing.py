@@ -12,7 +12,7 @@ from derive.algebra.expressions import Relation
 from derive.course.problem import Problem
 from derive.errors import Complaint
 from derive.page.numbering import Number
-from derive.page.signs import sign_before
+from derive.page.signs import name_before, sign_before
 from derive.page.wording import Chain, Inline, Math, Phrases, Ref, Text, around_chain, filled
 from derive.steps.derivation import Derivation
 from derive.steps.outcomes import ZERO
@@ -86,12 +86,16 @@ def _result(step: Step) -> Nodes:
     last = step.chain[-1]
     if step.symbol is None or step.rule == PUT_IN:
         return (Math(last.expr),)
-    what = dict(step.roles).get("bound", step.symbol)  # the least value of a letter is that bound, which the page has
+    what = dict(step.roles).get(
+        "bound", name_before(step)
+    )  # the least value of a letter is that bound, which the page has
     match sign_before(last):
         case "tends":
             return (Math(Approach(what, last.expr)),)
         case "approx":
             return Math(what), Text(" ≈ "), Math(last.expr)
+    if step.about:
+        return Math(what), Text(" ≈ "), Math(last.expr)
     return (Math(Relation(what, "=", last.expr)),)
 
 

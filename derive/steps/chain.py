@@ -17,9 +17,8 @@ from derive.algebra.expressions import Relation, Truncated, bound, component_nam
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Unverified
 from derive.steps.second_ways import sort_of
-from derive.steps.step import NUMBERS, Form, Level, Quantity, Route
+from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Level, Quantity, Route
 
-ONLY_ABOUT = ("limit", "series")  # why a form stands behind what it is not equal to
 BY_MOTION = "by the equations of motion"  # what a claim says that holds for motions that obey them
 
 
@@ -146,6 +145,27 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
     if offender:
         raise Unverified(Complaint("unverified", f"`{key}`: {offender[0]} is not {offender[1]} rounded"))
     return Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "within half a unit of the last place")
+
+
+def approximation_evidence(
+    key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
+) -> tuple[Any, bool, list[Evidence]]:
+    """What the result approximates, whether its letter is only about equal to its first line, and the evidence.
+
+    A result that breaks off has a letter of its own. A result with the letter of such a one says the same of it;
+    everything else derived from it is approximate too.
+    """
+    last = chain[-1]
+    if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
+        raise Unverified(Complaint("unverified", f"`{key}`: an approximation needs a letter of its own, not {symbol}"))
+    if whole is not None:
+        return whole, False, []
+    found = [quantity for quantity in rests if not quantity.exact]
+    same = [q for q in found if not q.step.about and symbol is not None and q.symbol == symbol]
+    if len(found) == len(same):
+        return (same[0].step.approximates if same else None), False, []
+    claim = f"rests on the approximation `{next(q.key for q in found if q not in same)}`"
+    return None, True, [Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "as exact as that")]
 
 
 def route_evidence(

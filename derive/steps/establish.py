@@ -28,6 +28,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps import record
 from derive.steps.chain import (
+    approximation_evidence,
     bindings_of,
     check_last_line,
     evidence_of_routes,
@@ -38,7 +39,8 @@ from derive.steps.chain import (
     short,
     without_repeats,
 )
-from derive.steps.outcomes import GENERIC, Judged, holds, told_rightly
+from derive.steps.known_numbers import undecided
+from derive.steps.outcomes import GENERIC, ZERO, Doubt, Judged, holds, told_rightly
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
@@ -107,12 +109,14 @@ class Scope:
     differ       in what the inputs may be about different things
     coordinates  those that the step brings in, with their kinds
     case_of      the general quantity of the same symbol that this is a particular case of
+    approximates the letter of the whole that a limit or a series is only about equal to, or the key of an equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
     differ: Collection[str] = ()
     coordinates: Mapping[Symbol, str] = field(default_factory=dict)
     case_of: Quantity | None = None
+    approximates: Any = None
 
     def around(self, together: Subject, result: Any) -> Subject:
         """What the inputs are about together, and what the result is about beyond that."""
@@ -169,9 +173,15 @@ def establish(
     check_can_hold(key, result)
     _check_number_of_names(key, symbol, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    evidence = left_side_evidence(key, symbol, chain[0], {**bindings, **lines.means})
+    told = lines.means.keys() & getattr(symbol, "free_symbols", set())  # x_dot of x_dot^2, whatever a parent says
+    others = {name: value for name, value in bindings.items() if name != symbol or not told}
+    evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
     evidence += [line_evidence(key, chain, i, bindings, lines.motion) for i in range(1, len(chain))]
     check_last_line(key, chain, result, bindings, lines.motion)
+    approximates, about, rests = approximation_evidence(
+        key, symbol, chain, scope.approximates, [*quantities.values(), *parents]
+    )
+    evidence += rests
     evidence += evidence_of_routes(key, rule, result, routes or {})
     _check_told(key, telling.formulas)
     if not routes:
@@ -198,6 +208,8 @@ def establish(
         names=names_in([symbol, *(form.expr for form in chain)], bindings),
         motion=tuple(lines.motion.items()),
         law_at=_place_of_verb(sys._getframe(1)),
+        approximates=approximates,
+        about=about,
     )
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
     quantity = _witnessed(quantity, judged)
@@ -271,13 +283,19 @@ def _check_outcome(key: str, rule: str, outcome: str, facts: Judged, may_be_zero
     Whatever the rule: "zero" needs a result that vanishes, and one that vanishes is not `generic` where that was asked.
     """
     vanishing = is_zero(facts.result)
-    fits = vanishing if outcome == "zero" else not (outcome == GENERIC and may_be_zero and vanishing)
-    if not fits or not holds(rule, outcome, facts):
-        message = f"`{key}`: the outcome `{outcome}` does not fit the result {short(facts.result)}"
-        raise Unverified(Complaint("unverified", message))
-    if not told_rightly(rule, outcome, facts):
-        message = f"`{key}`: what its sentence tells of {', '.join(facts.inputs)} does not fit the result"
-        raise Unverified(Complaint("unverified", message))
+    if outcome == ZERO and not vanishing:
+        raise _not_confirmed(key, Doubt("the result is not known to be zero"))
+    if outcome == GENERIC and may_be_zero and vanishing:
+        raise _not_confirmed(key, Doubt("the result is zero"))
+    for judge in (holds, told_rightly):
+        verdict = judge(rule, outcome, facts)
+        if not verdict:
+            raise _not_confirmed(key, verdict if isinstance(verdict, Doubt) else undecided(facts.result))
+
+
+def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
+    message = f"`{key}`: the sentence for this result could not be confirmed: {doubt.reason}"
+    return Unverified(Complaint("unverified", message, help=doubt.help))
 
 
 def _check_names(key: str, quantities: Sequence[Quantity]) -> None:

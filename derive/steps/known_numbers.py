@@ -8,16 +8,19 @@ letters alone do not decide.
 from __future__ import annotations
 
 from math import prod
+from typing import Any
 
-from sympy import Expr, Mul, Pow
+from sympy import Abs, Add, Expr, Mul, Pow
 
-from derive.algebra.expressions import bound, explicit
+from derive.algebra.expressions import Relation, bound, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
+from derive.steps.outcomes import Doubt
 from derive.steps.record import current_run, question
 
-DIGITS = 30
+DIGITS, SHORT = 30, 20
+DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is not known
 
 
 @question
@@ -33,6 +36,21 @@ def sign_known(expr: Expr) -> int | None:
     if 0 in factors:
         return 0
     return None if None in factors else prod(sign for sign in factors if sign)
+
+
+def undecided(value: Any) -> Doubt:
+    """Which order of two things that stand in a value is not known, l < r_0; else that numbers speak against it."""
+    parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
+    exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
+    sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
+    factors = [f.as_base_exp()[0] for expr in exprs for part in expr.as_numer_denom() for f in Mul.make_args(part)]
+    for each in [*sizes, *factors]:
+        if isinstance(each, Add) and each.count_ops() <= SHORT and sign_known(each) is None:
+            away = [-term for term in each.args if term.could_extract_minus_sign()]
+            sides = Add(*away), Add(*(term for term in each.args if -term not in away))
+            relation = " < ".join(sorted(map(str, sides), key=lambda side: (len(side), side)))
+            return Doubt(f"whether {relation} is not known", f"{DECIDES} {relation}")
+    return Doubt("with numbers for the letters the result is not always what the sentence says of it")
 
 
 def _sign_of_factor(factor: Expr) -> int | None:

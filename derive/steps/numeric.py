@@ -16,7 +16,9 @@ from sympy import (
     Mul,
     Rational,
     Symbol,
+    Tuple,
     cos,
+    lambdify,
     pi,
     preorder_traversal,
     sign,
@@ -39,7 +41,9 @@ from derive.algebra.expressions import (
 from derive.algebra.normal_form import vanishes
 from derive.algebra.rounding import rounded_form
 from derive.algebra.samples import value_at
+from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.algebra.tidy import factored_matrix, tidied
+from derive.errors import Complaint, Rejected
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.step import Fact, Form, Level, Quantity
 
@@ -55,6 +59,15 @@ class Extreme(Fact):
 
     missing = "is not the value of a function where that is level"
     curvature: Expr
+
+
+@dataclass(frozen=True)
+class WholeSwing(Fact):
+    """The integral that a series for a period breaks off: a factor, and the time of a swing."""
+
+    missing = "is not a series for a period"
+    factor: Expr
+    time: SwingTime
 
 
 def value_of(
@@ -76,7 +89,8 @@ def value_of(
     more      other units in which it is given too, each with its factor
     case      the name of the case of which these are the numbers, if there are several
     Check: the expression, evaluated anew from the numbers of its letters, in digits enough for what cancels.
-    Of a condition on a letter that has a number too it is told whether that fulfils it.
+    Of a condition on a letter that has a number too it is told whether that fulfils it. The number of a period that
+    has a series is that of the integral; what is derived from the series has a number only where that is good enough.
     Outcomes: measured (numbers were put in), exact; minimum or maximum, of a function's value where it is level.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
@@ -86,6 +100,10 @@ def value_of(
         return None
     if not letters and all(entry.is_Integer for entry in _entries(value)):
         return None
+    whole = answer.fact(WholeSwing)
+    if whole is not None and _free(whole.time) - {*whole.time.variables} <= set(amounts):
+        return _period_of(answer, amounts, unit, factor, figures, key, more, case)
+    _check_series(answer, amounts, figures)
     turning = _only_turning(value)
     numbers = {letter: amounts[letter] if letter in turning else in_radians(amounts[letter]) for letter in letters}
     if isinstance(value, MatrixBase):
@@ -132,6 +150,94 @@ def value_of(
         ),
         parents=[answer],
     )
+
+
+def _period_of(
+    series: Quantity,
+    amounts: Mapping[Symbol, Amount],
+    unit: str,
+    factor: Expr,
+    figures: int,
+    key: str | None,
+    more: Sequence[tuple[str, Expr]],
+    case: str,
+) -> Quantity:
+    """The number of a period, by the integral itself: the series is good for small amplitudes only.
+
+    Check: the integral by Gauss and Legendre's rule, which shares nothing with the mean of equidistant values.
+    """
+    whole = series.needed(WholeSwing)
+    time = _with_numbers(series, amounts)
+    exact = explicit(whole.factor * time)
+
+    def by_gauss(result: Any) -> tuple[Any, Any]:
+        found = whole.factor * _quarter_by_gauss(whole.time, amounts)
+        return _error(found, result), Integer(0)
+
+    return establish(
+        "numbers.value",
+        series.step.approximates,
+        lambda: Factors(whole.factor, time),
+        {},
+        routes={"floats": by_gauss},
+        outcome="integrated",
+        telling=Telling(words={"case": case} if case else {}, judged_by={"letters": time.args[1]}),
+        scope=Scope(about=series.subject, case_of=series),
+        key=key or f"{series.key}_value",
+        kind=series.step.kind,
+        lines=Lines(
+            put_in=None,
+            result=False,
+            after=[Form(_with_unit(exact, *each, figures), "rounded") for each in ((unit, factor), *more)],
+            arranged=explicit,
+        ),
+        parents=series.parents,
+    )
+
+
+def _with_numbers(series: Quantity, amounts: Mapping[Symbol, Amount]) -> SwingTimeOfNumbers:
+    time = series.needed(WholeSwing).time
+    letters = sorted(_free(time) - {*time.variables}, key=str)
+    numbers: SwingTimeOfNumbers = SwingTimeOfNumbers(
+        time, Tuple(*letters), Tuple(*(in_radians(amounts[letter]) for letter in letters))
+    )
+    if not explicit(numbers).is_Rational:
+        message = f"`{series.key}`: with these numbers the motion does not swing to and fro between two turning points"
+        raise Rejected(Complaint("no-oscillation", message, help="give a smaller amplitude"))
+    return numbers
+
+
+def _quarter_by_gauss(time: SwingTime, amounts: Mapping[Symbol, Amount]) -> Expr:
+    """The integral from 0 to A, with q = A (1 - s^2)."""
+    from mpmath import mp
+
+    f, q, amplitude, _ = time.args
+    at = {letter: explicit(amounts[letter]) for letter in _free(time) - {q}}
+    with mp.workdps(4 * DIGITS):
+        square, a = lambdify(q, f.xreplace(at), "mpmath"), mp.mpf(amplitude.xreplace(at).evalf(mp.dps))
+        found = mp.quad(lambda s: 2 * a * s / mp.sqrt(square(a * (1 - s * s))), [0, 1], method="gauss-legendre")
+        return Rational(str(found))
+
+
+def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: int) -> None:
+    """What is derived from a series has so many figures only where the series is as good as that."""
+    waiting, seen = list(answer.parents if answer.step.about else ()), set[int]()
+    while waiting:
+        quantity = waiting.pop()
+        if quantity.exact or id(quantity) in seen:
+            continue
+        seen.add(id(quantity))
+        waiting += quantity.parents if quantity.step.approximates is None else ()
+        whole = quantity.fact(WholeSwing)
+        if whole is None or not _free(whole.time) - {*whole.time.variables} <= set(amounts):
+            continue
+        exact = whole.factor * explicit(_with_numbers(quantity, amounts))
+        there = value_at(explicit(quantity.value), {s: explicit(amounts[s]) for s in _free(quantity.value)})
+        if 20 * abs(there / exact - 1) > Rational(1, 10**figures):
+            called = f"`{answer.key}` is derived from the series of `{quantity.key}`"
+            message = f"{called}, which is not good for {figures} figures"
+            help_line = f"ask for fewer `figures`, or give `{quantity.key}` a higher `order`"
+            raise Rejected(Complaint("too-few-figures", message, help=help_line))
 
 
 def _given_beside(

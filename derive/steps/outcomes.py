@@ -37,10 +37,21 @@ class Judged:
     words: Mapping[str, str] = field(default_factory=dict)
 
 
-Predicate = Callable[[Judged], bool]
+@dataclass(frozen=True)
+class Doubt:
+    """Why a sentence is not confirmed, in words: a predicate may return this in place of False."""
+
+    reason: str
+    help: str | None = None
+
+    def __bool__(self) -> bool:
+        return False
+
+
+Predicate = Callable[[Judged], "bool | Doubt"]
 
 _PREDICATES: dict[str, dict[str, Predicate]] = {}
-_TOLD: dict[str, Callable[[Judged, str], bool]] = {}
+_TOLD: dict[str, Callable[[Judged, str], bool | Doubt]] = {}
 
 
 def outcomes_of(rule: str, predicates: Mapping[str, Predicate]) -> None:
@@ -48,15 +59,18 @@ def outcomes_of(rule: str, predicates: Mapping[str, Predicate]) -> None:
     _PREDICATES[rule] = dict(predicates)
 
 
-def told_by(rule: str, predicate: Callable[[Judged, str], bool]) -> None:
+def told_by(rule: str, predicate: Callable[[Judged, str], bool | Doubt]) -> None:
     """Say what must hold of the roles and formulas that the sentences of a rule tell, by facts and outcome."""
     _TOLD[rule] = predicate
 
 
-def told_rightly(rule: str, outcome: str, facts: Judged) -> bool:
+def told_rightly(rule: str, outcome: str, facts: Judged) -> bool | Doubt:
     """Whether what the sentence tells besides its chain is true: the point and axis that it names, roles, formulas."""
-    named = _names_its_point(facts) and _names_its_axis(facts)
-    return named and (rule not in _TOLD or bool(_TOLD[rule](facts, outcome)))
+    if not _names_its_point(facts):
+        return Doubt("it names a point that the result is not about")
+    if not _names_its_axis(facts):
+        return Doubt("it names an axis that the result is not about")
+    return rule not in _TOLD or _TOLD[rule](facts, outcome)
 
 
 def _names_its_point(facts: Judged) -> bool:
@@ -74,7 +88,7 @@ def _names_its_axis(facts: Judged) -> bool:
     return not isinstance(axis, str) or named <= {axis}
 
 
-def holds(rule: str, outcome: str, facts: Judged) -> bool:
+def holds(rule: str, outcome: str, facts: Judged) -> bool | Doubt:
     """Whether the outcome is one that the rule has, and is true.
 
     A rule of which nothing was said has the outcome that chooses nothing, and that of a result which vanishes.
@@ -83,7 +97,7 @@ def holds(rule: str, outcome: str, facts: Judged) -> bool:
     if predicates is None:
         return outcome in {GENERIC, ZERO}  # `establish` itself sees to it that zero is zero
     predicate = predicates.get(outcome)
-    return predicate is not None and bool(predicate(facts))
+    return predicate is not None and predicate(facts)
 
 
 def known_outcomes() -> dict[str, tuple[str, ...]]:

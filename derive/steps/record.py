@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from functools import wraps
 from typing import Any, Protocol, TypeVar
 
-from sympy import Expr, MatrixSymbol, Symbol
+from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, oo
 
-from derive.algebra.expressions import TIME, Relation, component_names, explicit, rate
+from derive.algebra.expressions import RATES, TIME, Relation, component_names, explicit, rate
 from derive.algebra.ranges import own_meaning
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Quantity, same_value, value_behind
@@ -118,6 +118,38 @@ def question(answered: Callable[..., A]) -> Callable[..., A]:
     return noted
 
 
+@question
+def is_taken(name: str) -> bool:
+    """Whether the problem or an earlier result has this letter."""
+    run = current_run.get()
+    if run is None:
+        return False
+    return name in run.letters or any(str(quantity.symbol) == name for quantity in _before_call(run))
+
+
+def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
+    """A letter for what a result becomes where a letter goes to a value: omega_2_lim, or omega_2_infty.
+
+    Another letter where this one is taken has the letter that goes there too.
+    """
+    if isinstance(symbol, MatrixBase):
+        return symbol.applyfunc(lambda each: letter_of_limit(each, letter, to))
+    if isinstance(symbol, MatrixSymbol):
+        return MatrixSymbol(_name_of_limit(symbol.name, letter, to), *symbol.shape)
+    if not isinstance(symbol, Symbol):  # omega_0^2
+        (inner,) = symbol.free_symbols
+        return symbol.xreplace({inner: letter_of_limit(inner, letter, to)})
+    return Symbol(_name_of_limit(symbol.name, letter, to), real=True)
+
+
+def _name_of_limit(name: str, letter: Symbol, to: Any) -> str:
+    dots = next((suffix for suffix in reversed(RATES) if suffix and name.endswith(suffix)), "")
+    base = name.removesuffix(dots)
+    mark = "infty" if to in (oo, -oo) else "lim"
+    plain, longer = (f"{base}_{each}{dots}" for each in (mark, f"{letter.name.replace('_', '')}_{mark}"))
+    return longer if is_taken(plain) else plain
+
+
 def coordinate_named(symbol: Symbol, kind: str) -> None:
     """A script has named a coordinate: from now on whatever contains it is known to move."""
     run = current_run.get()
@@ -177,7 +209,11 @@ def established() -> list[Quantity]:
 def _established_before() -> tuple[Quantity, ...]:
     """What it had established before the verb that asks was called."""
     run = current_run.get()
-    return tuple(run.established[: run.call.before if run.call else None]) if run is not None else ()
+    return _before_call(run) if run is not None else ()
+
+
+def _before_call(run: Run) -> tuple[Quantity, ...]:
+    return tuple(run.established[: run.call.before if run.call else None])
 
 
 def named_coordinates() -> tuple[Symbol, ...]:

@@ -21,6 +21,7 @@ from derive.steps.level import Level as Level  # of the forms below, and by this
 from derive.steps.subject import NOTHING, Subject
 
 NUMBERS = ("value", "rounded")  # why a form stands at the end of a chain: the number in a unit, exact or rounded
+ONLY_ABOUT = ("limit", "series")  # why a form is only about equal to the form before it
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,9 @@ class Step:
     roots where there is only one. `names` are those in its lines that came from earlier steps, with the values put in
     for them; `motion` is what the equations of motion make of the rates, for a line that holds by them. `law_at` is
     where the law stands in the code, as `derive/mechanics/rotation/vectors.py:120`.
+    The result of a limit or a series has a letter of its own; `approximates` is the letter of the whole, or the key of
+    an equation. `about` says that the step is derived from such a result, so that its letter is only about equal to
+    its first line.
     """
 
     key: str
@@ -64,6 +68,18 @@ class Step:
     names: tuple[tuple[Any, Any], ...] = ()
     motion: tuple[tuple[Symbol, Any], ...] = ()
     law_at: str = field(default="", compare=False)
+    approximates: Any = None
+    about: bool = False
+
+    @property
+    def exact(self) -> bool:
+        """Whether its letter equals its result: no limit and no series is among what it is derived from."""
+        return self.approximates is None and not self.about
+
+    @property
+    def breaks_off(self) -> bool:
+        """Whether the last line of this very step is the limit or the series."""
+        return self.approximates is not None and self.chain[-1].because in ONLY_ABOUT
 
     @property
     def result(self) -> Any:
@@ -120,6 +136,11 @@ class Quantity:
     @property
     def key(self) -> str:
         return self.step.key
+
+    @property
+    def exact(self) -> bool:
+        """Whether the value is exact: no limit and no series is among what it is derived from."""
+        return self.step.exact
 
     @cached_property  # all that it rests on is asked, again and again
     def coordinates(self) -> Mapping[Symbol, str]:
@@ -220,6 +241,11 @@ def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
 def value_behind(given: Any) -> Any:
     """The value of a quantity; anything else is its own value."""
     return given.value if isinstance(given, Quantity) else given
+
+
+def approximations_among(*given: Any) -> list[Quantity]:
+    """Those of the arguments of a verb that are only approximate: the result rests on them, and so is approximate."""
+    return [each for each in given if isinstance(each, Quantity) and not each.exact]
 
 
 def entry_name(name: str, i: int, j: int) -> Symbol:

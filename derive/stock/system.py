@@ -11,11 +11,13 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
 from derive.algebra.ranges import Range
+from derive.course.assumed import Assumed, read_assumed
 from derive.course.expression import Declared
-from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of
+from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more
 from derive.course.stock import Described, InLetters, Stock, each, told_at
 from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
 from derive.figures import sketch
 from derive.mechanics.systems.coordinates import kind_of_rate
@@ -58,6 +60,7 @@ from derive.stock.keys.result_words import names
 from derive.stock.keys.results import RESULTS, Result, ResultKeys
 
 STATE = mapping_of(SCALAR)
+RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
 POSITIVE_CONSTANT = "positive"  # before the letter of a constant, as in `positive length`
 INDIFFERENT_TO_STATES = (
     "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
@@ -106,6 +109,9 @@ class SystemKeys(Record):
         "letters for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or what they are, "
         "`psi: C*s`",
         mapping_of(SCALAR),
+    )
+    assume: Tree | None = key(
+        "relations between constant letters that hold: `[l < r_0, a < b < c, v_0**2 < g*R]`", RELATIONS
     )
     at: Tree | None = key(
         "the state about which equations are linearised and stability is judged: `{theta: 0}`, or one of the states of "
@@ -194,7 +200,14 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     with_own = InLetters({**_momenta(written.coordinates, letters, kind_of_lagrangian), **symbols, **own})
     with_own.numbers = known.numbers
     results = tuple(r for name, keys in written.results.items() if (r := keys.read(name, with_own, faults)))
+    assumed: list[Assumed] = []
+    constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*letters, *forces}}
+    with faults:
+        nodes = written.assume.items if isinstance(written.assume, Listed) else (written.assume,)
+        entries = each([partial(read_assumed, node, constants, letters) for node in nodes if node is not None])
+        assumed += [relation for entry in entries for relation in entry]
     return DescribedSystem(
+        assumed=tuple(assumed),
         letters=own,
         made={result.name: result.uses for result in results},
         without=_without(written, [*own], [*blow.letters] if blow else []),

@@ -40,7 +40,7 @@ from derive.algebra.encoding import as_data, decoded, encoded, from_data
 from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.node import NODES, Node
 from derive.algebra.rounding import Rounded
-from derive.algebra.swing import SwingTime
+from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from tests.mechanics.block import known_block
 
 x, y = symbols("x y", real=True)
@@ -93,6 +93,11 @@ EXPRESSIONS = [
     Approach(a, oo),
     FirstOrder(a * x + x**2 * y, x, y),
     SwingTime(b * (cos(x) - cos(a)), x, a, Integer(2)),
+    SwingTimeOfNumbers(
+        SwingTime(b * (cos(x) - cos(a)), x, a, Integer(2)),
+        Tuple(a, b),
+        Tuple(ex.Amount(Integer(1), "rad", Integer(1)), ex.Amount(Integer(9), "s^-2", Integer(1))),
+    ),
 ]
 
 

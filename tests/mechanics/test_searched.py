@@ -64,7 +64,7 @@ def test_both_arc_sines_are_let_in() -> None:
 
 def test_a_state_that_is_lost_with_a_zero_of_a_factor_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(equilibria_module, "zeros_of", lambda force, q: [Zero(0 * q)])
-    with pytest.raises(Unverified, match="does not fit"):
+    with pytest.raises(Unverified, match="could not be confirmed"):
         equilibria(two_pendulums())
 
 
@@ -72,7 +72,7 @@ def test_a_state_that_is_lost_with_a_zero_of_a_factor_is_noticed(monkeypatch: py
 def test_a_state_that_is_lost_with_an_arc_sine_is_noticed(monkeypatch: pytest.MonkeyPatch, kept: int) -> None:
     right = zeros._with_sine
     monkeypatch.setattr(zeros, "_with_sine", lambda value: right(value)[kept : kept + 1])
-    with pytest.raises(Unverified, match="does not fit"):
+    with pytest.raises(Unverified, match="could not be confirmed"):
         equilibria(pushed_round())
 
 

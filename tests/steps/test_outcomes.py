@@ -66,4 +66,4 @@ class Apex:
 def test_the_point_and_the_axis_that_are_named_are_those_of_the_result(
     subject: Subject, words: dict[str, str], rightly: bool
 ) -> None:
-    assert told_rightly("test.unheard_of", "generic", Judged(1, subject=subject, words=words)) is rightly
+    assert bool(told_rightly("test.unheard_of", "generic", Judged(1, subject=subject, words=words))) is rightly

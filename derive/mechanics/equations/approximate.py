@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from sympy import Function, Integer, Rational, oo
+from sympy.core.symbol import Str
 
 from derive.algebra.expansion import small_of, tidied_terms
 from derive.algebra.expressions import TIME, Relation, explicit
@@ -17,8 +18,8 @@ from derive.mechanics.equations.leading import expansion_of, rest_vanishes
 from derive.mechanics.equations.substitution import arranged
 from derive.mechanics.equations.unknowns import coordinates_of, letter_of, residual_of, unknown_of
 from derive.mechanics.systems.coordinates import OfCoordinate
-from derive.steps.establish import Lines, Telling, establish
-from derive.steps.step import Quantity, is_zero
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.step import Quantity, approximations_among, is_zero
 
 __all__ = ["equation_in_limit"]
 
@@ -74,6 +75,8 @@ def equation_in_limit(
         ),
         key=key or f"{equation.key}_limit",
         facts=[fact] if (fact := equation.fact(OfCoordinate)) is not None else [],
+        parents=approximations_among(to),
+        scope=Scope() if is_zero(left - kept) else Scope(approximates=Str(equation.key)),
     )
 
 

@@ -46,6 +46,7 @@ from derive.algebra.collect import spread_or_by_terms
 from derive.algebra.expressions import Relation
 from derive.algebra.expressions import Root as RootSign
 from derive.algebra.length import length
+from derive.algebra.ranges import fulfilling
 from derive.algebra.squares import with_squares
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
@@ -302,7 +303,8 @@ def _presentable(column: MatrixBase) -> MatrixBase:
 
 def _size(value: Expr) -> tuple[float, str]:
     letters = sorted(value.free_symbols, key=str)
-    number = value.subs({s: Integer(prime(n + 20)) / prime(20) for n, s in enumerate(letters)}).evalf()
+    drawn = {s: Integer(prime(n + 20)) / prime(20) for n, s in enumerate(letters)}
+    number = value.subs(fulfilling(drawn)).evalf()
     return (float(number) if number.is_real else 0.0), str(value)
 
 

@@ -46,7 +46,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
         definition=True,
         outcome="generic" if values else "named",
         lines=Lines(arranged=_cancelled),
-        parents=[q for q in values.values() if isinstance(q.value, Relation)],
+        parents=[q for q in values.values() if q not in inputs.values()],
         scope=Scope(differ=EVERYTHING),
     )
 
@@ -64,10 +64,10 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """The quantity, or what an equation says that a letter is."""
+    """The quantity; or the value of what has no letter: of an equation, or of x_dot^2, whose root is no square."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
-        return quantity
+        return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)
     if isinstance(value, Relation) and value.mark == "=" and isinstance(value.left, Symbol):
         right = explicit(value.right)
         if not left_over(right, unknown_of("combination", value.left)):

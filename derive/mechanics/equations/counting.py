@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from sympy import Abs, Expr, Rational, Symbol, lambdify, pi
+from sympy import Expr, Rational, Symbol, lambdify, pi
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Grade, Verdict
@@ -17,6 +17,7 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # into which a range is divided, and sets of letters
+HALVINGS, SHRUNK = 40, 1e-6  # of an interval, and to which part a force has shrunk at a zero
 LITTLE = 1e-9
 
 
@@ -32,7 +33,6 @@ def signs_counted(
     """Whether the force changes its sign as often as there are states, for some numbers in place of the letters.
 
     states   each value with the condition under which there is rest
-    A force that jumps to the other sign, as that of a spring does where its length |u| is zero, vanishes nowhere there.
     """
     force = derivative(explicit(potential.value), q)
     letters = {s for s in force.free_symbols if s != q}
@@ -43,13 +43,12 @@ def signs_counted(
         expected = sorted(float(value) for value, is_there in values if is_there and _is_place(value, q))
         own = found.xreplace(point).evalf()
         curve = lambdify([q], force.xreplace(point), "math")
-        inside = [size.args[0].xreplace(point) for size in force.atoms(Abs) if size.has(q)]
-        side = lambdify([q], [u > 0 for u in inside], "math")
         scale = max([abs(x) for x in expected if x] or [1.0])
         known = range_of(q)
         grid = _grid(once_round, bool(q.is_positive), scale) if known is None else _grid_within(known)
-        signs = [(s, side(x)) for x in grid if (s := _sign(curve, x))]
-        changes = sum(1 for one, other in pairwise(signs) if one[0] != other[0] and one[1] == other[1])
+        signs = [(x, s) for x in grid if (s := _sign(curve, x))]
+        turns = [(x, y) for (x, one), (y, other) in pairwise(signs) if one != other]
+        changes = sum(_vanishes_between(curve, x, y) for x, y in turns)
         if changes != len(expected) or all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
             where = tuple((str(s), str(x)) for s, x in point.items())
             return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
@@ -82,6 +81,23 @@ def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
 
 def _grid_within(known: Range) -> list[float]:
     return [float(known.at(Rational(2 * i + 1, 2 * STEPS))) for i in range(STEPS)]
+
+
+def _vanishes_between(curve: Any, low: float, high: float) -> bool:
+    """Whether the force changes its sign since it vanishes there.
+
+    Else it grows beyond all bounds, as between two charges, or jumps, as that of a spring whose length is zero there.
+    """
+    sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        there = _sign(curve, middle)
+        if not there:
+            return True
+        if middle in (low, high):
+            break
+        low, high = (middle, high) if there == sign else (low, middle)
+    return bool(min(abs(curve(low)), abs(curve(high))) < SHRUNK * before)
 
 
 def _sign(curve: Any, x: float) -> int:

@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, lambdify, pi, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expansion import NoExpansion
+from derive.algebra.expansion import Approach, NoExpansion
 from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.samples import letters_of, points, seed_of
-from derive.algebra.swing import SwingTime, quarter_swing
+from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import lecture_form, residual_of, with_unknown
 from derive.mechanics.systems.coordinates import Coordinate
 from derive.mechanics.systems.dalembert import Matter
-from derive.steps.establish import Lines, Telling, establish
-from derive.steps.record import free_letter
-from derive.steps.step import Fact, Form, Level, Quantity, is_zero, value_behind
+from derive.steps.establish import Lines, Scope, Telling, establish
+from derive.steps.numeric import WholeSwing
+from derive.steps.record import free_letter, letter_of_limit
+from derive.steps.step import Fact, Form, Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["period_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-MOST_VALUES = 2**12
 NOISE = 1e-9  # what the numbers may differ by near the turning points, where most figures cancel
 
 
@@ -79,9 +79,9 @@ def speed_from_energy(
         raise Rejected(Complaint("wrong-argument", message))
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
-    conserved = _energy_kept(
-        energy, q, first, initial, acceleration, f"{energy.key}_kept" if key is None else f"{key}_energy"
-    )
+    about = approximations_among(start, start_rate)
+    kept_key = f"{energy.key}_kept" if key is None else f"{key}_energy"
+    conserved = _energy_kept(energy, q, first, initial, acceleration, kept_key, about)
 
     def by_motion(found: Expr) -> tuple[Any, Any]:
         """q_ddot = (1/2) d(q_dot^2)/dq, and the rate at the start."""
@@ -107,7 +107,15 @@ def speed_from_energy(
     )
 
 
-def _energy_kept(energy: Quantity, q: Coordinate, first: Expr, initial: Expr, acceleration: Expr, key: str) -> Quantity:
+def _energy_kept(
+    energy: Quantity,
+    q: Coordinate,
+    first: Expr,
+    initial: Expr,
+    acceleration: Expr,
+    key: str,
+    about: Sequence[Quantity],
+) -> Quantity:
     """The energy keeps the value that it has at the start."""
     value, letter, speed = explicit(energy.value), q.symbol, q.rate
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
@@ -132,6 +140,7 @@ def _energy_kept(energy: Quantity, q: Coordinate, first: Expr, initial: Expr, ac
             formulas={"place": (Relation(letter, "=", first), Relation(first, "=", letter))},
             judged_by={"initial": initial},
         ),
+        parents=about,
     )
 
 
@@ -171,6 +180,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
     squared   q_dot^2 as `speed_from_energy` yields it for a release from rest at q = A, the same for q and -q, 1/s^2
     order     the highest power of the amplitude that is kept
+    The series has a letter of its own, tau_lim; the numbers of the period are those of the integral itself.
     Second route: for small amplitudes it is that of the linearised equation of motion, 2 pi/omega_0; and the integral
     in numbers.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
@@ -200,11 +210,12 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
         slope = tidied(diff(known.acceleration, q).subs({q: ZERO, rate(q): ZERO}))
         return result.subs(amplitude, 0) ** 2 * -slope, 4 * pi**2
 
+    period, integral = scalar(symbol or free_letter("tau")), SwingTime(value, q, amplitude, Integer(order))
     return establish(
         "energy_integral.period_by_energy",
-        scalar(symbol or free_letter("tau")),
-        lambda _: Factors(Integer(4), SwingTime(value, q, amplitude, Integer(order))),
-        {"squared": squared},
+        period if exact else letter_of_limit(period, amplitude, ZERO),
+        lambda *_: Factors(Integer(4), integral),
+        {"squared": squared, "approach": Approach(amplitude, ZERO)},
         lines=Lines(
             law=Level.BRIEF,
             put_in=None,
@@ -223,6 +234,8 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
             formulas={"amplitude": (amplitude, amplitude)},
             judged_by={"value": value, "coordinate": q, "acceleration": known.acceleration},
         ),
+        scope=Scope() if exact else Scope(approximates=period),
+        facts=[] if exact else [WholeSwing(Integer(4), integral)],
     )
 
 
@@ -243,39 +256,19 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
     point = next((p for p in drawn if _swings(found, {**p, amplitude: Rational(1, 40)})), None)
     if point is None:
         return Verdict(Grade.REFUTED, "the period is real for no numbers that were tried")
-    with mp.workdps(FIGURES + 5 * order):  # what is left is compared with that power of a small amplitude
+    figures = FIGURES + 5 * order  # what is left is compared with that power of a small amplitude
+    with mp.workdps(figures):
         rests = []
         for small in (Rational(1, 40), Rational(1, 80)):
             there = {**point, amplitude: small}
-            speed = lambdify(q, sqrt(value.xreplace(there)), "mpmath")
-            a = mp.mpf(int(small.p)) / int(small.q)
-            time = 2 * _over_half_a_turn(speed, a)
-            told = mp.mpf(str(found.xreplace(there).evalf(mp.dps)))
-            rests.append(abs(time - told) / abs(told) / a**order)
+            half = half_swing(value.xreplace(there), q, small, figures - 15)
+            if half is None:
+                return Verdict(Grade.REFUTED, "the integral does not converge")
+            told = Rational(str(found.xreplace(there).evalf(mp.dps)))
+            rests.append(mp.mpf(str((abs(2 * half / told - 1) / small**order).evalf(mp.dps))))
     if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
         return Verdict(Grade.REFUTED, f"the integral in numbers differs by {mp.nstr(rests[1], 5)} of the last power")
     return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, in numbers")
-
-
-def _over_half_a_turn(speed: Callable[[Any], Any], a: Any) -> Any:
-    """The integral of dq/v from -a to a, q = a sin u: the integrand has a period and is the same at u and at pi - u, so
-    that the mean of equidistant values is as good as it can be; twice as many are taken until they agree.
-
-    Source: Trefethen, Weideman, *SIAM Review* 56 (2014), section 3.
-    """
-    from mpmath import mp
-
-    def integrand(part: Any) -> Any:
-        u = mp.pi * (part - mp.mpf(1) / 2)
-        return mp.re(a * mp.cos(u) / speed(a * mp.sin(u)))
-
-    before, count = None, 8
-    while count <= MOST_VALUES:
-        now = mp.pi * sum(integrand((k + mp.mpf(1) / 2) / count) for k in range(count)) / count
-        if before is not None and abs(now - before) <= abs(now) * mp.mpf(10) ** (10 - mp.dps):
-            return now
-        before, count = now, 2 * count
-    return mp.nan
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
@@ -12,10 +12,13 @@ from sympy.simplify.fu import TR8
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import At, Relation, explicit, scalar
+from derive.algebra.normal_form import vanishes
+from derive.algebra.ranges import ends_within, range_of, strict_sign_within
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.unknowns import coordinates_of, kind_of_unknown, lecture_form, letter_of, unknown_of
+from derive.mechanics.equations.zeros import Unsolved, positive, zeros_of
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.record import assumed
@@ -61,15 +64,16 @@ def _extremum(
     if not isinstance(value, Expr) or isinstance(value, Relation) or x not in value.free_symbols:
         raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{of.key}` is no value that depends on {x.name}"))
     slope, curvature = tidied(value.diff(x)), value.diff(x, 2)
-    found = [pair for pair in _places(slope, x) if _lies_within(*pair, within, x)]
+    within = (explicit(within[0]), explicit(within[1])) if within else _range_as_interval(x)
+    inside = [(place, real, _inside(place, real, within, x)) for place, real in _places(slope, x)]
+    found = [(place, _conditions(real, room)) for place, real, room in inside if room is not None]
     signs = [sign_known(curvature.subs(x, place)) for place, _ in found]
     sure = [pair for pair, sign in zip(found, signs, strict=True) if sign == curved]
     fitting = sure or [pair for pair, sign in zip(found, signs, strict=True) if sign is None]
+    fitting = [pair for pair in fitting if not pair[1]] or fitting  # a place that is there whatever the letters are
     if len(fitting) != 1:
-        many = "no place" if not fitting else f"{len(fitting)} places"
-        message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
-        raise Rejected(Complaint("no-extremum", message, help="give the interval with `within=(..., ...)`"))
-    ((place, condition),) = fitting
+        raise _not_one(of, x, verb, len(fitting), bool(inside) and not found)
+    ((place, conditions),) = fitting
     name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
     at = establish(
         "extrema.place",
@@ -79,7 +83,7 @@ def _extremum(
         lines=Lines(put_in=None, law=Level.BRIEF, arranged=lambda _: place),
         routes={
             "slope": lambda p: (slope.subs(x, p), Integer(0)),
-            "beside": lambda p: _against_others(value, x, p, within, condition, curved),
+            "beside": lambda p: _not_exceeded(value, x, value.subs(x, p), within, conditions, curved, p),
         },
         outcome="greatest" if curved < 0 else "least",
         key=f"{key}_{x.name}",
@@ -87,9 +91,9 @@ def _extremum(
         telling=Telling(
             formulas={
                 "letter": (x, x),
-                **({"condition": (_apart(condition), condition)} if condition else {}),
+                **{role: (_apart(each), each) for role, each in conditions.items()},
             },
-            judged_by={"value": value, "letter": x, "place": place},
+            judged_by={"value": value, "place": place, **({"within": within} if within else {})},
         ),
         scope=Scope(coordinates={}),
     )
@@ -99,13 +103,68 @@ def _extremum(
         lambda f, p: At(f, x, p),
         {"quantity": of, "place": at},
         lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=lecture_form),
-        routes={"beside": lambda top: _not_exceeded(value, x, top, within, condition, curved, place)},
+        routes={"beside": lambda top: _not_exceeded(value, x, top, within, conditions, curved, place)},
         outcome="greatest" if curved < 0 else "least",
         key=key,
         kind=of.step.kind,
-        telling=Telling(judged_by={"value": value, "letter": x, "place": place}),
+        telling=Telling(judged_by={"value": value, "letter": x, "place": place, **conditions}),
     )
     return at, top
+
+
+def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
+    """Why there is not one place."""
+    many = "no place" if not count else f"{count} places"
+    message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
+    help_line = "give the interval with `within=(..., ...)`"
+    if not count and elsewhere:
+        message = f"`{verb}`: the slope of `{of.key}` does not vanish so for any {x.name} that is allowed"
+        help_line = f"the {verb} is at an end of the interval, or there is none: `put_in` gives the value at an end"
+    return Rejected(Complaint("no-extremum", message, help=help_line))
+
+
+def _range_as_interval(x: Symbol) -> Within | None:
+    """The interval in which the letter is known to lie."""
+    known = range_of(x)
+    is_bounded = known is not None and known.least.is_finite and known.greatest.is_finite
+    return (known.least, known.greatest) if known is not None and is_bounded else None
+
+
+def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
+    """Role -> condition: that the place is real, and that it lies between the ends."""
+    found = {} if real is None else {"condition": real}
+    return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
+
+
+def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
+    """Under which conditions the place lies between the ends, none if it always does; nothing where it never does."""
+    if within is None and not x.is_positive:
+        return []
+    if within is None and real is not None:  # a root that is positive where it is real
+        return None if place.could_extract_minus_sign() else []
+    low, high = within or (Integer(0), None)
+    found = []
+    for ahead in (place - low, *([] if high is None else [high - place])):
+        sure = _sign_by_letters(ahead, Integer(1) if high is None else high - low)
+        if sure in (0, -1) or sure is None and sign_known(ahead) in (0, -1):
+            return None
+        if sure is None:
+            found.append(positive(ahead))
+    return found
+
+
+def _sign_by_letters(ahead: Expr, width: Expr) -> int | None:
+    """The sign of a distance from an end, by the letters alone; the interval itself has a positive width."""
+    share = tidied(ahead / width)
+    for part in (tidied(ahead), share):
+        if vanishes(part):
+            return 0
+        ends, sign = ends_within(part), strict_sign_within(part)
+        if sign is None and ends is not None:
+            sign = 1 if ends[0].is_nonnegative else -1 if ends[1].is_nonpositive else None
+        if sign is not None:
+            return sign
+    return None
 
 
 def _apart(condition: Relation) -> Relation:
@@ -132,7 +191,8 @@ def _places(slope: Expr, x: Symbol) -> Iterator[tuple[Expr, Relation | None]]:
     """The zeros of each factor of the slope, with the condition under which they are real."""
     numerator = slope.as_numer_denom()[0]
     for form in dict.fromkeys((numerator, tidied(TR8(numerator.expand())))):
-        found = [pair for factor in Mul.make_args(form) for pair in _zeros(factor.as_base_exp()[0], x)]
+        factors = [factor.as_base_exp()[0] for factor in Mul.make_args(form) if factor.has(x)]
+        found = [pair for factor in factors for pair in _zeros(factor, x) or _in_closed_form(factor, x)]
         if found:
             yield from found
             return
@@ -146,9 +206,15 @@ def _zeros(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
     angles = {f.args[0] for f in factor.atoms(sin, cos) if f.has(x)}
     if not angles:
         return _of_polynomial(factor, x)
-    if angles == {x}:
-        return _of_one_angle(factor, x)
-    return []
+    return _of_one_angle(factor, x) if angles == {x} else []
+
+
+def _in_closed_form(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]:
+    """As the places of rest of a force are found: r^4 = l^2/(k m)."""
+    try:
+        return [(zero.value, zero.exists) for zero in zeros_of(factor, x)]
+    except Unsolved:
+        return []
 
 
 def _of_angle(function: Function, x: Symbol) -> list[Expr]:
@@ -176,12 +242,12 @@ def _of_polynomial(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]
         a, b, c = coefficients
         if b == 0:
             inside = lecture_form(-c / a, in_sums=False)
-            condition = None if sign_known(inside) == 1 else Relation(inside, ">", 0)
+            condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
             return [] if sign_known(inside) == -1 else [(sign * _root_of(inside), condition) for sign in (1, -1)]
         inside = tidied(b**2 - 4 * a * c)
         if sign_known(inside) == -1:
             return []
-        condition = None if sign_known(inside) == 1 else Relation(inside, ">", 0)
+        condition = None if strict_sign_within(inside) == 1 else Relation(inside, ">", 0)
         return [(lecture_form((-b + sign * sqrt(inside)) / (2 * a)), condition) for sign in (1, -1)]
     return []
 
@@ -202,44 +268,12 @@ def _of_one_angle(factor: Expr, x: Symbol) -> list[tuple[Expr, Relation | None]]
     return []
 
 
-def _lies_within(place: Expr, condition: Relation | None, within: Within | None, x: Symbol) -> bool:
-    if x.is_positive and within is None:
-        return bool(sign_known(place) == 1) or (condition is not None and not place.could_extract_minus_sign())
-    if within is None:
-        return True
-    seen = [_numbers(expr, point) for point in _points(place, within) for expr in [(place, *within)]]
-    decided = [low < there < high for there, low, high in seen if None not in (there, low, high) and low < high]
-    return bool(decided) and all(decided)
-
-
-def _points(place: Expr, within: Within) -> Iterator[dict[Any, Any]]:
-    letters = set().union(*(letters_of(with_numbers(e)) for e in (place, *within)))
-    for i in range(POINTS):
-        yield {s: Rational(3 + 2 * i + k, 29) for k, s in enumerate(sorted(letters, key=str))}
-
-
-def _numbers(exprs: Sequence[Expr], point: dict[Any, Any]) -> tuple[Any, ...]:
-    found = []
-    for expr in exprs:
-        try:
-            found.append(value_at(with_numbers(expr), point))
-        except (Undefined, NoNumber):
-            found.append(None)
-    return tuple(found)
-
-
 # --- the second routes ---
-
-
-def _against_others(
-    value: Expr, x: Symbol, place: Expr, within: Within | None, condition: Relation | None, curved: int
-) -> Verdict:
-    return _not_exceeded(value, x, value.subs(x, place), within, condition, curved, place)
 
 
 def _holds(condition: Relation, point: Any) -> bool:
     size = value_at(with_numbers(condition.residual), point)
-    return bool(size < 0 if condition.mark in {"<", "<="} else size > 0)
+    return bool(size != 0 if condition.mark == "!=" else size < 0 if condition.mark in {"<", "<="} else size > 0)
 
 
 def _not_exceeded(
@@ -247,14 +281,14 @@ def _not_exceeded(
     x: Symbol,
     top: Expr,
     within: Within | None,
-    condition: Relation | None,
+    told: Mapping[str, Relation],
     curved: int,
     place: Expr,
 ) -> Verdict:
     """At places spread over the interval, or near the place, nothing is beyond the extreme value."""
     value, top, place = (with_numbers(e) for e in (value, top, place))
     letters = (letters_of(value) | letters_of(top) | letters_of(place)) - {x}
-    conditions = [*([] if condition is None else [condition]), *assumed()]
+    conditions = [*told.values(), *assumed()]
     letters |= {s for each in conditions for s in letters_of(each.residual)}
     seen = 0
     for point in islice(points(letters, seed_of(value)), 60):

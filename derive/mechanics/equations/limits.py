@@ -30,8 +30,8 @@ from derive.mechanics.equations.leading import (
 )
 from derive.mechanics.equations.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, Scope, Telling, establish
-from derive.steps.record import changes, named_coordinates
-from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
+from derive.steps.record import changes, letter_of_limit, named_coordinates
+from derive.steps.step import Form, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
@@ -51,7 +51,8 @@ def limiting_case(
     to       0 where it is small, SymPy's `oo` where it is large, else the value that it is near
     order    the highest power of what is small that is kept; the leading term alone if none is given
     Of a vector or a tensor that is the leading power of its largest entry: the others vanish beside it. Letters that
-    are put equal, b = a, are `put_in`.
+    are put equal, b = a, are `put_in`. The result has a letter of its own, `symbol` or omega_lim, and what is computed
+    from it is approximate.
     Check: the same terms by adding, multiplying and dividing power series, without a derivative; and numbers,
     on each side: the rest, divided by the last power that is kept, goes to zero with what is small.
     Outcomes: finite, vanishes, diverges (the leading term alone); small, large, near (to an order); exact (nothing is
@@ -66,7 +67,7 @@ def limiting_case(
             raise Rejected(Complaint("wrong-argument", f"`{of.key}` is an equation, which has no letter of its own"))
         return equation_in_limit(of, letter, to, order, key)
     value = explicit(of.value.right if solved is not None else of.value)
-    name = _name(of, symbol) if solved is None or symbol is not None else solved
+    name = _name(of) if solved is None else solved
     goes, x = _what_goes(letter)
     if not isinstance(value, Expr | MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is no number"))
@@ -81,9 +82,10 @@ def limiting_case(
         found = _added_up(series, value, x, place)
     exact, is_limit = is_zero(value - found), order is None and power == 0
     again = terms_by_arithmetic(value, series, x, place, power)
+    own = _own_letter(name, symbol, x, aim) if not exact else name if symbol is None else Symbol(symbol, real=True)
     return establish(
         "limits.limiting_case",
-        name,
+        own,
         lambda *_: entry_by_entry(lambda f: Expansion(_as_written(f, x, place), x, place, power), value),
         {"quantity": of, "letter": goes, "approach": Approach(goes, aim)},
         lines=Lines(
@@ -92,7 +94,7 @@ def limiting_case(
             after=[_last_line(found, series, x, place, exact, is_limit)],
             result=False,
             arranged=lambda _: found,
-            means=_means(name, found),
+            means=_means(own, found),
         ),
         routes={
             **({} if again is None else {"arithmetic": lambda result: to_that_order(result, again, exact or is_limit)}),
@@ -108,8 +110,25 @@ def limiting_case(
             },
             judged_by={"to": place, "value": value, "x": x},
         ),
-        scope=Scope(case_of=of),
+        parents=approximations_among(to),
+        scope=Scope(case_of=of) if exact else Scope(approximates=_whole(of, name, Approach(goes, aim))),
     )
+
+
+def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
+    """The letter of a limit, which is not that of the whole."""
+    if symbol is None:
+        return letter_of_limit(whole, x, aim)
+    if symbol == str(whole):
+        message = f"`limiting_case`: {symbol} is the letter of the whole, so its limit needs another letter"
+        raise Rejected(Complaint("letter-clash", message, help="give another `symbol`, or none"))
+    return Symbol(symbol, real=True)
+
+
+def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
+    """What goes to the limit: of a series in powers of that very letter, the letter of the whole series."""
+    is_series = of.step.approximates is not None and dict(of.step.roles).get("approach") == approach
+    return of.step.approximates if is_series else name
 
 
 def _solved_for(of: Quantity) -> Symbol | None:
@@ -176,9 +195,7 @@ def _sort_of(place: Expr) -> str:
     return "large" if place in (oo, -oo) else "near"
 
 
-def _name(of: Quantity, symbol: str | None) -> Any:
-    if symbol is not None:
-        return Symbol(symbol, real=True)
+def _name(of: Quantity) -> Any:
     if isinstance(of.symbol, Symbol | MatrixSymbol | MatrixBase):
         return of.symbol
     return unknown_of("limiting_case", of.symbol)

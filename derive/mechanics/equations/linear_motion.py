@@ -46,7 +46,7 @@ from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known
 from derive.steps.record import assume, changes, require_constant
-from derive.steps.step import Level, Quantity, is_zero, value_behind
+from derive.steps.step import Level, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["solution"]
 
@@ -138,6 +138,7 @@ def solution(
             formulas=_told(linear, condition, first, initial, q),
             judged_by={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
+        parents=approximations_among(start, start_rate),
     )
 
 

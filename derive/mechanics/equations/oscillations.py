@@ -10,7 +10,7 @@ from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp
 from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar, stand_in
 from derive.algebra.length import length
-from derive.algebra.ranges import rational_in_range, settled, strict_sign_within
+from derive.algebra.ranges import fulfilling, rational_in_range, settled, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.characteristic import root_of
@@ -202,7 +202,8 @@ def _rate(
     def positive_root(found: Expr) -> tuple[Expr, Expr]:
         """Neither motion knows the sign of its rate. It cannot change unless the root vanishes: one place tells."""
         letters = sorted(squared.value.free_symbols, key=str)
-        there = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
+        drawn = {letter: rational_in_range(letter, Rational(prime(n + 5), 7)) for n, letter in enumerate(letters)}
+        there = fulfilling(drawn)
         imaginary = explicit(size).subs(there).is_negative
         value = found.subs(there) / (I if imaginary else 1)
         return value, Abs(value)

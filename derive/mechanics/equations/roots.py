@@ -7,7 +7,6 @@ real or positive, the condition is told with it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from sympy import (
@@ -18,24 +17,21 @@ from sympy import (
     Integer,
     Mul,
     Poly,
-    Pow,
-    Rational,
     Symbol,
     cos,
     factor_list,
-    gcd,
     resultant,
     sin,
-    sqrt,
 )
 from sympy.polys.polyerrors import PolynomialError
 
-from derive.algebra.expressions import RATES, Factors, Ratio, Relation, Root, Terms, explicit, scalar
+from derive.algebra.expressions import RATES, Relation, Terms, explicit, scalar
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.equations.quadratics import roots_together
 from derive.mechanics.equations.reach import is_out_of_range
+from derive.mechanics.equations.root_of_factor import FOUR, RootOf
 from derive.mechanics.equations.unknowns import (
     ValueOf,
     coordinates_of,
@@ -53,45 +49,11 @@ from derive.mechanics.equations.unknowns import (
 from derive.mechanics.equations.zeros import within_one
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.known_numbers import sign_known, with_numbers
-from derive.steps.step import Fact, Level, Quantity, is_zero
+from derive.steps.step import Level, Quantity, is_zero
 
 __all__ = ["roots"]
 
-FOUR, ZERO, ONE = Integer(4), Integer(0), Integer(1)
-
-
-@dataclass(frozen=True)
-class RootOf(Fact):
-    """One root of a factor of the polynomial: the coefficients of the factor, from the highest, and the sign taken.
-
-    sign   that of the square root; none for a linear factor
-    """
-
-    coefficients: tuple[Expr, ...]
-    sign: int
-    times: int
-
-    @property
-    def discriminant(self) -> Expr:
-        a, b, c = self.coefficients
-        return tidied(b**2 - FOUR * a * c)
-
-    @property
-    def value(self) -> Expr:
-        if len(self.coefficients) == 2:
-            a, b = self.coefficients
-            return tidied(-b / a)
-        a, b, _ = self.coefficients
-        return _drawn(a, b, self.discriminant, self.sign)
-
-    @property
-    def formula(self) -> Expr:
-        if len(self.coefficients) == 2:
-            a, b = self.coefficients
-            return Ratio(-b, a)
-        a, b, c = self.coefficients
-        under = Root(Terms(b**2, -FOUR * a * c))
-        return Ratio(Terms(-b, under if self.sign > 0 else Factors(Integer(-1), under)), 2 * a)
+ZERO, ONE = Integer(0), Integer(1)
 
 
 def roots(
@@ -170,8 +132,7 @@ def _step(
 ) -> Quantity:
     root, alone = kept[i], len(kept) == 1
     others = [(each.value, each.times - (each is root)) for each in every]
-    numbered = letter or _numbered(letter_of(unknown).name, i + 1)
-    name = unknown if alone and not letter else scalar(numbered, **_assumed(unknown))
+    name = _name(unknown, letter, 0 if alone else i + 1)
 
     def vieta(found: Expr) -> tuple[Any, Any]:
         """Sum and product of all roots, from the found one and the others, against the coefficients."""
@@ -182,12 +143,13 @@ def _step(
             [-rest[0] / leading, (-1) ** n * rest[-1] / leading]
         )
 
-    elsewhere = Mul(*factors_elsewhere(explicit(equation.value), unknown)) if is_number(equation) else ONE
+    elsewhere = Mul(*factors_elsewhere(residual_of("roots", equation, or_value=True), unknown))
+    condition = _condition(root, unknown)
     told = {
         role: (each, Relation(tidied(each.left), each.mark, tidied(each.right)))
         for role, each in (
-            ("condition", _condition(root, unknown)),
-            ("excluded", may_vanish(_common_factor(polynomial, every) * root.coefficients[0])),
+            ("condition", condition),
+            ("excluded", _excluded(_common_factor(polynomial, every) * root.coefficients[0], condition)),
             ("existing", _existing(root, unknown, equation)),
             ("elsewhere", None if elsewhere == 1 else Relation(elsewhere, "=", ZERO)),
         )
@@ -202,7 +164,7 @@ def _step(
             put_in=None,
             law=Level.FULL,
             arranged=lambda _: root.value,
-            means={} if isinstance(name, Symbol) else meaning(unknown, root.value),
+            means={} if isinstance(name, Symbol) else meaning(name, root.value),
         ),
         routes={
             "put_back": lambda found: (polynomial.as_expr().xreplace({polynomial.gen: found}), ZERO),
@@ -212,7 +174,7 @@ def _step(
         key=key,
         kind=kind_of_unknown(unknown, coordinates_of(equation)),
         telling=Telling(
-            words={"asked": _asked(equation)},
+            words={"asked": _asked(equation), **({} if isinstance(unknown, Symbol) else {"seen": "function"})},
             formulas=told,
             judged_by={
                 "polynomial": polynomial.as_expr(),
@@ -224,6 +186,24 @@ def _step(
         ),
         facts=[root, ValueOf(unknown)],
     )
+
+
+def _name(unknown: Expr, letter: str, number: int) -> Expr:
+    """The letter of a root; a root that is the value of cos(theta) is called so, with the letter of the angle."""
+    if not isinstance(unknown, Symbol):
+        return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
+    if not letter and not number:
+        return unknown
+    return scalar(letter or _numbered(unknown.name, number), **_assumed(unknown))
+
+
+def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
+    """What must not vanish, unless the condition says so already: cos(theta_0) > 0."""
+    excluded = may_vanish(divisor)
+    if excluded is None or condition is None or condition.mark != ">" or not is_zero(condition.right):
+        return excluded
+    left = [f for f in Mul.make_args(excluded.left) if f not in Mul.make_args(condition.left)]
+    return Relation(Mul(*left), "!=", ZERO) if left else None
 
 
 def _outcome(root: RootOf, i: int, kept: Sequence[RootOf], every: Sequence[RootOf]) -> str:
@@ -353,36 +333,15 @@ def _of_factor(factor: Poly, times: int) -> list[RootOf]:
     return [RootOf(coefficients, sign, times) for sign in (-1, 1)]
 
 
-def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
-    """k (-b/k +- sqrt(D/k^2))/(2 a), with what b and the root have in common in front."""
-    under = sqrt(discriminant)
-    if not any(isinstance(part, Pow) and part.exp == Rational(1, 2) and part.free_symbols for part in under.atoms(Pow)):
-        return lecture_form((-b + sign * under) / (2 * a))
-    if b == 0:
-        return lecture_form(sign * under / (2 * a), in_sums=False)
-    common = _common_root(b, discriminant)
-    inside = lecture_form(discriminant / common**2, in_sums=False)
-    both = Add(tidied(-b / common), sign * sqrt(inside))
-    return Mul(tidied(common / (2 * a)), both)
-
-
-def _common_root(b: Expr, discriminant: Expr) -> Expr:
-    """The largest k of positive factors for which b/k and D/k^2 have no new denominators."""
-    try:
-        content, factors = factor_list(gcd(b**2, discriminant))
-    except PolynomialError:
-        return Integer(1)
-    number = sqrt(content)
-    k = number if number.is_Rational else Integer(1)
-    return k * Mul(*(base ** (power // 2) for base, power in factors if base.is_positive))
-
-
 def _sign(root: RootOf) -> int | None:
-    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive."""
+    """Of a quadratic factor by Vieta: the roots have the sign of -b/a where their product is positive.
+
+    Without a linear term a root is real only where a and c have opposite signs, so that one of the two decides.
+    """
     if len(root.coefficients) == 2:
         return sign_known(root.value)
     a, b, c = root.coefficients
-    upper = root.sign * (sign_known(a) or 0)
+    upper = root.sign * (sign_known(a) or (-(sign_known(c) or 0) if b == 0 else 0))
     product, total = sign_known(c / a), sign_known(-b / a)
     if product == -1 or b == 0:
         return upper or None

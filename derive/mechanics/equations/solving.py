@@ -63,7 +63,8 @@ def solved_for(
         help_line = "one of the equations follows from the others, or they contradict each other"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
-    excluded = may_vanish(determinant)
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # the equations may have had this below already
+    excluded = may_vanish(determinant, *below)
     called = list(keys or [_key_of(unknown) for unknown in wanted])
     if len(called) != len(wanted):
         raise Rejected(Complaint("wrong-argument", "`solved_for` needs as many keys as unknowns"))

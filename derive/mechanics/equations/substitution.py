@@ -28,7 +28,7 @@ from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.mechanics.systems.lagrangian import FromLagrangian
 from derive.steps.establish import Lines, Scope, Telling, establish
 from derive.steps.record import coordinates_in
-from derive.steps.step import Fact, Level, Quantity, compared_with, is_zero
+from derive.steps.step import Fact, Level, Quantity, approximations_among, compared_with, is_zero
 from derive.steps.subject import EVERYTHING
 
 __all__ = ["put_in"]
@@ -101,7 +101,7 @@ def put_in(
             },
             points_to={"found": again} if again is not None else {},
         ),
-        parents=[again] if again is not None else [],
+        parents=[*([again] if again is not None else []), *approximations_among(*given.values(), *values.values())],
         facts=[*_kept_facts(of, rests, there, told), *_at_one_moment(of, rests, there, result)],
         scope=Scope(differ=EVERYTHING, case_of=of),
     )
@@ -178,10 +178,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
         if quantity.value.mark != "=" or is_zero(quantity.value.residual):
             raise Rejected(Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is no equation for a letter"))
     else:
-        target, value = quantity.symbol, quantity.value
-        root = quantity.fact(ValueOf)
-        if root is not None and not quantity.symbol.free_symbols & explicit(of.value).free_symbols:
-            target = root.unknown  # t_2 for t, where the original has t
+        target, value = _letter_replaced(quantity, of), quantity.value
     value = explicit(value)
     if isinstance(value, MatrixBase):
         raise Rejected(
@@ -195,6 +192,14 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
         message = f"`put_in`: `{quantity.key}` does not have one letter alone on its left"
         raise Rejected(Complaint("wrong-argument", message, help="`solved_for` solves an equation for a letter"))
     return [*_of_rates(target, value, coordinates_of(of, quantity)), (target, value)]
+
+
+def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
+    """The letter of a result; a root, a limit or a series with another letter replaces the unknown or the whole."""
+    root, own = quantity.fact(ValueOf), quantity.symbol
+    whole = root.unknown if root is not None else quantity.step.approximates
+    is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
+    return whole if isinstance(whole, Expr) and not is_there else own
 
 
 def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[Replacement]:

@@ -25,7 +25,7 @@ from derive.mechanics.systems.coordinates import Coordinate
 from derive.steps.derivation import with_ancestors
 from derive.steps.establish import Lines, Telling, establish
 from derive.steps.record import require_constant
-from derive.steps.step import Form, Quantity, is_zero, value_behind
+from derive.steps.step import Form, Quantity, approximations_among, is_zero, value_behind
 
 __all__ = ["motions_by_modes"]
 
@@ -82,6 +82,7 @@ def motions_by_modes(
     first, initial = _start(start, together), _start(start_rate or {}, together)
     swings = [s for s in _swings(modes, together, first, initial, case) if s.is_there]
     motion = [tidied_motion(Add(*(_part(s, i) for s in swings))) for i in range(len(first))]
+    equations += approximations_among(*start.values(), *(start_rate or {}).values())
     return tuple(_motion(equations, together, swings, motion, i, (first, initial), key) for i in range(len(first)))
 
 
@@ -186,7 +187,7 @@ def _motion(
 
     def put_back(found: Expr) -> tuple[Any, Any]:
         whole = [found if j == i else value for j, value in enumerate(motion)]
-        left = [with_motion(each, together, whole) for each in equations]
+        left = [with_motion(each, together, whole) for each in equations if each.fact(Linear) is not None]
         return ImmutableDenseMatrix([value.expand() for value in left]), ImmutableDenseMatrix([ZERO for _ in left])
 
     def from_the_start(found: Expr) -> tuple[Any, Any]:
@@ -208,7 +209,10 @@ def _motion(
         ),
         routes={"put_back": put_back, "start": from_the_start},
         outcome="zero" if is_zero(motion[i]) else "generic",
-        telling=Telling(formulas=told),
+        telling=Telling(
+            formulas=told,
+            words={"seen": "all_told" if all(value != 0 for _, value in _starts(together, started)) else "others_zero"},
+        ),
         key=f"{key or 'of_t'}_{q.symbol.name}",
         kind=q.kind,
         parents=list(equations),
@@ -216,12 +220,15 @@ def _motion(
 
 
 def _told(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> dict[str, tuple[Any, Any]]:
-    """What is not zero at the start."""
+    """All that is not zero at the start."""
+    pairs = [(s, value) for s, value in _starts(together, started) if value != 0]
+    return {f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs, 1)}
+
+
+def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> list[tuple[Expr, Expr]]:
+    """Each displacement and each rate with its value at the start."""
     letters = [*(s.symbol for s in together.displacements), *(s.rate for s in together.displacements)]
-    pairs = [(s, value) for s, value in zip(letters, [*started[0], *started[1]], strict=True) if value != 0]
-    return {
-        f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs[:3], 1)
-    }
+    return list(zip(letters, [*started[0], *started[1]], strict=True))
 
 
 def _as_product(swings: Sequence[Swing], i: int) -> Expr | None:

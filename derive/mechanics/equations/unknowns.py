@@ -54,8 +54,9 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """One of several values of an unknown, which has a letter of its own: t_2 is a value of t."""
+    """The unknown of an equation that this is a root of: its value replaces that unknown, whatever it is called."""
 
+    missing = "is not a root of an equation"
     unknown: Expr
 
 
@@ -272,10 +273,10 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-def may_vanish(value: Expr) -> Relation | None:
-    """What must not vanish where one divides by a value: those of its factors that nothing decides."""
-    factors = [f.as_base_exp()[0] for f in Mul.make_args(factored(tidied(value)))]
-    unsure = [f for f in factors if sign_known(f) is None and not f.is_nonzero]
+def may_vanish(*values: Expr) -> Relation | None:
+    """What must not vanish where one divides by these values: those of their factors that nothing decides."""
+    factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
+    unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 
 

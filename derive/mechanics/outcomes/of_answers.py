@@ -13,6 +13,7 @@ from derive.algebra.ranges import range_of
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.mechanics.outcomes.signs import MARK_OF, sign_is
+from derive.mechanics.outcomes.signs import is_so as holds_at
 from derive.steps.known_numbers import sign_known, with_numbers
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.record import assumed
@@ -219,13 +220,15 @@ def _bent(sign: int) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         value, x, place = (with_numbers(facts.inputs[role]) for role in ("value", "letter", "place"))
-        conditions = [c for c in (facts.inputs.get("condition"), *assumed()) if c is not None]
+        told = [c for role, c in facts.inputs.items() if role == "condition" or role.startswith("inside_")]
+        conditions = [with_numbers(condition) for condition in (*told, *assumed())]
         letters = {s for e in (value, place, *(c.residual for c in conditions)) for s in letters_of(e)} - {x}
         seen = []
         for point in islice(points(letters, seed_of(value, place)), 40):
             try:
-                if all((value_at(c.residual, point) > 0) == (c.mark in {">", ">="}) for c in conditions):
-                    seen.append(_beside(value, x, value_at(place, point), point))
+                there = value_at(place, point)
+                if all(holds_at(c, {**point, x: there}) for c in conditions):
+                    seen.append(_beside(value, x, there, point))
             except (Undefined, NoNumber, TypeError):
                 continue
         return bool(seen) and all(sign * apart > 0 for apart in seen[:3])

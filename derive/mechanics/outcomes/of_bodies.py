@@ -90,7 +90,7 @@ def _is_mirrored(facts: Judged) -> bool:
     """A moment of a body of which nothing that is odd in x, in y or in z is left by integration."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
-    return _entry("xx", "yy", "zz")(facts) and all(is_zero(each) for each in odd)
+    return bool(_entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
 
 
 def _is_round(facts: Judged) -> bool:
@@ -156,7 +156,7 @@ def _axis_of(different: int, alone: bool | None = None) -> Predicate:
 
 def _axis_of_symmetry(facts: Judged) -> bool:
     along = all(bool(x == int(k == 2)) for k, x in enumerate(facts.result))
-    return _axis_of(2, alone=True)(facts) and along and _is_round(facts)
+    return bool(_axis_of(2, alone=True)(facts)) and along and _is_round(facts)
 
 
 def _moments_compared(wanted: str) -> Predicate:

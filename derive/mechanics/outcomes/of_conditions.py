@@ -141,6 +141,7 @@ _TABLE: dict[str, dict[str, Predicate]] = {
     "numbers.value": {
         "exact": _of_numbers("exact"),
         "measured": _of_numbers("measured"),
+        "integrated": lambda facts: bool(facts.result.is_positive and not facts.result.free_symbols),
         "minimum": _bends(1),
         "maximum": _bends(-1),
     },

@@ -16,7 +16,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
-from derive.algebra.ranges import rational_in_range
+from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.mechanics.equations.counting import is_countable
 from derive.mechanics.outcomes.growth import grows_always, is_turned_aside, matter_of
 from derive.mechanics.outcomes.searched import none_is_missing
@@ -37,7 +37,8 @@ def _numbers(letters: set[Any]) -> Iterator[dict[Any, Expr]]:
     for shift in range(SHIFTS):
         drawn = [Rational(prime(2 + (11 * i + 5 * shift + i * shift) % 29), 7 + i) for i in range(len(ordered))]
         turned = [-1 if may_be_negative(s) and shift >> i % 4 & 1 else 1 for i, s in enumerate(ordered)]
-        yield {s: turn * rational_in_range(s, number) for s, number, turn in zip(ordered, drawn, turned, strict=True)}
+        numbers = zip(ordered, drawn, turned, strict=True)
+        yield fulfilling({s: turn * rational_in_range(s, number) for s, number, turn in numbers})
 
 
 def _entries(value: Any) -> list[Expr]:
@@ -190,7 +191,7 @@ def _falls_as_told(facts: Judged) -> bool:
     moved = zip(_moving(facts), facts.inputs["place"], _entries(explicit(facts.inputs["direction"])), strict=True)
     energy = facts.inputs["potential_here"].subs({q: at + along * way for q, at, way in moved}, simultaneous=True)
     curvature = derivative(energy, along, 2).subs(along, 0)
-    return is_zero(curvature - told) and always_sign(-1, lambda _: told)(facts)
+    return is_zero(curvature - told) and bool(always_sign(-1, lambda _: told)(facts))
 
 
 def _nothing_turns_it(facts: Judged) -> bool:
@@ -220,7 +221,7 @@ def _higher(kind: str) -> Predicate:
 
 def _undecided(facts: Judged) -> bool:
     """No order decides; the sentence tells of the derivative whose sign is not known, where there is one."""
-    return _higher("open" if "higher" in facts.inputs else "flat")(facts)
+    return bool(_higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 
 def kind_of_order(value: Expr, facts: Judged) -> str:

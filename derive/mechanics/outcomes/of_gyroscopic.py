@@ -15,7 +15,7 @@ from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.expressions import TIME, Relation, explicit
-from derive.algebra.ranges import rational_in_range
+from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
 from derive.steps.outcomes import Judged, Predicate, outcomes_of
 from derive.steps.step import is_zero
@@ -36,6 +36,7 @@ def _numbers(facts: Judged) -> Iterator[dict[Any, Expr]]:
             )
             for i, s in enumerate(letters)
         }
+        drawn = fulfilling(drawn)
         exists = facts.inputs.get("exists")
         if exists is None or _holds(exists, drawn):
             yield drawn

@@ -8,7 +8,8 @@ from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol, prime
 
-from derive.algebra.ranges import range_of, strict_sign_within
+from derive.algebra.node import explicit
+from derive.algebra.ranges import fulfilling, range_of, strict_sign_within
 from derive.algebra.relation import Relation
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
@@ -27,6 +28,15 @@ MARK_OF = {  # what a comparison is called
 }
 
 
+def is_so(condition: Relation, point: Any) -> bool:
+    """Whether a condition is true for these numbers."""
+    apart = value_at(explicit(condition.residual), point)
+    if condition.mark in {"=", "!="}:
+        return bool(apart == 0) == (condition.mark == "=")
+    ahead = apart if condition.mark[0] == ">" else -apart
+    return bool(ahead > 0 or ahead == 0 and condition.mark.endswith("="))
+
+
 def vanishes(facts: Judged) -> bool:
     return is_zero(facts.result)
 
@@ -43,7 +53,7 @@ def may_be_negative(letter: Any) -> bool:
 def turned(numbers: Mapping[Any, Expr], shift: int) -> dict[Any, Expr]:
     """The same numbers, some of the letters that may be negative being so: in turn all four ways of two neighbours."""
     signs = (-1 if may_be_negative(s) and shift >> i % 2 & 1 else 1 for i, s in enumerate(numbers))
-    return {s: sign * number for (s, number), sign in zip(numbers.items(), signs, strict=True)}
+    return fulfilling({s: sign * number for (s, number), sign in zip(numbers.items(), signs, strict=True)})
 
 
 def never_vanishes(v: Any) -> bool:
@@ -94,7 +104,7 @@ def _signs_where(value: Expr, exists: Relation | None) -> set[int]:
     letters = sorted(value.free_symbols | condition.free_symbols, key=str)
     found = set()
     for shift in range(24):
-        numbers = {s: _number(s, i, shift) for i, s in enumerate(letters)}
+        numbers = fulfilling({s: _number(s, i, shift) for i, s in enumerate(letters)})
         if condition.xreplace(numbers).evalf(30) > 0:
             found.add(1 if value.xreplace(numbers).evalf(30) > 0 else -1)
     return found

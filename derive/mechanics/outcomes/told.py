@@ -16,9 +16,10 @@ from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, f
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
-from derive.mechanics.outcomes.signs import MARK_OF
+from derive.mechanics.outcomes.signs import MARK_OF, is_so
 from derive.steps.known_numbers import sign_known
 from derive.steps.outcomes import Judged, told_by
+from derive.steps.record import assumed
 from derive.steps.step import is_zero
 
 POINTS = 24
@@ -126,6 +127,17 @@ def _starts_as_told(facts: Judged, outcome: str) -> bool:
     return right and _of_an_equation(facts, outcome)
 
 
+def _starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
+    """At the start the coordinate and its rate have the values that the sentence says, or zero where it says none."""
+    q = facts.inputs["coordinate"]
+    told = {each.left: each.right for role, each in facts.inputs.items() if role.startswith("start_")}
+    at_start = {q: facts.result.subs(TIME, 0), rate(q): diff(facts.result, TIME).subs(TIME, 0)}
+    others_zero = facts.words["seen"] == "others_zero"
+    return all(
+        is_zero(value - told[s]) if s in told else others_zero and is_zero(value) for s, value in at_start.items()
+    )
+
+
 def _taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
     """With what the letter that is taken out is said to be, the condition holds."""
     told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
@@ -182,13 +194,17 @@ def _names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
 def _as_asked_for(facts: Judged, outcome: str) -> bool:
     """Roots are those of an equation, zeros those of a result, which does vanish where it is said to elsewhere."""
     given = facts.inputs["equation"]
-    beside = facts.inputs.get("elsewhere")
-    vanishes = beside is None or is_zero(explicit(given).subs(beside.left, 0))
+    beside, whole = facts.inputs.get("elsewhere"), explicit(given)
+    whole = whole.residual if isinstance(whole, Relation) else whole
+    vanishes = beside is None or all(is_zero(whole.subs(factor, 0)) for factor in Mul.make_args(beside.left))
     return vanishes and (facts.words["asked"] == "roots") == isinstance(given, Relation)
 
 
 def _as_asked(facts: Judged, outcome: str) -> bool:
+    is_letter = isinstance(facts.inputs["unknown"], Symbol)
     numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
+    if not is_letter:  # the value of a cosine is called a cosine
+        numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
     return numbered and limited and _as_asked_for(facts, outcome) and _is_a_root_just_where_told(facts)
 
@@ -206,19 +222,14 @@ def _is_a_root_just_where_told(facts: Judged) -> bool:
     for point in islice(points(letters, seed_of(value)), POINTS):
         try:
             number = value_at(value, point)
-            if given is not None and not _is_so(given, point):
+            if given is not None and not is_so(given, point):
                 continue
             is_root = bool(number.is_real) and (facts.inputs["positive"] == 0 or told is None or number > 0)
-            if is_root != (told is None or _is_so(told, point)):
+            if is_root != (told is None or is_so(told, point)):
                 return False
         except (Undefined, NoNumber):
             continue
     return True
-
-
-def _is_so(condition: Relation, point: Any) -> bool:
-    residual = value_at(explicit(condition.residual), point)
-    return bool(residual > 0 if condition.mark in {">", ">="} else residual < 0)
 
 
 def _steady_as_its_potential(facts: Judged, outcome: str) -> bool:
@@ -237,8 +248,30 @@ def _an_oscillation(facts: Judged, outcome: str) -> bool:
 
 
 def _there_where_told(facts: Judged, outcome: str) -> bool:
-    """A place where something is extreme is real just where that is said."""
-    return _is_a_root_just_where_told(replace(facts, inputs={"positive": Integer(0), **facts.inputs}))
+    """A place where something is extreme is real just where that is said, and between the ends just where that is."""
+    told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
+    return _is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
+
+
+def _between_the_ends_just_where_told(facts: Judged) -> bool:
+    """By numbers for the letters, where the interval has a width and the place is real."""
+    if "within" not in facts.inputs:
+        return True
+    place, ends = explicit(facts.result), facts.inputs["within"]
+    inside = [each for role, each in facts.inputs.items() if role.startswith("inside_")]
+    real = [each for role, each in facts.inputs.items() if role == "condition"]
+    letters = letters_of(place).union(*map(letters_of, ends), *(letters_of(each.residual) for each in inside))
+    for point in islice(points(letters, seed_of(place)), POINTS):
+        try:
+            low, there, high = (value_at(each, point) for each in (ends[0], place, ends[1]))
+            at = {**point, facts.inputs["letter"]: there}
+            if not low < high or not all(is_so(each, at) for each in (*real, *assumed())):
+                continue
+            if (low < there < high) != all(is_so(each, point) for each in inside):
+                return False
+        except (Undefined, NoNumber, TypeError):
+            continue
+    return True
 
 
 def _says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
@@ -307,6 +340,7 @@ def _functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
 
 _TABLE: dict[str, Told] = {
     "forced.equation_of_motion": _functions_of_its_constraints,
+    "superposition.motion": _starts_as_all_are_told,
     "roots.roots": _as_asked,
     "roots.roots_absent": _as_asked_for,
     "gyroscopic.characteristic": _an_oscillation,

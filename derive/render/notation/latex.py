@@ -294,7 +294,13 @@ def _subscript(name: Name) -> str:
     if name.subscript in GREEK_LETTERS:
         return rf"\{name.subscript}"
     between, parts = name.below
-    return between.join(part if len(part) <= 2 else rf"\mathrm{{{part}}}" for part in parts)
+    return between.join(_part_below(part) for part in parts)
+
+
+def _part_below(part: str) -> str:
+    if part in GREEK_LETTERS:
+        return rf"\{part}"
+    return part if len(part) <= 2 else rf"\mathrm{{{part}}}"
 
 
 def unit_latex(text: str) -> str:

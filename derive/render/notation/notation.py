@@ -42,7 +42,7 @@ from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.rounding import Rounded, decimal_text
-from derive.algebra.swing import SwingTime
+from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
     CROSS,
@@ -436,7 +436,7 @@ class Notation:
         (ex.Slope, _slope),
         (ex.At, _at),
         (SwingTime, lambda self, expr: self._swing(expr)),
-        (ex.Truncated | Expansion | FirstOrder, lambda self, expr: self.layout(expr.args[0])),
+        (ex.Truncated | Expansion | FirstOrder | SwingTimeOfNumbers, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
         (Approach, _approach),
         (Determinant, lambda self, expr: Applied("det", self._matrix(expr.args[0]))),

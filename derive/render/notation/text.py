@@ -173,7 +173,7 @@ def _line(layout: Layout) -> str:
             dotted = {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
             arrow = ACCENTS.get(style, "") if base != "0" else ""
             between, parts = layout.below
-            below = f"_{GREEK_LETTERS.get(subscript, between.join(parts))}" if subscript else ""
+            below = f"_{between.join(GREEK_LETTERS.get(part, part) for part in parts)}" if subscript else ""
             return letter + dotted + arrow + layout.primes + below
         case Upright(text):
             return UNITS.get(text, text)

@@ -9,7 +9,9 @@ name in its chain stands for, and once SymPy has read them and these are put in,
     a series        of `because: series` is the line before it up to an `order` in its `variable`
     the motion      of `because: motion` holds with `motion` put in
 
-A left side that is a formula (`symbol.formula`) equals the first line. Where there are two roots each text is a list.
+A left side that is a formula (`symbol.formula`) equals the first line. A step that `approximates` a letter is a limit
+or a series of it; what is derived from that is only `about` equal to its first line. Where there are two roots each
+text is a list.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ import json
 from typing import Any
 
 from sympy import Integer, MatrixBase, Symbol
+from sympy.core.symbol import Str
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import NUMBER, Dimension
@@ -163,6 +166,7 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
         "rule": step.rule,
         "symbol": None if step.symbol is None else _left_side(named, notation),
         "outcome": step.outcome,
+        **({} if step.exact else {"approximates": _whole(step, notation), "about": step.about}),
         "inputs": list(step.inputs),
         "names": named.names,
         **({"motion": named.motion} if step.motion else {}),
@@ -172,6 +176,12 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
             for e in step.evidence
         ],
     }
+
+
+def _whole(step: Step, notation: Notation) -> str | None:
+    """The letter of the whole, of which the result is a limit or a series; of an equation its key."""
+    whole = step.approximates
+    return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 
 
 def _left_side(named: StepNames, notation: Notation) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from derive.page.signs import sign_before
+from derive.page.signs import name_before, sign_behind_name
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph
 from derive.page.wording import Inline, Ref
 from derive.render.notation.layout import Layout, Operator, row
@@ -23,7 +23,7 @@ def named_result(step: Step, notation: Notation) -> Layout:
     result = notation.result(step.result)
     if step.symbol is None:
         return result
-    return row(notation.layout(step.symbol), Operator(sign_before(step.chain[-1])), result)
+    return row(notation.layout(name_before(step)), Operator(sign_behind_name(step, step.chain[-1])), result)
 
 
 class Said:

@@ -1,0 +1,149 @@
+"""`assume:` of a description: relations between its letters, `l < r_0`, `a < b < c`, read, and checked together."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from sympy import Expr, Symbol, oo
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import Relation
+from derive.algebra.kinds import named
+from derive.algebra.order import Contradiction, Order, in_order
+from derive.algebra.ranges import POSITIVE, Range, sign_within, within
+from derive.course.expression import Declared, read_expression
+from derive.course.yaml_tree import Scalar, Tree
+from derive.errors import Faults, Place, rejected
+
+ANY = Range(-oo, oo)
+EXAMPLE = "such as `l < r_0`, or `a < b < c`"
+_MARK = re.compile(r"<=|>=|[<>=≤≥!]+")
+
+
+@dataclass(frozen=True)
+class Assumed:
+    """One relation, and where it is written."""
+
+    relation: Relation
+    written: str
+    place: Place
+
+
+def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[str]) -> list[Assumed]:
+    """The relations of one entry; of a chain each with its neighbour.
+
+    constant   the letters that a relation may hold
+    moving     coordinates and rates, of which a relation would not hold all the time
+    """
+    if not isinstance(node, Scalar) or node.empty:
+        rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)
+    marks = list(_MARK.finditer(node.text))
+    if not marks:
+        rejected("relation", f"`{node.text.strip()}` is not a relation", node.place, EXAMPLE)
+    for mark in marks:
+        if mark[0] not in {"<", "<=", ">", ">="}:
+            place = node.place_within(mark.start(), mark.end() - mark.start())
+            equal = "; letters are put equal by `put_in`" if mark[0] in {"=", "=="} else ""
+            help_line = f"the marks are `<`, `<=`, `>` and `>=`{equal}"
+            rejected("relation", f"`{mark[0]}` is not a mark of an order", place, help_line)
+    if len({mark[0][0] for mark in marks}) > 1:
+        rejected("relation", f"`{node.text.strip()}` turns round on its way", node.place, "write two relations")
+    ends = [0, *(at for mark in marks for at in mark.span()), len(node.text)]
+    pieces = [node.piece(first, last - first) for first, last in zip(ends[::2], ends[1::2], strict=True)]
+    sides = [_side(piece, constant, {*moving}) for piece in pieces]
+    found = []
+    for (left, one), mark, (right, other) in zip(sides, marks, sides[1:], strict=False):
+        if one != other and not left.is_zero and not right.is_zero:
+            rejected("wrong-kind", f"{named(one)} is compared with {named(other)}", node.place)
+        found.append(Assumed(Relation(left, mark[0], right), " ".join(node.text.split()), node.place))
+    return found
+
+
+def _side(piece: Scalar, constant: Mapping[str, Declared], moving: set[str]) -> tuple[Expr, Dimension]:
+    text = piece.text.strip()
+    if not text:
+        rejected("relation", "one side of this relation is missing", piece.place, EXAMPLE)
+    if varies := next((name for name in re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text) if name in moving), None):
+        message = f"`assume` is about constant letters, but `{varies}` varies"
+        help_line = f"give the range of a coordinate where it is declared, `{varies}: angle in (0, pi/2)`"
+        rejected("changes", message, piece.place, help_line)
+    return read_expression(piece, constant)
+
+
+def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict[Symbol, Range]:
+    """The ranges of letters, with those relations that bound a letter by a number."""
+    found = dict(ranges)
+    for each in assumed:
+        bound = _bound(each.relation)
+        if bound is not None:
+            letter, number, above, closed = bound
+            found[letter] = _cut(found.get(letter, POSITIVE if letter.is_positive else ANY), number, above, closed)
+    return found
+
+
+def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
+    """A letter, the number that bounds it, whether from above, and whether it may have it."""
+    (left, right), less = relation.sides, relation.mark[0] == "<"
+    closed = relation.mark.endswith("=")
+    if isinstance(left, Symbol) and right.is_number:
+        return left, right, less, closed
+    return (right, left, not less, closed) if isinstance(right, Symbol) and left.is_number else None
+
+
+def _cut(known: Range, number: Expr, above: bool, closed: bool) -> Range:
+    low, high = known.closed
+    if above and (number < known.greatest or number == known.greatest and not closed):
+        return Range(known.least, number, (low, closed))
+    if not above and (number > known.least or number == known.least and not closed):
+        return Range(number, known.greatest, (closed, high))
+    return known
+
+
+def order_of(
+    assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], wrong: Callable[[Assumed], None] = lambda each: None
+) -> Order:
+    """What all relations together say; each that contradicts those before it is handed to `wrong`."""
+    order = Order()
+    with within(ranges):
+        for each in assumed:
+            relation = each.relation
+            difference = relation.residual if relation.mark[0] == ">" else -relation.residual
+            try:
+                with in_order(order):
+                    order = order.with_relation(difference, not relation.mark.endswith("="), sign_within)
+            except Contradiction:
+                wrong(each)
+    return order
+
+
+def check_assumed(
+    assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], numbers: Mapping[Symbol, Expr], faults: Faults
+) -> None:
+    """Whether the relations can hold together, in the ranges of their letters, and for their numbers."""
+
+    def contradicts(each: Assumed) -> None:
+        message = f"`{each.written}` contradicts what is known of these letters"
+        help_line = "look at the other relations, at the ranges under `symbols`, and at which kinds are positive"
+        faults.error("contradiction", message, each.place, help=help_line)
+
+    known = narrowed(ranges, [])
+    for each in assumed:
+        known = narrowed(known, [each])
+        letter = next(iter(_bound(each.relation) or ()), None)
+        if letter is not None and not (known[letter].greatest - known[letter].least).is_extended_positive:
+            contradicts(each)
+            return
+    order_of([each for each in assumed if _bound(each.relation) is None], known, contradicts)
+    for each in assumed:
+        relation = each.relation
+        apart = relation.residual.xreplace(dict(numbers))
+        if apart.is_number and not _is_so(relation.mark, apart):
+            message = f"`{each.written}` is not true of the numbers that are given"
+            faults.error("contradiction", message, each.place, help="change the numbers or the relation")
+
+
+def _is_so(mark: str, apart: Expr) -> bool:
+    ahead = apart if mark[0] == ">" else -apart
+    return bool(ahead.is_positive or mark.endswith("=") and ahead.is_zero)
