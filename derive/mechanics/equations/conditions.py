@@ -114,7 +114,7 @@ def where(
         telling=Telling(
             words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) in REAL else "quantity"},
             formulas=_told(excluded=excluded, existing=existing),
-            judged_by={"unknown": unknown, "mark": Str(mark)},
+            judged_by={"unknown": unknown, "mark": Str(mark), "difference": difference},
         ),
         key=key,
         parents=through[1] if through is not None else (),
@@ -224,10 +224,8 @@ def leaves_contact(force: Quantity, letter: Any, start: Expr, key: str = "leaves
         },
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         telling=Telling(
-            formulas={
-                "from": (Relation(unknown, "=", start), Relation(start, "=", unknown)),
-                **_told(existing=existing),
-            },
+            formulas=_told(existing=existing),
+            named={"from": Relation(unknown, "=", start)},
             judged_by={"unknown": unknown, "start": explicit(start)},
         ),
         key=key,

@@ -75,7 +75,7 @@ def _extremum(
         "extrema.place",
         name,
         lambda *_: place,
-        {"quantity": of, "letter": x},
+        {"quantity": of},
         lines=Lines(put_in=None, law=Level.BRIEF, arranged=lambda _: place),
         routes={
             "slope": lambda p: (slope.subs(x, p), Integer(0)),
@@ -85,11 +85,9 @@ def _extremum(
         key=f"{key}_{x.name}",
         kind=kind_of_unknown(x, coordinates_of(of)),
         telling=Telling(
-            formulas={
-                "letter": (x, x),
-                **({"condition": (_apart(condition), condition)} if condition else {}),
-            },
-            judged_by={"value": value, "letter": x, "place": place},
+            formulas={"condition": (_apart(condition), condition)} if condition else {},
+            named={"letter": x},
+            judged_by={"value": value, "place": place},
         ),
         scope=Scope(coordinates={}),
     )
