@@ -107,12 +107,10 @@ def _names_its_axis(facts: Judged) -> bool:
 
 
 def _letter_of_its_axis(facts: Judged) -> bool:
-    """Whether a letter with the index of an axis, I_z, has that of the axis that the result is about; of a part it is
+    """Whether a letter with the index of an axis, I_z, has that of the axis that the sentence names; of a part it is
     that of the whole to which the axis of the part is parallel."""
-    axis, index = (
-        facts.words.get("whole", facts.subject.axis),
-        str(getattr(facts.symbol, "name", "")).rpartition("_")[2],
-    )
+    axis = facts.words.get("whole", facts.words.get("axis"))
+    index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis
 
 

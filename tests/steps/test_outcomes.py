@@ -107,8 +107,8 @@ def test_a_fact_that_a_step_returns_is_compared_with_its_value() -> None:
 
 
 @pytest.mark.parametrize(("letter", "rightly"), [("I_z", True), ("I_x", False), ("I", True), ("I_max", True)])
-def test_the_index_of_a_letter_is_the_axis_that_the_result_is_about(letter: str, rightly: bool) -> None:
-    facts = Judged(1, symbol=Symbol(letter), subject=Subject(axis="z"))
+def test_the_index_of_a_letter_is_the_axis_that_the_sentence_names(letter: str, rightly: bool) -> None:
+    facts = Judged(1, symbol=Symbol(letter), subject=Subject(axis="z"), words={"axis": "z"})
     assert told_rightly("test.sign", "positive", facts) is rightly
-    part = Judged(1, symbol=Symbol(letter), subject=Subject(axis="y"), words={"whole": "z"})
+    part = Judged(1, symbol=Symbol(letter), subject=Subject(axis="y"), words={"axis": "y", "whole": "z"})
     assert told_rightly("test.sign", "positive", part) is rightly
