@@ -28,8 +28,10 @@ from derive.mechanics import (
     momentum_jump,
     point,
 )
+from derive.mechanics.arguments import checked
 from derive.mechanics.equations.oscillations import SquareOf
 from derive.mechanics.equations.stability import LowestOrder
+from derive.mechanics.systems.forces import Charge, GivenForce
 from derive.mechanics.systems.kept_momentum import KeptMomentum
 from derive.steps.outcomes import Judged, wrongly_handed_on, wrongly_named
 from derive.steps.record import recorded
@@ -94,6 +96,33 @@ def test_rates_before_a_blow_that_are_read_with_the_wrong_sign_are_refused() -> 
     blow.before = {rate_of: -value for rate_of, value in blow.before.items()}
     with pytest.raises(Unverified, match="second route `particles` disagrees"):
         momentum_jump(blow, kinetic_energy_of(system), q)
+
+
+@pytest.mark.parametrize("wrong", ["-components", "no magnetic field"])
+def test_a_noun_that_does_not_keep_what_it_is_given_is_refused(wrong: str) -> None:
+    """Law and route read the noun alike, so neither would see it."""
+    q = coordinate("x", "length")
+    if wrong == "-components":
+        noun = checked(
+            named_as(lambda components, at: GivenForce((-components[0], components[1]), at.components), "force")
+        )
+        given: tuple[Any, ...] = ((K, 0), point(q + 0, 0))
+    else:
+        noun = checked(named_as(lambda amount, at, B: Charge(amount, at, (Integer(0),) * 2, (Integer(0),)), "charge"))
+        given = (k, point(q + 0, 0), h)
+    with pytest.raises(Unverified, match="what it made has another value"):
+        noun(*given)
+
+
+def named_as(function: Any, name: str) -> Any:
+    function.__name__ = name
+    return function
+
+
+def test_the_axes_of_a_part_are_not_reflected() -> None:
+    part = Disc(R, M).turned("x", pi / 2)
+    with pytest.raises(Unverified, match="turned, and not reflected"):
+        replace(part, turn=-part.turn)
 
 
 # --- limits ---

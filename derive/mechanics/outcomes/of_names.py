@@ -102,7 +102,8 @@ def _level_there(role: str) -> Naming:
     """The slope of the energy vanishes at the place that is named."""
 
     def is_so(facts: Judged, place: Any) -> bool:
-        return is_zero(diff(_value(facts, role), place.left).subs(place.left, explicit(place.right)))
+        level = is_zero(diff(_value(facts, role), place.left).subs(place.left, explicit(place.right)))
+        return level and place.mark == "="
 
     return is_so
 
@@ -116,13 +117,15 @@ def _flat_in_that_case(facts: Judged, case: Any) -> bool:
     """On the border the curvature vanishes too, and the left side shows that border."""
     q, place = facts.inputs["coordinate"], facts.inputs["place"]
     curvature = explicit(At(_value(facts, "potential"), case.left, case.right)).diff(q, 2).subs(q, place)
-    return is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
+    return case.mark == "=" and is_zero(curvature) and facts.symbol.args[1:] == (case.left, case.right)
 
 
 def _energy_there(facts: Judged, place: Any) -> bool:
     """The energy has there, with the rate at the start, the value that it keeps."""
     start = {place.left: explicit(place.right), rate(place.left): explicit(facts.inputs["initial"])}
-    return is_zero(_value(facts, "energy").subs(start, simultaneous=True) - explicit(facts.result).right)
+    return place.mark == "=" and is_zero(
+        _value(facts, "energy").subs(start, simultaneous=True) - explicit(facts.result).right
+    )
 
 
 def _turns_back_there(facts: Judged, amplitude: Any) -> bool:
@@ -131,7 +134,7 @@ def _turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 def _pushes_there(facts: Judged, place: Any) -> bool:
     """At the start the two touch: the force is not negative."""
-    alone = bool(facts.result.left == place.left)
+    alone = bool(facts.result.left == place.left) and place.mark == "="
     if not isinstance(place.left, Symbol):
         return alone
     return alone and sign_known(_value(facts, "force").subs(place.left, explicit(place.right))) != -1
@@ -147,6 +150,8 @@ def _put_in(facts: Judged, value: Any) -> bool:
     that says the same."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
+    if value.mark != "=":
+        return False
     plain = all(isinstance(letter, Symbol) for letter in told)
     if others or not plain or any(explicit(at).has(*told) for at in told.values()):
         return True
@@ -163,9 +168,11 @@ def _put_in(facts: Judged, value: Any) -> bool:
 # --- steady motions ---
 
 
-def _stays_and_turns(facts: Judged, _: Any) -> bool:
+def _stays_and_turns(facts: Judged, relation: Any) -> bool:
     """With what stays and what turns as the sentence says, the slope of L vanishes where the result does."""
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
+    if relation.mark != "=":
+        return False
     if "lagrangian" not in facts.quantities:  # of an equation of motion, which holds the rates themselves
         q = facts.inputs["coordinate"]
         still = {rate(q): Integer(0), rate(q, 2): Integer(0), **told}
@@ -182,7 +189,7 @@ def _momentum_there(facts: Judged, relation: Any) -> bool:
     """The momentum of that letter, as it was found, in the steady motion."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
     momenta = [e for e in facts.quantities["potential"].ancestors() if e.symbol == relation.left]
-    if steady is None or not momenta:
+    if steady is None or not momenta or relation.mark != "=":
         return False
     moving = {rate(s): Integer(0) for s in momenta[0].coordinates}
     moving |= {rate(s): v for s, v in steady.rates.items()} | dict(steady.values)
@@ -198,6 +205,8 @@ def _there_where_it_exists(facts: Judged, exists: Any) -> bool:
 
 def _taken_out(facts: Judged, relation: Any) -> bool:
     """It is in the condition, and no longer in the result."""
+    if relation.mark != "=":
+        return False
     held = explicit(facts.quantities["where"].value).free_symbols
     return relation.left in held and relation.left not in explicit(facts.result).free_symbols
 

@@ -203,7 +203,10 @@ def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
     """ "at most" for <=: the first line shows the mark, and what follows is compared with that; and the quantity is
     what is compared, not what it is compared with."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
-    right_word = MARK_OF.get(facts.words["comparison"]) == str(facts.inputs["mark"])
+    mark = str(facts.inputs["mark"])
+    right_word = MARK_OF.get(facts.words["comparison"]) == mark
+    if facts.inputs.get("for_real"):  # roots are real where their discriminant is positive, or not negative
+        right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "roots.discriminant"
     return right_word and is_zero(difference - facts.inputs["difference"])
 
 
@@ -266,6 +269,18 @@ def _positive_where_real(facts: Judged, outcome: str) -> bool:
         except (Undefined, NoNumber):
             continue
     return True
+
+
+def _somewhere_positive(facts: Judged, outcome: str) -> bool:
+    """Which of two frequencies is greater may depend on the letters, but not the wrong one is so for all of them."""
+    value = explicit(facts.result)
+    numbers = []
+    for point in islice(points(letters_of(value), seed_of(value)), POINTS):
+        try:
+            numbers.append(value_at(value, point))
+        except (Undefined, NoNumber):
+            continue
+    return _not_negative(facts, outcome) and any(bool(number.is_real) and number >= 0 for number in numbers)
 
 
 def _says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
@@ -370,7 +385,7 @@ _TABLE: dict[str, Told] = {
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
     "tensors.radius_of_gyration": _not_negative,
-    "modes.beats": _not_negative,
+    "modes.beats": _somewhere_positive,
     "linear_motion.solution": starts_as_told,
     "steady.frequency_squared": _taken_out_by_its_condition,
     "linear_motion.steady_amplitude": _swings_of_its_equation,
