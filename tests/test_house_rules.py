@@ -19,8 +19,9 @@ import derive.mechanics
 import derive.steps.numeric
 from derive.algebra.equality import Compared
 from derive.page.wording import AFTER, AND
+from derive.steps.outcomes import judged_facts
 from derive.steps.second_ways import CHECKS, OTHERWISE, ROUTES, is_decided, sort_of
-from derive.steps.step import Quantity
+from derive.steps.step import Fact, Quantity
 from tests.courses import ROOT
 from tests.mechanics.block import a, known_block
 from tests.page.test_wording import VARIANTS, WORDS
@@ -428,6 +429,105 @@ def test_quantities_are_made_by_establish_alone() -> None:
         assert not made or name in {"steps.establish", "steps.derivation"}, name
     assert isinstance(known_block()["torque"], Quantity)
     assert a.is_positive
+
+
+def _one_value_twice(pair: ast.AST) -> bool:
+    """(x, x), (x := f, x), (x,) * 2, and an equation beside itself with its sides exchanged."""
+    if isinstance(pair, ast.BinOp):
+        return isinstance(pair.op, ast.Mult) and isinstance(pair.left, ast.Tuple) and ast.unparse(pair.right) == "2"
+    if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
+        return False
+    one, other = (set(filter(None, map(ast.unparse, _written(each)))) for each in pair.elts)
+    both = [each for each in pair.elts if isinstance(each, ast.Call) and ast.unparse(each.func) == "Relation"]
+    turned = len(both) == 2 and len({tuple(sorted(map(ast.unparse, each.args))) for each in both}) == 1
+    return bool(one & other) or turned
+
+
+def _written(value: ast.expr) -> list[ast.expr]:
+    return [value.target, value.value] if isinstance(value, ast.NamedExpr) else [value]
+
+
+def _pairs_of(name: str) -> Iterator[ast.AST]:
+    """The values of tables, and what is put into them: a formula and the same by another way among them."""
+    for node in ast.walk(tree(name)):
+        if isinstance(node, ast.Dict):
+            yield from node.values
+        elif (
+            isinstance(node, ast.DictComp)
+            or isinstance(node, ast.Assign)
+            and isinstance(node.targets[0], ast.Subscript)
+        ):
+            yield node.value
+
+
+ELSEWHERE = {"mechanics.equations.superposition"}  # its start values get a second way of their own
+SAYING_FORMULAS = [name for name in MODULES if name.startswith("mechanics.") or name == "steps.numeric"]
+
+
+@pytest.mark.parametrize("name", sorted(set(SAYING_FORMULAS) - ELSEWHERE))
+def test_a_formula_is_not_compared_with_itself(name: str) -> None:
+    """What has no other way is `named`, and a predicate judges it."""
+    assert [ast.unparse(pair) for pair in _pairs_of(name) if _one_value_twice(pair)] == []
+
+
+@pytest.mark.parametrize(
+    ("source", "twice"),
+    [
+        ("(x, x)", True),
+        ("((x := f(y)), x)", True),
+        ("(g(x),) * 2", True),
+        ("(Relation(q, '=', a), Relation(a, '=', q))", True),
+        ("(x, y)", False),
+        ("(Relation(q, '=', a), Relation(b, '=', q))", False),
+    ],
+)
+def test_one_value_twice_is_found_in_a_pair(source: str, twice: bool) -> None:
+    assert _one_value_twice(ast.parse(source, mode="eval").body) is twice
+
+
+CARRIED = {  # facts that say where a value comes from; what does not fit together is refused where they are read
+    "bodies and points, which `united` compares": {"OfBody", "AboutPoint", "CountedFrom", "Integrated", "PrincipalOf"},
+    "the matter or the law itself, of which the routes are made": {
+        "Matter",
+        "ReducedMatter",
+        "Varied",
+        "Kept",
+        "Rolling",
+        "FromLagrangian",
+        "Energies",
+        "ActedOn",
+        "ForcedMotion",
+        "PhaseSpace",
+        "SeenWith",
+        "RestOf",
+        "KnownCoordinate",
+        "Eliminated",
+        "MotionOfBody",
+        "RateOfMomentum",
+        "RateByParticles",
+        "RateOfEnergy",
+        "RateOfTurning",
+        "RateOfSquare",
+        "Through",
+        "WobbleOf",
+        "Acting",
+    },
+    "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Turning", "Roots"},
+}
+
+
+def test_each_kind_of_fact_has_a_predicate_or_a_reason_to_have_none() -> None:
+    classes = {c.__name__ for c in judged_facts()}
+    reasons = set().union(*CARRIED.values())
+    every = {c.__name__ for c in _below(Fact) if c.__module__.startswith("derive.")}
+    assert sorted(every - classes - reasons) == []
+    assert sorted(reasons - every) == []
+    assert classes & reasons == set()
+
+
+def _below(kind: type) -> set[type]:
+    own = set(kind.__subclasses__())
+    return own.union(*(_below(each) for each in own))
 
 
 def test_every_test_has_a_claim_for_a_name_and_none_is_skipped() -> None:

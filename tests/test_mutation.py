@@ -7,38 +7,43 @@ from __future__ import annotations
 
 import os
 import pickle
-from collections.abc import Iterator
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import pytest
 
 from tests.mutation.known import KNOWN
-from tests.mutation.trial import Trials, Tried, Verdict
+from tests.mutation.mutants import Mutant
+from tests.mutation.runs import RUNS as EVERY_RUN
+from tests.mutation.trial import Trials, Tried, Verdict, recording
 from tests.test_house_rules import DEFINITIONS, verbs
 
 RUNS = ("block", "euler", "body-cylinder", "slab")
 SIZE, SEED = 20, 2026
 
 
-def in_a_process_of_its_own(trials: Trials) -> Iterator[Tried]:
-    """The verdicts, without a trace of what the trials remember."""
+def in_a_process_of_its_own(found: Callable[[], Iterator[Any]]) -> Iterator[Any]:
+    """What is found, without a trace of what the trials remember."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
         os.close(reading)
         try:
-            trials.prepare()
             with os.fdopen(writing, "wb") as pipe:
-                for tried in trials.verdicts(trials.sample(SIZE, SEED), at_most=1):
-                    pickle.dump(tried, pipe)
-        finally:
-            os._exit(0)
+                for each in found():
+                    pickle.dump(each, pipe)
+        except BaseException:
+            traceback.print_exc()
+            os._exit(1)
+        os._exit(0)
     os.close(writing)
     with os.fdopen(reading, "rb") as pipe:
         try:
             while True:
                 yield pickle.load(pipe)
         except EOFError:
-            os.waitpid(child, 0)
+            assert os.waitpid(child, 0)[1] == 0
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +56,22 @@ def trials() -> Trials:
 
 @pytest.fixture(scope="module")
 def found(trials: Trials) -> list[Tried]:
-    return list(in_a_process_of_its_own(trials))
+    def verdicts() -> Iterator[Tried]:
+        trials.prepare()
+        yield from trials.verdicts(trials.sample(SIZE, SEED), at_most=1)
+
+    return list(in_a_process_of_its_own(verdicts))
+
+
+def verdicts_on(run: str, module: str, chosen: Callable[[Mutant], bool]) -> Sequence[Tried]:
+    """What becomes of some mutants of a module on one run."""
+
+    def verdicts() -> Iterator[Tried]:
+        trials = Trials((run,), (module,))
+        trials.prepare()
+        yield from trials.verdicts([mutant for mutant in trials.mutants if chosen(mutant)])
+
+    return list(in_a_process_of_its_own(verdicts))
 
 
 def test_no_mutant_prints_another_result_or_another_sentence(found: list[Tried]) -> None:
@@ -72,3 +92,30 @@ def test_the_law_of_every_verb_has_mutants(trials: Trials) -> None:
 
 def test_a_known_survivor_is_a_mutant_that_can_still_be_made(trials: Trials) -> None:
     assert set(KNOWN) - {mutant.id for mutant in trials.mutants} == set()
+
+
+def test_a_library_problem_is_another_run_than_the_pinned_one_of_its_name() -> None:
+    assert (EVERY_RUN["cone"].id, EVERY_RUN["library/cone"].id) == ("hw9/cone", "library/cone")
+
+
+def test_a_second_solution_calls_every_function_that_the_first_has_called() -> None:
+    def calls() -> Iterator[set[tuple[str, str]]]:
+        for _ in range(2):
+            yield set(recording(EVERY_RUN["library/thrown_plate"]).first)
+
+    first, second = in_a_process_of_its_own(calls)
+    assert first == second
+
+
+def test_a_mutant_is_seen_in_a_function_that_is_called_only_while_the_problem_is_read() -> None:
+    module, where = "mechanics.equations.euler_equations", "RigidBody.__post_init__"
+    found = verdicts_on("own/free_top", module, lambda m: m.where == where and m.change == "comparison")
+    assert found
+    assert {tried.verdict for tried in found} <= {Verdict.REFUSED, Verdict.CRASHED}
+
+
+def test_the_rate_that_follows_from_a_kept_momentum_is_compared_with_the_momentum() -> None:
+    found = verdicts_on("own/kept_momentum", "mechanics.systems.kept_momentum", lambda m: "bound(p" in m.old)
+    wrong = [tried for tried in found if tried.verdict is not Verdict.REFUSED and "order" not in tried.id]
+    assert len(found) >= 4
+    assert wrong == []

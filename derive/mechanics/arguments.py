@@ -9,13 +9,15 @@ from __future__ import annotations
 import functools
 import inspect
 import types
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from collections.abc import Sequence as SequenceType
+from dataclasses import fields, is_dataclass
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from sympy import Basic, Expr, Integer
+from sympy import Basic, Expr, Integer, Symbol
 
-from derive.errors import Complaint, Rejected
+from derive.algebra.expressions import explicit
+from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.record import current_run
 from derive.steps.step import Quantity
 
@@ -28,9 +30,25 @@ _CALLED = {
 }
 
 
+# nouns that have what they are given among their own values, unchanged
+KEEPING = {
+    "angular_impulse",
+    "charge",
+    "collision",
+    "couple",
+    "damping",
+    "force",
+    "impulse",
+    "point",
+    "potential",
+    "weight",
+}
+
+
 def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
     """The verb, which first looks at what it is given."""
     signature = inspect.signature(verb)
+    keeps = verb.__name__ in KEEPING
 
     @functools.wraps(verb)
     def looked_at(*given: Any, **named: Any) -> Any:
@@ -47,11 +65,37 @@ def checked(verb: Callable[..., Any]) -> Callable[..., Any]:
             for each in values:
                 _check(verb.__name__, name, each, wanted.get(name, Any))
         run = current_run.get()
-        if run is None or run.memory is None:
-            return verb(*given, **named)
+        if run is None or run.memory is None or keeps:
+            made = verb(*given, **named)
+            if keeps:
+                _check_kept(verb.__name__, arguments, made)
+            return made
         return run.memory.result(verb, arguments, run, lambda: verb(*given, **named))
 
     return looked_at
+
+
+def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
+    """What is given is in what is made of it: law and route both read that, and would not see another sign."""
+    kept = set(_values(made))
+    for value in _values(tuple(arguments.values())):
+        if value not in kept:
+            raise Unverified(Complaint("unverified", f"`{verb}` was given {value}, but what it made has another value"))
+
+
+def _values(given: Any) -> Iterator[Any]:
+    """All expressions in it, numbers among them; names and what is left out are none."""
+    if isinstance(given, tuple | list):
+        for each in given:
+            yield from _values(each)
+    elif isinstance(given, Quantity):
+        yield from _values(given.value)
+    elif isinstance(getattr(given, "symbol", None), Symbol):
+        yield given.symbol
+    elif is_dataclass(given):
+        yield from _values(tuple(getattr(given, each.name) for each in fields(given)))
+    elif isinstance(given, Expr) or isinstance(given, int) and not isinstance(given, bool):
+        yield explicit(Integer(0) + given)
 
 
 @functools.cache

@@ -40,10 +40,11 @@ from derive.steps.chain import (
     without_repeats,
 )
 from derive.steps.known_numbers import undecided
-from derive.steps.outcomes import GENERIC, ZERO, Doubt, Judged, holds, told_rightly
+from derive.steps.outcomes import GENERIC, ZERO, Doubt, Judged, holds, told_rightly, wrongly_handed_on, wrongly_named
 from derive.steps.record import coordinates_in
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
+from derive.steps.symbols import check_symbol
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,7 @@ class Telling:
 
     words       name -> key of a term that phrases put into words ("about": "corner")
     formulas    role -> a formula that only the sentence has, with the same by another way
+    named       role -> a letter or a place that only the sentence names: it has no other way, and a predicate judges it
     points_to   role -> a parent that the sentence names, by its letter or its number
     judged_by   what else the outcome is judged by, besides the result and the inputs
     stands_for  keys that answers may ask for although in this case there is only this step
@@ -91,14 +93,15 @@ class Telling:
 
     words: Mapping[str, str] = field(default_factory=dict)
     formulas: Mapping[str, tuple[Any, Any]] = field(default_factory=dict)
+    named: Mapping[str, Any] = field(default_factory=dict)
     points_to: Mapping[str, Quantity] = field(default_factory=dict)
     judged_by: Mapping[str, Any] = field(default_factory=dict)
     stands_for: Sequence[str] = ()
 
     @property
     def told(self) -> dict[str, Any]:
-        """role -> the formula that only the sentence has."""
-        return {role: formula for role, (formula, _) in self.formulas.items()}
+        """role -> the formula, the letter or the place that only the sentence has."""
+        return {**{role: formula for role, (formula, _) in self.formulas.items()}, **self.named}
 
 
 @dataclass(frozen=True)
@@ -170,8 +173,8 @@ def establish(
     bindings = bindings_of([*quantities.values(), *parents])
     result = lines.arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **lines.motion}))
     _check_letter(key, symbol, result, lines.means)
+    check_symbol(key, symbol, result)
     check_can_hold(key, result)
-    _check_number_of_names(key, symbol, result)
     chain = lines.chain(symbol, formula, substituted, result)
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())  # x_dot of x_dot^2, whatever a parent says
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
@@ -192,6 +195,8 @@ def establish(
     _check_pointed(key, telling.points_to)
     judged = Judged(result, values, {**quantities, **telling.points_to}, plain_symbol, subject, words)
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
+    _check_named(key, rule, judged, telling.named)
+    _check_handed_on(key, judged, facts)
     step = Step(
         key=key,
         rule=rule,
@@ -257,12 +262,6 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
             raise refused(key, f"what its sentence says of `{role}` is not so", formula, otherwise, verdict)
 
 
-def _check_number_of_names(key: str, symbol: Any, result: Any) -> None:
-    """Several results together have a name each."""
-    if isinstance(symbol, MatrixBase) and symbol.shape != getattr(result, "shape", None):
-        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} does not name each of its results"))
-
-
 def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
     """A sentence that names several things by their numbers does not name one of them twice."""
     if len({id(quantity) for quantity in pointed.values()}) < len(pointed):
@@ -296,6 +295,22 @@ def _check_outcome(key: str, rule: str, outcome: str, facts: Judged, may_be_zero
 def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
     message = f"`{key}`: the sentence for this result could not be confirmed: {doubt.reason}"
     return Unverified(Complaint("unverified", message, help=doubt.help))
+
+
+def _check_named(key: str, rule: str, facts: Judged, named: Mapping[str, Any]) -> None:
+    """What only the sentence names has a predicate, which must be true of it."""
+    role = wrongly_named(rule, facts, named)
+    if role is not None:
+        message = f"`{key}`: its sentence names {short(named[role])} as `{role}`, which does not fit the result"
+        raise Unverified(Complaint("unverified", message))
+
+
+def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None:
+    """What later steps take from this one besides its value agrees with its value."""
+    wrong = wrongly_handed_on(facts, handed_on)
+    if wrong is not None:
+        message = f"`{key}`: what later steps take from it, {type(wrong).__name__}, does not fit its result"
+        raise Unverified(Complaint("unverified", message))
 
 
 def _check_names(key: str, quantities: Sequence[Quantity]) -> None:

@@ -134,7 +134,7 @@ def value_of(
         outcome=_outcome(_bent(answer, amounts).get("curvature"), bool(letters)),
         telling=Telling(
             words={**({"case": case} if case else {}), **given.words},
-            formulas=given.formulas,
+            named=given.named,
             judged_by={"letters": letters, **_bent(answer, amounts), **given.judged_by},
         ),
         scope=Scope(about=answer.subject, case_of=answer),
@@ -258,7 +258,7 @@ def _given_beside(
     told = Relation(relation.left, "=", written)
     return Telling(
         words={"seen": "fulfilled" if mark in FULFILLED[relation.mark] else "not_fulfilled"},
-        formulas={"given": (told, told)},
+        named={"given": told},
         judged_by={"condition": Relation(at[relation.left], relation.mark, explicit(relation.right).subs(at))},
     )
 

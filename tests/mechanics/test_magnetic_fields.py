@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from sympy import cos, sin, symbols
 
 from derive.algebra.equality import equal
+from derive.algebra.expressions import TIME
 from derive.errors import Unverified
 from derive.mechanics import (
     Coordinate,
@@ -24,8 +26,9 @@ from derive.mechanics import (
     lagrangian,
     noether,
     point,
+    potential_energy_of,
 )
-from derive.mechanics.systems import dalembert
+from derive.mechanics.systems import dalembert, forces
 from derive.mechanics.systems.lagrangian import Energies
 from derive.steps.record import Run, recorded
 
@@ -107,3 +110,22 @@ def test_a_wrong_vector_potential_is_refused(factor: int, monkeypatch: pytest.Mo
     x, y = lengths("x", "y")
     with pytest.raises(Unverified):
         equations_of_motion(lagrangian(System(Particle(m, point(x, y)), charge(q, point(x, y), B=B))))
+
+
+@pytest.mark.parametrize("field", [E, E * cos(TIME)])
+def test_the_energy_in_an_electric_field_is_that_of_the_force(field: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """U = -q E y; the force q E is known without it, so the other sign is refused."""
+    (x, y) = lengths("x", "y")
+
+    def potential() -> Any:
+        return potential_energy_of(System(Particle(m, point(x, y)), charge(q, point(x, y), E=(0, field)))).value
+
+    assert equal(potential(), -q * field * y.symbol)
+    right = forces.Charge.stored.fget
+
+    def turned(of: Any) -> Any:
+        return replace(right(of), energy=-right(of).energy)
+
+    monkeypatch.setattr(forces.Charge, "stored", property(turned))
+    with pytest.raises(Unverified, match="second route `work` disagrees"):
+        potential()

@@ -177,8 +177,14 @@ def test_a_motion_starts_as_its_sentence_says() -> None:
 
 def test_a_comparison_has_the_word_of_its_mark() -> None:
     at_most = {"words": {"comparison": "at_most"}}
-    assert told_rightly("conditions.where", "solved", Judged(R, {"mark": Str("<=")}, **at_most))
-    assert not told_rightly("conditions.where", "solved", Judged(R, {"mark": Str("=")}, **at_most))
+    compared = {"quantity": R, "bound": a, "difference": R - a}
+    assert told_rightly("conditions.where", "solved", Judged(R, {**compared, "mark": Str("<=")}, **at_most))
+    assert not told_rightly("conditions.where", "solved", Judged(R, {**compared, "mark": Str("=")}, **at_most))
+
+
+def test_a_quantity_is_compared_with_its_bound_and_not_the_other_way_round() -> None:
+    turned = {"quantity": Integer(0), "bound": R, "difference": R, "mark": Str(">")}
+    assert not told_rightly("conditions.where", "solved", Judged(R, turned, words={"comparison": "greater_than"}))
 
 
 def test_the_tangent_of_a_lag_is_told_as_such() -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -60,24 +61,38 @@ class Run:
     script: tuple[tuple[str, str], ...] = ()
 
     @cached_property
-    def problem(self) -> Problem:
+    def _folder(self) -> tempfile.TemporaryDirectory[str]:
+        return tempfile.TemporaryDirectory()
+
+    @cached_property
+    def course(self) -> Path:
+        """The folder from which the problem is read; it lasts as long as the run."""
         name = self.name.partition("-")[0]
-        with tempfile.TemporaryDirectory() as folder:
-            course = course_in(Path(folder), dict(self.edits), dict(self.script), problem=name)
-            return load_problem(course, f"hw9/{name}")
+        return course_in(Path(self._folder.name), dict(self.edits), dict(self.script), problem=name)
+
+    @property
+    def id(self) -> str:
+        return f"hw9/{self.name.partition('-')[0]}"
 
     def solved(self) -> Solved:
-        derivation, values, _, run = derived(self.problem)
-        return Solved(derivation, values, self.problem, run.drawings)
+        """Read the problem and solve it, with nothing remembered of an earlier solution."""
+        forget()
+        problem = load_problem(self.course, self.id)
+        derivation, values, _, run = derived(problem)
+        return Solved(derivation, values, problem, run.drawings)
 
 
 @dataclass(frozen=True)
 class LibraryRun(Run):
-    """A problem of the library, as it stands."""
+    """A problem of the library, unchanged."""
 
     @cached_property
-    def problem(self) -> Problem:
-        return load_problem(ROOT, f"library/{self.name}")
+    def course(self) -> Path:
+        return ROOT
+
+    @property
+    def id(self) -> str:
+        return self.name
 
 
 @dataclass(frozen=True)
@@ -85,13 +100,38 @@ class OwnRun(Run):
     """A problem that is here for its verbs alone."""
 
     @cached_property
-    def problem(self) -> Problem:
-        with tempfile.TemporaryDirectory() as folder:
-            course = Path(folder)
-            (course / "templates").symlink_to(ROOT / "templates")
-            (course / "problems").mkdir()
-            (course / "problems" / "own").symlink_to(OWN)
-            return load_problem(course, f"own/{self.name}")
+    def course(self) -> Path:
+        course = Path(self._folder.name)
+        (course / "templates").symlink_to(ROOT / "templates")
+        (course / "problems").mkdir()
+        (course / "problems" / "own").symlink_to(OWN)
+        return course
+
+    @property
+    def id(self) -> str:
+        return self.name
+
+
+def forget() -> None:
+    """Clear every cache of `derive` whose values a changed function may have made.
+
+    The algebra lies below all that is changed and calls none of it, so its caches hold what they would hold again.
+    """
+    for clear in _caches():
+        clear.cache_clear()
+
+
+def _caches() -> Iterator[Any]:
+    for name, module in list(sys.modules.items()):
+        if name.partition(".")[0] == "derive" and not name.startswith("derive.algebra"):
+            for value in list(vars(module).values()):
+                of_class = vars(value).values() if isinstance(value, type) else ()
+                yield from (each for each in (value, *of_class) if hasattr(each, "cache_clear") and _is_own(each))
+
+
+def _is_own(function: Any) -> bool:
+    """Whether it is defined outside of the algebra; a module may have imported it from there."""
+    return not str(getattr(function, "__module__", "")).startswith("derive.algebra")
 
 
 def _of_transcripts() -> dict[str, Run]:
@@ -158,6 +198,6 @@ RUNS: dict[str, Run] = {
     **{name: run for name, run in _found.items() if name.startswith(CHEAP)},
     **{run.name: run for run in (*BODIES, RATES)},
     **_found,
-    **{name: LibraryRun(name) for name in LIBRARY},
-    **{path.stem: OwnRun(path.stem) for path in sorted(OWN.glob("*.yaml")) if path.stem != "set"},
+    **{f"library/{name}": LibraryRun(f"library/{name}") for name in LIBRARY},
+    **{f"own/{path.stem}": OwnRun(f"own/{path.stem}") for path in sorted(OWN.glob("*.yaml")) if path.stem != "set"},
 }

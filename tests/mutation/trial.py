@@ -1,8 +1,10 @@
 """One mutant after another on what uses it, each in a process of its own that is forked just before it is needed.
 
-A run is solved once to see which lines it uses and when each function is first called. It is then solved again, and
-before the step in which a changed function is called for the first time, a child is forked: it takes over the changed
-code, goes on to the end of the run, and reports. What equality decides is remembered, as equality is not changed.
+A run is read and solved once to see which lines it uses and when each function is first called. It is then read and
+solved again, and before the step in which a changed function is called for the first time, a child is forked: it takes
+over the changed code, goes on to the end of the run, and reports. Both times begin without anything that the engine
+remembers, so no function is skipped because an earlier solution has called it. Only what equality decides is
+remembered, with the ranges of the letters, as equality is not changed.
 """
 
 from __future__ import annotations
@@ -30,6 +32,7 @@ import derive.algebra.normal_form
 import derive.algebra.tidy
 import derive.mechanics
 import derive.steps.record
+from derive.algebra.ranges import known_ranges, taken_as_positive
 from derive.errors import Rejected, Unverified
 from derive.steps.step import Step
 from tests.mutation.mutants import MODULES, SOURCES, Mutant, mutants_of, path_of
@@ -73,7 +76,8 @@ def remember(module: types.ModuleType, name: str) -> None:
     @functools.wraps(original)
     def kept(*args: Any, **named: Any) -> Any:
         try:
-            key = (tuple(tuple(a) if isinstance(a, list) else a for a in args), tuple(named.items()))
+            plain = tuple(tuple(a) if isinstance(a, list) else a for a in args)
+            key = (plain, tuple(named.items()), tuple(known_ranges().items()), taken_as_positive())
             hash(key)
         except TypeError:
             return original(*args, **named)

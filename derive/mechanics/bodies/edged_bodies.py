@@ -14,7 +14,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Factors, column
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.bodies.body import ORIGIN, ZERO, Body
 from derive.mechanics.bodies.equimomental import HALF, Particles, drawn_out
 from derive.mechanics.bodies.mapping import Map, cartesian
@@ -188,7 +188,10 @@ class Triangle(Cornered):
     @classmethod
     def on_base(cls, base: Expr, height: Expr, mass: Expr, foot: Expr | None = None) -> Self:
         """Its top is over the middle of its base, or over x = foot."""
-        return cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
+        made = cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
+        if tidied(made._signed_area - base * height / 2) != 0:
+            raise Unverified(Complaint("unverified", f"{made.name} on a base has another area than half of b h"))
+        return made
 
     @classmethod
     def equilateral(cls, side: Expr, mass: Expr) -> Self:

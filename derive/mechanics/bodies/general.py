@@ -268,11 +268,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
         outcome={1: "curve", 2: "surface", 3: "solid"}[n],
         lines=Lines(put_in=None, means=dict(zip(letters, tangents, strict=True))),
         telling=Telling(
-            formulas={
-                "cell": (size_now, size_now),
-                "place": (position, position),
-                **{f"u_{k}": (x, x) for k, x in enumerate(names)},
-            },
+            named={"cell": size_now, "place": position, **{f"u_{k}": x for k, x in enumerate(names)}},
             judged_by={"limits": limits},
         ),
         scope=Scope(about=Subject(body=body), coordinates=_variables_of(body)),
@@ -362,7 +358,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
         routes={"mass_given_back": lambda rho: agrees(body.mass, [rho], *body.map())},
         lines=Lines(put_in=None),
         scope=Scope(about=Subject(body=body), coordinates=_variables_of(body)),
-        telling=Telling(formulas={"profile": (p, p)}),
+        telling=Telling(named={"profile": p}),
     )
 
 

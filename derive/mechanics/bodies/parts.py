@@ -33,6 +33,10 @@ class PlacedPart:
     turn: ImmutableMatrix = NO_TURN
     sign: int = 1
 
+    def __post_init__(self) -> None:
+        if not is_zero(self.turn.det() - 1):
+            raise Unverified(Complaint("unverified", "the axes of a part are turned, and not reflected"))
+
     @classmethod
     def as_it_lies(cls, body: Any) -> PlacedPart:
         return cls(body, body.reference, body.point(body.reference).position)

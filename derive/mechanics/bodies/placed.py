@@ -141,6 +141,8 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
         raise Rejected(Complaint("wrong-argument", "a body is turned as axes are, or by an angle")) from None
     number = _across(body, across)
     _check_turns(body, number, angle)
+    if across is None:
+        _check_flat(body, number)
     return PlacedBody(body, angle, point, at, number)
 
 
@@ -151,6 +153,13 @@ def _check_turns(body: Any, number: int, angle: Expr) -> None:
     if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:
         message = f"{body.name} has no moment of inertia about its own {XYZ[number]}, so it does not turn about that"
         raise Rejected(Complaint("wrong-axis", message, help="put another of its axes across the plane"))
+
+
+def _check_flat(body: Any, number: int) -> None:
+    """The axis that nobody named is one along which the body does not reach, or all of its axes are alike."""
+    if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
+        message = f"{body.name} reaches along its own {XYZ[number]}, so that axis need not lie across the plane"
+        raise Rejected(Complaint("wrong-axis", message, help='say `across="x"`, "y" or "z"'))
 
 
 def _across(body: Any, named: str | None) -> int:

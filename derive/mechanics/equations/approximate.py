@@ -56,11 +56,11 @@ def equation_in_limit(
     power = Rational(order) if order is not None else max(series, default=Rational(0))
     share = _ratio(found, kept)
     small = small_of(x, place)
-    told = {"small": (small, small), "power": (power, power)}
+    told = {"small": small, "power": power}
     if place not in (oo, -oo):
-        told["place"] = (place, place)
+        told["place"] = place
     if kept.has(TIME) and place == 0 and any(f.has(x) and f.has(TIME) for f in left.atoms(Function)):
-        told["short"] = (1 / x, 1 / x)  # a sine of Omega t is small with Omega only as long as the time is short
+        told["short"] = 1 / x  # a sine of Omega t is small with Omega only as long as the time is short
     return establish(
         "approximate.equation_in_limit",
         None,
@@ -70,7 +70,7 @@ def equation_in_limit(
         routes={"numbers": lambda result: rest_vanishes(left, explicit(result).residual * share, x, place, power)},
         outcome=_sort_of(place, order, exact=is_zero(left - kept)),
         telling=Telling(
-            formulas=told,
+            named=told,
             judged_by={"value": left, "kept": kept, "to": place, "order": Integer(-1 if order is None else order)},
         ),
         key=key or f"{equation.key}_limit",

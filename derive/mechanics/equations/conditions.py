@@ -54,6 +54,7 @@ def where(
     letter: Any,
     key: str = "condition",
     through: tuple[Relation, Sequence[Quantity]] | None = None,
+    for_real: bool = False,
 ) -> Quantity:
     """Where a quantity is greater than a bound, less, equal to it: v > 0 where R > a/2, solved for one letter.
 
@@ -63,6 +64,7 @@ def where(
     letter   what stands alone in the end: a letter, a rate, or such as `cos(theta)`; the difference is linear in it, or
     in its square; or what was given for a letter, 2b for R, of which one letter is taken
     through  the same in other letters, told on the way, and the results that these stand for
+    for_real whether it is a discriminant, asked for real roots
     Check: a little above the solved bound, at it and a little below, the sign of the difference; and at random
     points both relations are true, or both false.
     What both sides are divided by must not vanish, which is told where nothing decides it; in an inequality its sign
@@ -111,7 +113,7 @@ def where(
         telling=Telling(
             words={"comparison": WORDS[mark], "seen": "radicand" if (of.step.rule, mark) in REAL else "quantity"},
             formulas=conditions_told(excluded=excluded, existing=existing),
-            judged_by={"unknown": unknown, "mark": Str(mark)},
+            judged_by={"unknown": unknown, "mark": Str(mark), "difference": difference, "for_real": for_real},
         ),
         key=key,
         parents=through[1] if through is not None else (),

@@ -208,7 +208,7 @@ def _sum(
         },
         outcome=_left_over(sides[0], list(motion)),
         telling=Telling(
-            formulas={f"factor_{i}": (factor, factor) for i, (_, factor) in enumerate(of, 1)},
+            named={f"factor_{i}": factor for i, (_, factor) in enumerate(of, 1)},
             points_to={f"equation_{i}": equation for i, (equation, _) in enumerate(of, 1)},
             judged_by={"highest": list(motion), "products": sides[0]},
         ),

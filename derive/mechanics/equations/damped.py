@@ -128,7 +128,7 @@ def _characteristic(
         lines=Lines(put_in=None, arranged=lambda _: Relation(product, "=", 0)),
         routes={"trial": by_trial},
         outcome="several" if len(linear) > 1 else "one",
-        telling=Telling(formulas={"trial": (trial := exp(letter * T), trial)}),
+        telling=Telling(named={"trial": exp(letter * T)}),
         key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),

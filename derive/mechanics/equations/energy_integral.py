@@ -137,7 +137,7 @@ def _energy_kept(
         outcome="from_rest" if initial == 0 else "moving",
         key=key,
         telling=Telling(
-            formulas={"place": (Relation(letter, "=", first), Relation(first, "=", letter))},
+            named={"place": Relation(letter, "=", first)},
             judged_by={"initial": initial},
         ),
         parents=about,
@@ -231,7 +231,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
         key=key,
         kind="time",
         telling=Telling(
-            formulas={"amplitude": (amplitude, amplitude)},
+            named={"amplitude": amplitude},
             judged_by={"value": value, "coordinate": q, "acceleration": known.acceleration},
         ),
         scope=Scope() if exact else Scope(approximates=period),

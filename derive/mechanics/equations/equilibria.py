@@ -298,7 +298,7 @@ def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
             potential, {"virtual_work": compared_with(lambda: Relation(slope_otherwise(potential, q), "=", 0))}
         ),
         outcome="zero" if force == 0 else "generic",
-        telling=Telling(judged_by={"coordinate": q}, formulas=steady_in(potential, [q])),
+        telling=Telling(judged_by={"coordinate": q}, named=steady_in(potential, [q])),
         key=f"condition_{q.name}",
     )
 
@@ -311,12 +311,12 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
     return by_terms(force.expand()) if below.has(q) and not below.has(sin, cos) else force
 
 
-def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
+def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
     """What stays constant where other coordinates move steadily, by their constant momenta: that is no rest."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
-    return {"steady": (sought[0], sought[0])}
+    return {"steady": sought[0]}
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
@@ -387,7 +387,7 @@ def _rest(
     values = [_by_terms_if_shorter(state.values[q]) for q in held]
     single = len(held) == 1
     symbol: Any = names[held[0]][n] if single else ImmutableDenseMatrix([names[q][n] for q in held])
-    told = steady_in(potential, sought)
+    told = {}
     if state.exists is not None:
         told["exists"] = (state.exists, Relation(-state.exists.right, state.exists.mark, -state.exists.left))
     if len(sought) == 1 and (excluded := _level_where(conditions[0].value.left, sought[0])) is not None:
@@ -414,6 +414,7 @@ def _rest(
         outcome=outcome,
         telling=Telling(
             formulas=told,
+            named=steady_in(potential, sought),
             judged_by={
                 "count": Integer(len(states)),
                 "distances": distances,

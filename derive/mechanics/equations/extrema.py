@@ -79,7 +79,7 @@ def _extremum(
         "extrema.place",
         name,
         lambda *_: place,
-        {"quantity": of, "letter": x},
+        {"quantity": of},
         lines=Lines(put_in=None, law=Level.BRIEF, arranged=lambda _: place),
         routes={
             "slope": lambda p: (slope.subs(x, p), Integer(0)),
@@ -89,10 +89,8 @@ def _extremum(
         key=f"{key}_{x.name}",
         kind=kind_of_unknown(x, coordinates_of(of)),
         telling=Telling(
-            formulas={
-                "letter": (x, x),
-                **{role: (_apart(each), each) for role, each in conditions.items()},
-            },
+            formulas={role: (_apart(each), each) for role, each in conditions.items()},
+            named={"letter": x},
             judged_by={"value": value, "place": place, **({"within": within} if within else {})},
         ),
         scope=Scope(coordinates={}),

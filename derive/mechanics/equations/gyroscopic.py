@@ -121,7 +121,7 @@ def _characteristic(
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored(pencil.parts, letter), "=", 0)),
         routes={"quadrature": lambda found: in_quadrature(found, linear, together, letter)},
-        telling=Telling(formulas={"trial": (trial := exp(I * letter * T), trial)}),
+        telling=Telling(named={"trial": exp(I * letter * T)}),
         key=f"{start}characteristic_equation",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
@@ -265,7 +265,7 @@ def _motion(
 
     own = [s.symbol for s, entry in zip(together.displacements, column, strict=True) if not is_zero(entry)]
     displacements = Amplitudes(*(s.symbol for s in together.displacements))
-    names = {role: (s, s) for role, s in zip(("first", "second"), own, strict=False)}
+    names = dict(zip(("first", "second"), own, strict=False))
     return establish(
         "gyroscopic.motion",
         MatrixSymbol(f"{_letter(together)}_{n}", len(column), 1),
@@ -275,7 +275,7 @@ def _motion(
         routes={"motion": in_equations, "energy": energy},
         outcome=_outcome(column, swing),
         telling=Telling(
-            formulas={"displacements": (displacements, displacements), **names},
+            named={"displacements": displacements, **names},
             points_to={"linear": linear[0]},
             judged_by=judged_by(together),
         ),

@@ -116,10 +116,8 @@ def leaves_contact(force: Quantity, letter: object, start: Expr, key: str = "lea
         },
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         telling=Telling(
-            formulas={
-                "from": (Relation(unknown, "=", start), Relation(start, "=", unknown)),
-                **conditions_told(existing=existing and positive(existing.residual), reached=reached),
-            },
+            formulas=conditions_told(existing=existing and positive(existing.residual), reached=reached),
+            named={"from": Relation(unknown, "=", start)},
             judged_by={
                 "unknown": unknown,
                 "start": begin,
@@ -187,10 +185,8 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
         routes={"on_the_way": on_the_way},
         outcome="turns_back",
         telling=Telling(
-            formulas={
-                "place": (Relation(unknown, "=", place), Relation(place, "=", unknown)),
-                "impossible": (Relation(rate(q) ** 2, "=", there), Relation(rate(q) ** 2, "=", at_angle)),
-            },
+            formulas={"impossible": (Relation(rate(q) ** 2, "=", there), Relation(rate(q) ** 2, "=", at_angle))},
+            named={"place": Relation(unknown, "=", place)},
             judged_by={"unknown": unknown, "start": begin, "squared": squared},
         ),
         key=key,

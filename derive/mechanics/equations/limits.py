@@ -104,9 +104,9 @@ def limiting_case(
         key=key or f"{of.key}_limit",
         kind=of.step.kind,
         telling=Telling(
-            formulas={
-                **({"place": (place, place)} if place not in (oo, -oo) else {}),
-                **({"bound": (value, value)} if solved is not None and of.value.mark != "=" else {}),
+            named={
+                **({"place": aim} if aim not in (oo, -oo) else {}),
+                **({"bound": value} if solved is not None and of.value.mark != "=" else {}),
             },
             judged_by={"to": place, "value": value, "x": x},
         ),

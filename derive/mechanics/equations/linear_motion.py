@@ -135,7 +135,8 @@ def solution(
         key=key or f"{q.symbol.name}_of_t",
         kind=q.kind,
         telling=Telling(
-            formulas=_told(linear, condition, first, initial, q),
+            formulas=_told(linear, condition),
+            named=_start(q, first, initial),
             judged_by={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
         parents=approximations_among(start, start_rate),
@@ -160,13 +161,9 @@ def free_motion(linear: Linear, first: Expr, initial: Expr, case: str | None) ->
     return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
 
 
-def _told(
-    linear: Linear, condition: Relation | None, first: Expr, initial: Expr | None, q: Coordinate
-) -> dict[str, tuple[Any, Any]]:
-    """The condition of the case, and what the motion starts from."""
-    told: dict[str, tuple[Any, Any]] = {"start": (_equals(q.symbol, first), _equals(first, q.symbol))}
-    if initial is not None:
-        told["start_rate"] = (_equals(q.rate, initial), _equals(initial, q.rate))
+def _told(linear: Linear, condition: Relation | None) -> dict[str, tuple[Any, Any]]:
+    """The condition of the case, and what may not vanish."""
+    told: dict[str, tuple[Any, Any]] = {}
     excluded = _excluded(linear)
     if excluded is not None:
         told["excluded"] = (excluded, Relation(tidied(excluded.left), "!=", tidied(excluded.right)))
@@ -175,8 +172,10 @@ def _told(
     return told
 
 
-def _equals(left: Expr, right: Expr) -> Relation:
-    return Relation(left, "=", right)
+def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relation]:
+    """What the motion starts from."""
+    at_rest = {} if initial is None else {"start_rate": Relation(q.rate, "=", initial)}
+    return {"start": Relation(q.symbol, "=", first), **at_rest}
 
 
 def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:

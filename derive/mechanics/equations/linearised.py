@@ -148,9 +148,10 @@ def _one(
     if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
         counted["as_it_is"] = (whole, equations[i].value)
     small = None if away or "as_it_is" in counted else _with_small_angles(equations[i], moving, common)
+    alone: dict[str, Expr] = {}
     if len(moving) == 1:
-        counted["alone"] = (moving[0].symbol, moving[0].symbol)
-        counted.update(_dropped(equations[i], moving[0], small))
+        alone = {"alone": moving[0].symbol, **_functions_of(equations[i], moving[0], small)}
+        counted.update(_dropped(moving[0], small))
     return establish(
         "linearised.equation",
         None,
@@ -165,6 +166,7 @@ def _one(
             points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
             judged_by={"place": tuple(place.values()), "displacements": tuple(s.symbol for s in eta), **_loss(linear)},
             formulas=counted,
+            named=alone,
         ),
         key=key,
         parents=[*equations, *rests],
@@ -193,14 +195,17 @@ def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
     return [Form(Relation(FirstOrder(small, *letters), "=", ZERO), "small_angles", Level.FULL)]
 
 
-def _dropped(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
-    """Which functions of the angle are put to first order, and which terms are of higher order than that."""
+def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, Expr]:
+    """Which functions of the angle are put to first order."""
+    functions = {"sine": sin(q.symbol), "cosine": cos(q.symbol)} if small is not None else {}
+    return {role: f for role, f in functions.items() if explicit(equation.value).residual.has(f)}
+
+
+def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
+    """Which terms are of higher order than the first."""
     if small is None:
         return {}
     told: dict[str, tuple[Expr, Expr]] = {}
-    for role, f in (("sine", sin(q.symbol)), ("cosine", cos(q.symbol))):
-        if explicit(equation.value).residual.has(f):
-            told[role] = (f, f)
     letters = (q.symbol, q.rate, q.acceleration)
     powers = [(term, term.as_poly(*letters)) for term in Add.make_args(small.expand())]
     terms = [term for term, power in powers if power is None or power.total_degree() > 1]

@@ -153,11 +153,12 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     value = place.second(q, q)
     outcome, condition, border = _judged(place, value, letter)
     _check_nothing_else_holds_it(place, outcome)
-    told: dict[str, tuple[Any, Any]] = {"state": _state(place), **steady_in(potential, [q])}
+    told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
+    named: dict[str, Any] = {**steady_in(potential, [q])}
     is_short = int(derivative(place.energy, q, 2).count_ops()) <= SHORT
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:
-        told["place"] = (Relation(q, "=", place.values[q]), Relation(place.values[q], "=", q))
+        named["place"] = Relation(q, "=", place.values[q])
     if condition is not None:
         told["condition"] = (condition, Relation(value, ">", 0))
     if place.exists is not None:
@@ -165,7 +166,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     if border is not None and condition is not None:
         told["border"] = (
             Relation(condition.left, "=", condition.right),
-            Relation(condition.right, "=", condition.left),
+            Relation(value, "=", 0),
         )
     order = _order(place.energy.subs(border.left, border.right) if border is not None else place.energy, place)
     is_open = outcome == "flat" and order > 0  # there is a derivative, of a sign that is not known
@@ -187,6 +188,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
         telling=Telling(
             points_to={"potential": potential},
             formulas=told,
+            named=named,
             judged_by={
                 "coordinates": place.coordinates,
                 "place": tuple(place.values.values()),
@@ -277,10 +279,12 @@ def _of_several(place: Place, key: str) -> Quantity:
     letters = ImmutableDenseMatrix([scalar(f"D_{n}") for n in range(1, len(moving) + 1)])
     outcome = _of_minors(matrix, values)
     told: dict[str, tuple[Any, Any]] = {"state": _state(place)}
+    named: dict[str, Any] = {}
     way = _way_down(matrix) if outcome == "depends" else None
     if way is not None:
         outcome = "unstable_along"
         told |= _falling(place, matrix, way)
+        named = {"moving": Amplitudes(*place.coordinates), "direction": Amplitudes(*way)}
     _check_nothing_else_holds_it(place, outcome)
     if place.exists is not None:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.mark, -place.exists.left))
@@ -308,6 +312,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         outcome=outcome,
         telling=Telling(
             formulas=told,
+            named=named,
             judged_by={
                 "coordinates": moving,
                 "place": tuple(place.values.values()),
@@ -354,12 +359,9 @@ def _way_down(matrix: MatrixBase) -> MatrixBase | None:
 
 
 def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
-    """The direction, and how the slope of the energy changes along it, by the matrix and by the energy itself."""
-    moved = Amplitudes(*place.coordinates)
+    """How the slope of the energy changes along it, by the matrix and by the energy itself."""
     along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
     return {
-        "moving": (moved, moved),
-        "direction": (Amplitudes(*way), Amplitudes(*way)),
         "falling": (tidied((way.T * matrix * way)[0]), 2 * along),
     }
 

@@ -251,7 +251,7 @@ def _shape(
         routes={"motion": moving, "orthogonal": across},
         outcome=_shape_outcome(root, column, together.displacements),
         telling=Telling(
-            formulas={"moving": (moved, moved)},
+            named={"moving": moved},
             points_to={"linear": linear[0]},
             judged_by={"squared": squared, **_judged_by(together)},
         ),

@@ -79,9 +79,9 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         kind="squared angular speed",
         parents=[linear],
         telling=Telling(
-            formulas={
-                **({} if mass == 1 else {"inertia": (mass, mass), "acceleration": (rate(q, 2), rate(q, 2))}),
-                "oscillator": (Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),) * 2,
+            named={
+                **({} if mass == 1 else {"inertia": mass, "acceleration": rate(q, 2)}),
+                "oscillator": Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),
             },
             points_to={"linear": linear},
             judged_by={"exists": exists} if exists is not None else {},

@@ -345,4 +345,5 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     """
     of, of_both, mark = roots.needed(Roots), discriminant(roots), ">" if distinct else ">="
     criterion = solved_in_letters(of_both, of.general.discriminant, mark, letter) if of.values else None
-    return where(of_both, mark, 0, letter, key, through=(criterion, of.values) if criterion is not None else None)
+    through = (criterion, of.values) if criterion is not None else None
+    return where(of_both, mark, 0, letter, key, through=through, for_real=True)

@@ -114,10 +114,8 @@ def _solution(
         key=key,
         kind=kind_of_unknown(unknown, known),
         telling=Telling(
-            formulas={
-                "unknown": (unknown, unknown),
-                **({"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {}),
-            },
+            formulas={"excluded": (excluded, Relation(tidied(excluded.left), "!=", 0))} if excluded else {},
+            named={"unknown": unknown},
             judged_by={"count": Integer(len(wanted)), "place": Integer(i)},
         ),
         scope=Scope(differ=EVERYTHING),

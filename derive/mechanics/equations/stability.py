@@ -140,7 +140,7 @@ def extreme_value(
         outcome="level" if curvature == 0 else sort[strict_sign_within(curvature)],
         telling=Telling(
             judged_by={"coordinate": q, "at": place},
-            formulas={"place": (Relation(q, "=", place), Relation(place, "=", q))},
+            named={"place": Relation(q, "=", place)},
         ),
         key=key,
         kind=potential.step.kind,
@@ -198,8 +198,8 @@ def leading_order(
         lambda energy, *_: in_case(energy),
         {"potential": potential},
         telling=Telling(
-            formulas={"case": (where, Relation(where.left, "=", where.right))} if where else {},
-            judged_by={"coordinate": q, "place": place, **({"case": where} if where else {})},
+            named={"case": where} if where else {},
+            judged_by={"coordinate": q, "place": place},
         ),
         lines=Lines(
             put_in=None,

@@ -132,7 +132,7 @@ def _of_equation(
         ),
         outcome="of_equation",
         telling=Telling(
-            formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
+            named={role: Relation(s, "=", v) for role, (s, v) in told.items()},
             judged_by={"lagrangian": steady.lagrangian.value, "constant": tuple(kept)},
         ),
         key=key,
@@ -185,7 +185,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
         ),
         outcome="always" if core == 0 else "generic",
         telling=Telling(
-            formulas={role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
+            named={role: Relation(s, "=", v) for role, (s, v) in told.items()},
             judged_by={"coordinate": q.symbol},
         ),
         key=key,
@@ -275,9 +275,9 @@ def frequency_squared_about(
         key=key,
         kind="squared angular speed",
         telling=Telling(
-            formulas={
-                **{role: (Relation(s, "=", v), Relation(v, "=", s)) for role, (s, v) in told.items()},
-                **({"exists": (exists, exists)} if exists is not None else {}),
+            named={
+                **{role: Relation(s, "=", v) for role, (s, v) in told.items()},
+                **({"exists": exists} if exists is not None else {}),
             },
             points_to={"where": at},
         ),

@@ -91,10 +91,7 @@ def put_in(
         key=key or _key_for(of, rests, there),
         kind=of.step.kind,
         telling=Telling(
-            formulas={
-                f"value_{i + 1}": (Relation(target, "=", at), Relation(at, "=", target))
-                for i, (target, at) in enumerate(there)
-            },
+            named={f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
             judged_by={
                 "replaced": [letter_of(target) for target, _ in told],
                 **({"found": again.value} if again is not None else {}),

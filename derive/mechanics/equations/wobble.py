@@ -141,11 +141,11 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
         telling=Telling(
             words={"axis": AXES[disturbed.axis]},
             points_to={"motion": equations[k], "slow": equations[disturbed.axis]},
-            formulas={
-                "speed": (disturbed.speed, disturbed.speed),
-                "along": (moving[disturbed.axis], moving[disturbed.axis]),
-                "letter": (scalar(AXES[disturbed.axis]), scalar(AXES[disturbed.axis])),
-                **{f"small_{n}": (moving[i], moving[i]) for n, i in enumerate(disturbed.across, 1)},
+            named={
+                "speed": disturbed.speed,
+                "along": moving[disturbed.axis],
+                "letter": scalar(AXES[disturbed.axis]),
+                **{f"small_{n}": moving[i] for n, i in enumerate(disturbed.across, 1)},
             },
         ),
         parents=list(equations),
@@ -205,9 +205,7 @@ def wobble_squared(linear: Sequence[Quantity], symbol: str = "Omega", key: str =
         telling=Telling(
             words={"axis": AXES[disturbed.axis]},
             points_to={"first": linear[0], "second": linear[1]},
-            formulas={
-                f"small_{n}": (disturbed.moving[k], disturbed.moving[k]) for n, k in enumerate(disturbed.across, 1)
-            },
+            named={f"small_{n}": disturbed.moving[k] for n, k in enumerate(disturbed.across, 1)},
             judged_by={"moments": disturbed.moments, "axis_index": Integer(disturbed.axis)},
         ),
         key=key,
@@ -371,7 +369,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         outcome=_sense(about - across),
         telling=Telling(
             points_to={"first": equations[0], "second": equations[1], "third": equations[2]},
-            formulas={"along": (z, z), "around": (x, x), "beside": (y, y)},
+            named={"along": z, "around": x, "beside": y},
             judged_by={"excess": about - across},
         ),
         key=key,

@@ -61,6 +61,11 @@ def never_vanishes(v: Any) -> bool:
     return any(bool(tidied(entry).is_nonzero) for entry in v)
 
 
+def same_equation(value: Expr, other: Expr) -> bool:
+    """Whether one vanishes where the other does: they differ by a factor whose sign is known."""
+    return is_zero(value) if is_zero(other) else sign_known(tidied(value / other)) in (1, -1)
+
+
 def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:
     return lambda facts: sign_known(of(facts)) == wanted
 

@@ -14,7 +14,7 @@ from typing import Any
 from sympy import Integer, Matrix, MatrixBase, Mul, Symbol, cos, diff, factor, factor_terms, integrate, oo, pi, sin, tan
 
 from derive.algebra.expansion import Approach
-from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit, rate
+from derive.algebra.expressions import AXES, PLUS_MINUS, TIME, Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.mechanics.outcomes.signs import MARK_OF, is_so
 from derive.steps.known_numbers import sign_known
@@ -119,7 +119,7 @@ def _of_its_coordinate(facts: Judged, outcome: str) -> bool:
     )
 
 
-def _starts_as_told(facts: Judged, outcome: str) -> bool:
+def starts_as_told(facts: Judged, outcome: str) -> bool:
     """The motion has the value and the rate at the start that the sentence says."""
     told = [facts.inputs[role] for role in ("start", "start_rate") if role in facts.inputs]
     at = [diff(facts.result, TIME, n).subs(TIME, 0) for n in range(len(told))]
@@ -185,10 +185,15 @@ def _difference(facts: Judged, outcome: str) -> bool:
 
 
 def _names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
-    """An axis of the whole, of which a part has a moment, is that in the letter of the moment: I_z."""
-    seen, whole = facts.words.get("seen"), facts.words.get("whole")
-    by_letter = facts.symbol.name.partition("_")[2].partition("_")[0] if facts.symbol is not None else ""
-    return (whole is None or whole == by_letter) and (seen != "mapped" or not facts.subject.body.is_of_particles)
+    """An axis of the whole, of which a part has a moment, is that in the letter of the moment, I_z, and is parallel to
+    the axis of the part."""
+    seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
+    if turn is None:
+        in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles
+        return whole is None and seen != "part" and in_its_way
+    by_letter, own = facts.symbol.name.partition("_")[2], "xyz".index(facts.words["axis"])
+    parallel = {"xyz"[k] for k in range(3) if is_zero(turn[own, k] ** 2 - 1)}
+    return by_letter == whole and {whole} == parallel if parallel else by_letter == "axial" and whole is None
 
 
 def _as_asked_for(facts: Judged, outcome: str) -> bool:
@@ -206,15 +211,22 @@ def _as_asked(facts: Judged, outcome: str) -> bool:
     if not is_letter:  # the value of a cosine is called a cosine
         numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
-    return numbered and limited and _as_asked_for(facts, outcome) and _is_a_root_just_where_told(facts)
+    held = explicit(facts.inputs["equation"]).has(explicit(facts.inputs["unknown"]))
+    return numbered and limited and held and _as_asked_for(facts, outcome) and is_a_root_just_where_told(facts)
 
 
 def _word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """ "at most" for <=: the first line shows the mark, and what follows is compared with that."""
-    return MARK_OF.get(facts.words["comparison"]) == str(facts.inputs["mark"])
+    """ "at most" for <=: the first line shows the mark, and what follows is compared with that; and the quantity is
+    what is compared, not what it is compared with."""
+    difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
+    mark = str(facts.inputs["mark"])
+    right_word = MARK_OF.get(facts.words["comparison"]) == mark
+    if facts.inputs.get("for_real"):  # roots are real where their discriminant is positive, or not negative
+        right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "roots.discriminant"
+    return right_word and is_zero(difference - facts.inputs["difference"])
 
 
-def _is_a_root_just_where_told(facts: Judged) -> bool:
+def is_a_root_just_where_told(facts: Judged) -> bool:
     """In numbers it is real, and positive where it must be, where the condition holds and nowhere else."""
     told, given, value = facts.inputs.get("condition"), facts.inputs.get("existing"), explicit(facts.result)
     conditions = [explicit(each.residual) for each in (told, given) if each is not None]
@@ -242,15 +254,10 @@ def _steady_as_its_potential(facts: Judged, outcome: str) -> bool:
     return bool(reduced) if told else of not in reduced or isinstance(facts.result, MatrixBase)
 
 
-def _an_oscillation(facts: Judged, outcome: str) -> bool:
-    """What is put in goes round once in the period of its frequency."""
-    return is_zero(facts.inputs["trial"].subs(TIME, 2 * pi / facts.inputs["omega"]) - 1)
-
-
 def _there_where_told(facts: Judged, outcome: str) -> bool:
     """A place where something is extreme is real just where that is said, and between the ends just where that is."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
-    return _is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
+    return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
@@ -274,6 +281,41 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
     return True
 
 
+def _component_of_its_letter(facts: Judged, outcome: str) -> bool:
+    """The axis of the component is the last index of its letter, v_x."""
+    index = facts.symbol.name.rpartition("_")[2]
+    return index in AXES and is_zero(explicit(facts.inputs["vector"])[AXES.index(index)] - explicit(facts.result))
+
+
+def _a_second_rate(facts: Judged, outcome: str) -> bool:
+    return bool(facts.symbol.name.endswith("_ddot"))
+
+
+def _positive_where_real(facts: Judged, outcome: str) -> bool:
+    """A frequency is not negative where it is real: in numbers."""
+    value = explicit(facts.result)
+    for point in islice(points(letters_of(value), seed_of(value)), POINTS):
+        try:
+            number = value_at(value, point)
+            if number.is_real and number < 0:
+                return False
+        except (Undefined, NoNumber):
+            continue
+    return True
+
+
+def _somewhere_positive(facts: Judged, outcome: str) -> bool:
+    """Which of two frequencies is greater may depend on the letters, but not the wrong one is so for all of them."""
+    value = explicit(facts.result)
+    numbers = []
+    for point in islice(points(letters_of(value), seed_of(value)), POINTS):
+        try:
+            numbers.append(value_at(value, point))
+        except (Undefined, NoNumber):
+            continue
+    return _not_negative(facts, outcome) and any(bool(number.is_real) and number >= 0 for number in numbers)
+
+
 def _says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
     """A factor below the line that might vanish is told not to; the first of several solutions says so for all."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
@@ -294,7 +336,7 @@ def _goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
     return aim == to if aim in (oo, -oo) else is_zero(aim * facts.inputs["x"] / goes - to)
 
 
-def _given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
+def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
     """The number that is told is that of the letter, and fulfils the condition as it is said to: both in decimals."""
     condition = facts.inputs.get("condition")
     if condition is None:
@@ -311,14 +353,14 @@ def _lag_as_written(facts: Judged, outcome: str) -> bool:
     return (getattr(facts.symbol, "func", None) is tan) == (outcome == "damped")
 
 
-def _sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
+def sum_of_the_equations_times_their_factors(facts: Judged, outcome: str) -> bool:
     """Each equation that is named, times the factor that is named with it, adds up to the result."""
     named = [role for role in facts.quantities if role.startswith("equation_")]
     products = (facts.inputs[f"factor_{role[9:]}"] * explicit(facts.quantities[role].value).residual for role in named)
     return is_zero(explicit(facts.result).residual - sum(products, Integer(0)))
 
 
-def _rates_of_its_equations(facts: Judged, outcome: str) -> bool:
+def rates_of_its_equations(facts: Judged, outcome: str) -> bool:
     """Each of the equations that are named is that of its component: the third says that the last is constant."""
     letters = (facts.inputs["around"], facts.inputs["beside"], facts.inputs["along"])
     named = [facts.quantities[role].value for role in ("first", "second", "third")]
@@ -343,11 +385,10 @@ _TABLE: dict[str, Told] = {
     "superposition.motion": _starts_as_all_are_told,
     "roots.roots": _as_asked,
     "roots.roots_absent": _as_asked_for,
-    "gyroscopic.characteristic": _an_oscillation,
     "extrema.place": _there_where_told,
     "solving.solved_for": _says_what_it_divides_by,
     "limits.limiting_case": _goes_where_it_is_said,
-    "numbers.value": _given_as_the_condition_has_it,
+    "numbers.value": given_as_the_condition_has_it,
     "minima.stability_of_several": _about_an_energy,
     "minima.stability": _steady_as_its_potential,
     "equilibria.condition": _steady_as_its_potential,
@@ -360,6 +401,10 @@ _TABLE: dict[str, Told] = {
     "roots.together": _equation_in_its_unknown,
     "roots.one_of_two": _a_root_of_its_sign,
     "conditions.where": _word_of_its_mark,
+    "cones.vector_component": _component_of_its_letter,
+    "kept.acceleration": _a_second_rate,
+    "damped.frequency": _positive_where_real,
+    "modes.frequency": _positive_where_real,
     "effective.value_kept": _of_its_coordinate,
     "bodies.axis_vector": _axis_as_named,
     "bodies.centre_component": _from_its_point_along_the_axis,
@@ -369,17 +414,18 @@ _TABLE: dict[str, Told] = {
     "free_rotation.euler_equation": _rate_of_the_component,
     "inertia.entry_moved": _inward_or_outward,
     "inertia.moment_of_inertia": _names_the_axis_of_the_whole,
+    "assembly.own_moment": _names_the_axis_of_the_whole,
     "principal.principal_moments": _vanish_again,
     "lagrangian.lagrangian": _difference,
     "modes.period": _not_negative,
     "tensors.radius_of_gyration": _not_negative,
-    "modes.beats": _not_negative,
-    "linear_motion.solution": _starts_as_told,
+    "modes.beats": _somewhere_positive,
+    "linear_motion.solution": starts_as_told,
     "steady.frequency_squared": _taken_out_by_its_condition,
     "linear_motion.steady_amplitude": _swings_of_its_equation,
     "linear_motion.lag": _lag_as_written,
-    "conservation.sum": _sum_of_the_equations_times_their_factors,
-    "wobble.body_cone_rate": _rates_of_its_equations,
+    "conservation.sum": sum_of_the_equations_times_their_factors,
+    "wobble.body_cone_rate": rates_of_its_equations,
 }
 
 for _rule, _told in _TABLE.items():

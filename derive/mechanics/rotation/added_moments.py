@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from sympy import Add, Expr, Integer, Pow, Rational
-from sympy.matrices import ImmutableMatrix
+from sympy.matrices import ImmutableMatrix, MatrixBase
 
 from derive.algebra.expressions import AXES, Factors, Terms, scalar
 from derive.mechanics.bodies.equimomental import counted_from
@@ -29,21 +29,20 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     axis    "x", "y" or "z"
     point   through which the axis goes
     The moment of each part about its own centre is a step of its own. Nothing is yielded where a part is turned so
-    that the axis is none of its own.
+    that the axis is none of its own, or where a turned part has parts itself.
     Second route: mass times distance squared, summed over the equimomental particles of all parts; the integral of
     the squared distance over the whole body.
     Outcomes: moved (some centre is beside the axis), on_axis, alone (of all parts one has a moment).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
     """
     k = AXES.index(axis)
-    own_axes = [None if _is_particle(part) else _own_axis(part, point, k) for part in body.parts]
-    if any(own is None and not _is_particle(part) for part, own in zip(body.parts, own_axes, strict=True)):
+    solid = {f"part_{i}": part for i, part in enumerate(body.parts) if not _is_particle(part)}
+    turns = {role: ImmutableMatrix(part.turn.T * point.axes) for role, part in solid.items()}
+    own_axes = {role: _parallel_to(turn).get(axis, "") for role, turn in turns.items()}
+    if any(own != axis and (not own or hasattr(solid[role].body, "parts")) for role, own in own_axes.items()):
         return None
-    own = {
-        f"part_{i}": _own_moment(part.body, each, symbol.partition("_")[0], axis)
-        for i, (part, each) in enumerate(zip(body.parts, own_axes, strict=True))
-        if each is not None
-    }
+    letter = symbol.partition("_")[0]
+    own = {role: _own_moment(part.body, own_axes[role], letter, turns[role]) for role, part in solid.items()}
     held = {role: moment for role, moment in own.items() if moment.value != 0}
     away = [_squares_beside(point.seen(part.centre), k) for part in body.parts]
 
@@ -74,30 +73,39 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     )
 
 
-def _own_moment(body: Any, axis: str, letter: str, called: str) -> Quantity:
+def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity:
     """Moment of inertia of a part about an axis through its centre; of a flat round one across its own axis half of
     that about it, because I_x + I_y = I_z.
 
     body     the part
-    axis     which of its own axes; `called` is that of the whole to which it is parallel
+    axis     which of its own axes
+    turn     the axes of the whole as the part sees them, by columns: the letter has the one that is parallel
     Second route: mass times distance squared, summed over its equimomental particles; the integral.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
+    called = {own: whole for whole, own in _parallel_to(turn).items()}.get(axis, "axial")
     symbol, key = f"{letter}_{called}", f"moment_{called}"
     if body.filling == "length" and axis == "z" and _all_on_axis(body):
-        return _by_shape(body, axis, symbol, key, "none", lambda: Integer(0), {})
+        return _by_shape(body, axis, symbol, key, "none", lambda: Integer(0), {}, turn)
     if not (body.is_round and body.filling == "area" and axis != "z" and _is_flat(body)):
         if axis == called:
             return moment_of_inertia(body, axis, symbol=symbol, key=key)
-        return moment_seen(body, axis, "centre", symbol, key, {"seen": "part", "whole": called})
-    axial = _own_moment(body, "z", letter, "xyz".replace(called, "")[-1])
-    return _by_shape(body, axis, symbol, key, "flat", lambda I: Factors(Rational(1, 2), I), {"axial": axial})
+        return moment_seen(body, axis, "centre", symbol, key, {"seen": "part", **_of_whole(called)}, turn)
+    axial = _own_moment(body, "z", letter, turn)
+    return _by_shape(body, axis, symbol, key, "flat", lambda I: Factors(Rational(1, 2), I), {"axial": axial}, turn)
 
 
 def _by_shape(
-    body: Any, axis: str, symbol: str, key: str, outcome: str, law: Callable[..., Expr], inputs: Mapping[str, Quantity]
+    body: Any,
+    axis: str,
+    symbol: str,
+    key: str,
+    outcome: str,
+    law: Callable[..., Expr],
+    inputs: Mapping[str, Quantity],
+    turn: MatrixBase,
 ) -> Quantity:
-    """A moment about an axis through the centre of a part that is told without an integral.
+    """A moment about an axis through the centre of a part that is found without an integral.
 
     Outcomes: none (all of the mass is on the axis), flat.
     Source: that of `own_moment`.
@@ -116,6 +124,7 @@ def _by_shape(
         lines=Lines(put_in=Level.FULL),
         kind="moment of inertia",
         key=key,
+        telling=Telling(words={"axis": axis, **_of_whole(key.removeprefix("moment_"))}, judged_by={"turn": turn}),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=centre, axis=axis), differ={"axis"}),
     )
 
@@ -132,10 +141,15 @@ def _is_flat(body: Any) -> bool:
     return all(is_zero(place[2]) for _, place in body.particles())
 
 
-def _own_axis(part: PlacedPart, point: Point, k: int) -> str | None:
-    """Which axis of the part is parallel to that of the whole, if one is."""
-    seen = part.turn.T * point.axes[:, k]
-    return next((AXES[j] for j in range(3) if is_zero(seen[j] ** 2 - 1)), None)
+def _parallel_to(turn: MatrixBase) -> dict[str, str]:
+    """Axis of the whole -> the axis of the part that is parallel to it, where one is."""
+    pairs = ((j, k) for j in range(3) for k in range(3) if is_zero(turn[j, k] ** 2 - 1))
+    return {AXES[k]: AXES[j] for j, k in pairs}
+
+
+def _of_whole(called: str) -> dict[str, str]:
+    """The axis of the whole to which that of the part is parallel, where one is."""
+    return {"whole": called} if called in AXES else {}
 
 
 def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:

@@ -182,7 +182,7 @@ def precession_rate(
         key=key,
         kind="angular speed",
         parents=[inertia],
-        telling=Telling(formulas={"across": (across, across)}),
+        telling=Telling(named={"across": across}),
     )
 
 

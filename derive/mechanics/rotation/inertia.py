@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixSymbol, cos, sin
+from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixBase, MatrixSymbol, cos, sin
 
 from derive.algebra.expressions import (
     Cross,
@@ -127,11 +127,20 @@ def moment_of_inertia(
     return moment_seen(body, axis, about, symbol, key, {"seen": "own" if body.is_of_particles else "mapped"})
 
 
-def moment_seen(body: Body, axis: str, about: str, symbol: str, key: str, seen: Mapping[str, str]) -> Moment:
+def moment_seen(
+    body: Body,
+    axis: str,
+    about: str,
+    symbol: str,
+    key: str,
+    seen: Mapping[str, str],
+    turn: MatrixBase | None = None,
+) -> Moment:
     """A moment of inertia whose axis the sentence names as the problem does, which need not be by the body's own axes.
 
-    seen   own, mapped (no coordinates are counted from the point), across_plane (the plane of the motion), or part,
+    seen   own, mapped (no coordinates are measured from the point), across_plane (the plane of the motion), or part,
            with `whole`, the axis of the whole to which it is parallel
+    turn   the axes of that whole as the part sees them, by columns
     Source: that of `moment_of_inertia`.
     """
     point, i = body.point(about), "xyz".index(axis)
@@ -153,7 +162,9 @@ def moment_seen(body: Body, axis: str, about: str, symbol: str, key: str, seen: 
         facts=[Integrated.over(region)],
         key=key,
         telling=Telling(
-            formulas=_told_square(region, (i, i), weight), words={"about": point.name, "axis": axis, **seen}
+            formulas=_told_square(region, (i, i), weight),
+            words={"about": point.name, "axis": axis, **seen},
+            judged_by={} if turn is None else {"turn": turn},
         ),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis)),
     )

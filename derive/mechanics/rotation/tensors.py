@@ -102,7 +102,7 @@ def turned_tensor(
         facts=[OfBody(body), AboutPoint(there)],
         telling=Telling(
             words={"about": point.name, "along": axis},
-            formulas={"angle": (angle, angle)},
+            named={"angle": angle},
             judged_by={"turn": turn},
         ),
         scope=Scope(about=Subject(body=body, point=there, axes=there.axes), differ={"point", "axes"}),

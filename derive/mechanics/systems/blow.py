@@ -31,11 +31,13 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Impulse:
-    """A given impulse at a place, N s; or on an angle, N m s. `of` is the body that it acts on, if that is stated."""
+    """A given impulse at a place, N s; or on an angle, N m s. The law has the components; a route reads the given ones
+    for itself, as it does the state of a blow. `of` is the body that it acts on, if that is stated."""
 
     components: Vector
     at: Vector
     of: Any = None
+    given: tuple[Any, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,7 @@ class Collision:
     restitution   the part of the speed of approach with which they part
     letter        of the impulse; that of each component has its axis as index where they stay together
     of            the bodies or particles that meet, of the start and of the end, where that is stated
+    given         normal and restitution as the author gave them, for a route
     """
 
     start: Location | None
@@ -54,6 +57,7 @@ class Collision:
     restitution: Expr
     letter: str
     of: tuple[Any, Any] = (None, None)
+    given: tuple[tuple[Any, ...], Any] = ((), 0)
 
 
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
@@ -64,14 +68,14 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as that has"
         raise Rejected(Complaint("wrong-argument", message))
-    return Impulse(tuple(ZERO + c for c in components), at.components, of)
+    return Impulse(tuple(ZERO + c for c in components), at.components, of, tuple(components))
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
     """A given angular impulse, the integral of a torque over the short time of a blow, on an angle, N m s."""
     if not coordinates_in(ZERO + on):
         raise Rejected(Complaint("wrong-argument", f"`angular_impulse` turns something, but {on} does not move"))
-    return Impulse((ZERO + amount,), (ZERO + on,))
+    return Impulse((ZERO + amount,), (ZERO + on,), (amount,))
 
 
 def collision(
@@ -109,7 +113,7 @@ def collision(
     size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
     unit = tuple(tidied(c / size_of_normal) for c in normal)
     ends = (of[0], of[1]) if isinstance(of, tuple | list) and len(of) == 2 else (None, of)
-    return Collision(start, end, unit, part, letter, ends)
+    return Collision(start, end, unit, part, letter, ends, (tuple(along), restitution))
 
 
 @dataclass(frozen=True)
@@ -119,7 +123,8 @@ class Meeting:
     gap          what changes at the rate that the condition is about; of a condition in rates this rate itself
     restitution  the part of it that is left, with the other sign
     what         "together", "elastic", "rebound" or "kept"
-    ends         of a collision the two places, the impulse being on the second, and its direction
+    ends         of a collision the two places, the impulse being on the second, and its direction as it was given
+    given        the restitution as it was given
     """
 
     gap: Expr
@@ -128,6 +133,7 @@ class Meeting:
     what: str
     in_rates: bool = False
     ends: tuple[Vector, Vector, Vector] | None = None
+    given: Any = 0
 
     def speed(self, moving: Sequence[Symbol]) -> Any:
         return self.gap if self.in_rates else TimeRate(self.gap, *moving)
@@ -172,6 +178,7 @@ class Blow:
         for value in (*self.at.values(), *given.values()):
             require_constant("Blow", "state", value)
         self.before = {rate(q): given.get(q, ZERO) for q in self.moving}
+        self._given = (dict(at or {}), dict(before or {}))
         if not acts:
             raise Rejected(Complaint("wrong-argument", "a `Blow` needs an impulse or a collision"))
         known = system.known
@@ -181,6 +188,8 @@ class Blow:
             Impulse(
                 tuple(self.there(c) for c in act.components),
                 tuple(c.subs(known) for c in self._particle(act.of, act.at)),
+                act.of,
+                act.given,
             )
             for act in acts
             if isinstance(act, Impulse)
@@ -265,6 +274,14 @@ class Blow:
         """The value just before."""
         return self.there(value).xreplace(self.before)
 
+    def read_again(self, value: Any, rates: bool = False) -> Expr:
+        """The value in the moment of the blow, with `rates` just before it, by what the author gave."""
+        places, speeds = ({getattr(q, "symbol", q): at for q, at in given.items()} for given in self._given)
+        found = explicit(value).subs(list(places.items()), simultaneous=True)
+        if rates:
+            found = found.subs([(rate(q), speeds.get(q, 0)) for q in self.system.coordinates], simultaneous=True)
+        return ZERO + found
+
     def _meetings(self, act: Collision) -> list[Meeting]:
         size = len(act.end.components)
         start, end = (
@@ -295,7 +312,10 @@ class Blow:
             return found
         gap = Add(*(c * w for c, w in zip(along, way, strict=True)))
         what = "together" if act.restitution == 0 else "elastic" if act.restitution == 1 else "rebound"
-        one = self._meeting(gap, act.restitution, act.letter, what, (start, end, along))
+        as_given = tuple(self.read_again(c) for c in act.given[0])
+        size = sqrt(sum(c**2 for c in as_given))  # the law has a normal of length 1
+        as_given = tuple(c / size for c in as_given)
+        one = self._meeting(gap, act.restitution, act.letter, what, (start, end, as_given), act.given[1])
         if one is None:
             raise Rejected(Complaint("nothing-happens", "along the normal of this collision nothing moves"))
         if not self.impulses:
@@ -316,12 +336,18 @@ class Blow:
             assume(Relation(tidied(speed), ">", Integer(0)))
 
     def _meeting(
-        self, gap: Expr, restitution: Expr, letter: str, what: str, ends: tuple[Vector, Vector, Vector]
+        self,
+        gap: Expr,
+        restitution: Expr,
+        letter: str,
+        what: str,
+        ends: tuple[Vector, Vector, Vector],
+        given: Any = 0,
     ) -> Meeting | None:
         """None of a component in which neither moves."""
         if is_zero(self.there(TimeRate(gap, *self.moving))):
             return None
-        return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends)
+        return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends, given=given)
 
     def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
         """Two places meet where they are one, or where the way from one to the other is along the normal: two balls."""
@@ -350,11 +376,11 @@ class Blow:
         return found
 
     def power(self) -> Expr:
-        """The sum of J . v, by the places as functions of the time."""
+        """The sum of J . v, by the places as functions of the time and by what the author gave."""
         found = ZERO
         for one in self.impulses:
-            for j, c in zip(one.components, one.at, strict=True):
-                found += j * self.there(by_functions_of_time(c, self.moving))
+            for j, c in zip(one.given, one.at, strict=True):
+                found += self.read_again(j * by_functions_of_time(c, self.moving))
         for each in self.meetings:
-            found += each.letter * self.there(each.speed_by_time(self.moving))
+            found += each.letter * self.read_again(each.speed_by_time(self.moving))
         return found

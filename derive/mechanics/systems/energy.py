@@ -73,8 +73,9 @@ def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[s
         return {}
     kinetic = of.needed(Energies).kinetic.value
     by_parts = part_of_degree(kinetic, rates, 1) + 2 * part_of_degree(kinetic, rates, 0)
-    forms = [excess, by_parts, *(factor(each) for each in (excess, by_parts) if not each.has(*rates))]
-    return {"excess": (min(forms, key=length), by_parts if excess != by_parts else excess)}
+    pairs = [(excess, by_parts), (by_parts, excess)]
+    pairs += [(factor(form), other) for form, other in pairs if not form.has(*rates)]
+    return {"excess": min(pairs, key=lambda pair: length(pair[0]))}
 
 
 def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_function") -> Quantity:

@@ -227,7 +227,8 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
         telling=Telling(
             words={"between": _between(constraints)},
-            formulas={"coordinate": (q.symbol, q.symbol), **_functions_told(kept.constraints if kept else ())},
+            formulas=_functions_told(kept.constraints if kept else ()),
+            named={"coordinate": q.symbol},
             judged_by={"letters": tuple(c.force for c in constraints)},
         ),
         key=key,

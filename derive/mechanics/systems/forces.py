@@ -84,6 +84,19 @@ class StoredEnergy:
 
 
 @dataclass(frozen=True)
+class InUniformField(StoredEnergy):
+    """The energy of a charge in a uniform electric field; the force q E at its place is known without it."""
+
+    force: Vector
+    at: Vector
+
+    def loads(self, moving: Sequence[Symbol]) -> list[Load]:
+        """The force; and as the field changes, the energy loses (dF/dt) . r."""
+        changes = Add(*(diff(f, TIME) * c for f, c in zip(self.force, self.at, strict=True)))
+        return [Load(self.force, self.at), *([Load((changes,), (TIME,))] if changes != 0 else [])]
+
+
+@dataclass(frozen=True)
 class Charge:
     """A charge in given fields, which need not be the same everywhere: the force q(E + v x B)."""
 
@@ -95,9 +108,9 @@ class Charge:
     @property
     def stored(self) -> StoredEnergy:
         """In a uniform electric field, U = -q E . r."""
-        return StoredEnergy(
-            -self.charge * Add(*(e * c for e, c in zip(self.electric, self.at.components, strict=True)))
-        )
+        place = self.at.components
+        energy = -self.charge * Add(*(e * c for e, c in zip(self.electric, place, strict=True)))
+        return InUniformField(energy, tuple(self.charge * e for e in self.electric), place)
 
     @property
     def deflected(self) -> MagneticForce:

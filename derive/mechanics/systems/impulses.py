@@ -58,7 +58,7 @@ def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None 
 
     def by_particles(found: Relation) -> tuple[Expr, Expr]:
         along = matter.momentum_along(symbol)
-        changed = blow.there(along) - blow.earlier(along)
+        changed = blow.read_again(along) - blow.read_again(along, rates=True)
         return explicit(found.left) - explicit(found.right), changed - diff(blow.power(), q.rate)
 
     return establish(
@@ -70,8 +70,8 @@ def momentum_jump(blow: Blow, kinetic: Quantity, q: Coordinate, key: str | None 
         routes={"particles": by_particles},
         outcome="struck" if shares else "free",
         telling=Telling(
-            formulas={"coordinate": (symbol, symbol)},
-            judged_by={"slope": diff(blow.power(), q.rate)},
+            named={"coordinate": symbol},
+            judged_by={"slope": diff(blow.power(), q.rate), "at": tuple(blow.at.items())},
         ),
         key=key or f"jump_{symbol.name}",
         facts=[OfCoordinate(q), blow.described],
@@ -105,8 +105,9 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         return Relation(blow.shown_there(speed, explicit(speed)), "=", right)
 
     def by_time(found: Relation) -> tuple[Expr, Expr]:
-        after = blow.there(meeting.speed_by_time(blow.moving))
-        return explicit(found.left) - explicit(found.right), after + part * after.xreplace(blow.before)
+        speed = meeting.speed_by_time(blow.moving)
+        returned = meeting.given * blow.read_again(speed, rates=True)
+        return explicit(found.left) - explicit(found.right), blow.read_again(speed) + returned
 
     return establish(
         "impulses.meeting_condition",
@@ -121,7 +122,7 @@ def meeting_condition(blow: Blow, number: int, key: str | None = None) -> Quanti
         ),
         routes={"functions_of_time": by_time},
         outcome=meeting.what,
-        telling=Telling(formulas={"impulse": (meeting.letter, meeting.letter)}, judged_by={"restitution": part}),
+        telling=Telling(named={"impulse": meeting.letter}, judged_by={"restitution": part, "power": blow.power()}),
         key=key or f"meeting_{number + 1}",
         scope=Scope(coordinates=blow.system.coordinates, about=Subject(body=blow.system)),
     )
@@ -183,7 +184,7 @@ def work_of_impulses(
 
     def by_impulses(work: Expr) -> tuple[Expr, Expr]:
         power = blow.power()
-        mean = (power.xreplace(rates) + power.xreplace(blow.before)) / 2
+        mean = (power.xreplace(rates) + blow.read_again(power, rates=True)) / 2
         return work, mean.xreplace({each.letter: found[each.letter] for each in blow.meetings})
 
     return establish(

@@ -187,7 +187,7 @@ def equation_of_motion(
         ),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome="cyclic" if is_zero(slope(explicit(of.value), q.symbol)) else "generic",
-        telling=Telling(formulas={"coordinate": (q.symbol, q.symbol)}),
+        telling=Telling(named={"coordinate": q.symbol}),
         key=key,
         parents=found,
         facts=[FromLagrangian(of), OfCoordinate(q), matter],
@@ -298,7 +298,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
             }
         ),
         outcome=lambda value: "zero" if value == 0 else "generic",
-        telling=Telling(formulas={"coordinate": (q.symbol, q.symbol)}),
+        telling=Telling(named={"coordinate": q.symbol}),
         key=key or _key_of(of, f"force_{q.symbol.name}"),
     )
 

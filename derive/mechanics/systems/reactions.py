@@ -288,6 +288,7 @@ def constraint_force(
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # which the route reads for itself
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
@@ -307,7 +308,7 @@ def constraint_force(
         law,
         acting,
         lines=Lines(put_in=None, arranged=lambda value: by_accelerations(value, problem.moving)),
-        routes={"newton": compared_with(lambda: _by_newton(problem, way))},
+        routes={"newton": compared_with(lambda: _by_newton(problem, as_given))},
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key,
         kind={"length": "force", "angle": "torque"}.get("".join({problem.lagrangian.coordinates[q] for q in way})),

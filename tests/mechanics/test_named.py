@@ -1,0 +1,192 @@
+"""What a sentence names, and what a step returns beside its value: a wrong one is refused, whoever made it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from sympy import Integer, Symbol, cos, exp, pi, symbols
+
+import derive.mechanics.outcomes  # noqa: F401  which says what must hold
+from derive.algebra.expressions import TIME, Relation, rate, scalar
+from derive.errors import Unverified
+from derive.mechanics import (
+    Blow,
+    Composite,
+    Disc,
+    Particle,
+    Rod,
+    System,
+    coordinate,
+    impulse,
+    kinetic_energy_of,
+    let,
+    limiting_case,
+    moment_of_inertia,
+    momentum_jump,
+    point,
+)
+from derive.mechanics.arguments import checked
+from derive.mechanics.equations.oscillations import SquareOf
+from derive.mechanics.equations.stability import LowestOrder
+from derive.mechanics.systems.forces import Charge, GivenForce
+from derive.mechanics.systems.kept_momentum import KeptMomentum
+from derive.steps.outcomes import Judged, wrongly_handed_on, wrongly_named
+from derive.steps.record import recorded
+from derive.steps.step import Quantity
+from tests.mutation.runs import RUNS
+
+M, m, R, l, h, k, K, s = symbols("M m R l h k K s", positive=True)
+x, w = scalar("x"), scalar("w")
+
+
+@pytest.fixture(autouse=True)
+def a_run_of_its_own() -> Iterator[None]:
+    with recorded():
+        yield
+
+
+def roles(quantity: Quantity) -> dict[str, Any]:
+    return dict(quantity.step.roles)
+
+
+# --- bodies ---
+
+
+@pytest.mark.parametrize(("angle", "letter"), [(pi / 2, "I_y_disc"), (pi / 4, "I_axial_disc"), (0, "I_z_disc")])
+def test_the_moment_about_the_own_axis_of_a_disc_has_the_letter_of_the_axis_of_the_whole(
+    angle: Any, letter: str
+) -> None:
+    """Turned a quarter about x, the axis of the disc is along y; turned by pi/4 it is along no axis of the whole."""
+    disc = Disc(R, M).named("disc").turned("x", angle).at(0, 0, -l)
+    whole = moment_of_inertia(Composite(Rod(l, m).at(0, 0, -l / 2), disc), "x", "origin", symbol="I_x")
+    across = next(q for q in whole.parents if str(q.symbol) == "I_x_disc")
+    assert [(str(q.symbol), q.value) for q in across.parents] == [(letter, M * R**2 / 2)]
+
+
+def test_the_axis_of_a_part_is_named_in_its_own_coordinates_and_in_those_of_the_whole() -> None:
+    """The rod of the pendulum is along its own z axis, over which the integral goes, and along y of the whole."""
+    page = " ".join(RUNS["library/clock_pendulum"].solved().page.split())
+    said = "In coordinates of the rod itself, with the origin at the centre, its moment of inertia about an axis "
+    said += "parallel to y through the origin, which in those of the whole body is an axis parallel to z, is"
+    assert said in page
+    assert "about an axis parallel to z through the origin" not in page
+
+
+# --- blows ---
+
+
+def test_an_impulse_that_is_read_with_the_wrong_sign_is_refused() -> None:
+    """m x_dot = K; a second reader has the components as they were given."""
+    q = coordinate("x", "length")
+    system = System(Particle(m, point(q + 0, 0)))
+    right = impulse((K, 0), point(q + 0, 0))
+    T = kinetic_energy_of(system)
+    assert momentum_jump(Blow(system, right), T, q).value == Relation(m * q.rate, "=", K)
+    with pytest.raises(Unverified, match="second route `particles` disagrees"):
+        momentum_jump(Blow(system, replace(right, components=(-K, Integer(0)))), T, q)
+
+
+def test_rates_before_a_blow_that_are_read_with_the_wrong_sign_are_refused() -> None:
+    q = coordinate("x", "length")
+    system = System(Particle(m, point(q + 0, 0)))
+    blow = Blow(system, impulse((K, 0), point(q + 0, 0)), before={q: w})
+    blow.before = {rate_of: -value for rate_of, value in blow.before.items()}
+    with pytest.raises(Unverified, match="second route `particles` disagrees"):
+        momentum_jump(blow, kinetic_energy_of(system), q)
+
+
+@pytest.mark.parametrize("wrong", ["-components", "no magnetic field"])
+def test_a_noun_that_does_not_keep_what_it_is_given_is_refused(wrong: str) -> None:
+    """Law and route read the noun alike, so neither would see it."""
+    q = coordinate("x", "length")
+    if wrong == "-components":
+        noun = checked(
+            named_as(lambda components, at: GivenForce((-components[0], components[1]), at.components), "force")
+        )
+        given: tuple[Any, ...] = ((K, 0), point(q + 0, 0))
+    else:
+        noun = checked(named_as(lambda amount, at, B: Charge(amount, at, (Integer(0),) * 2, (Integer(0),)), "charge"))
+        given = (k, point(q + 0, 0), h)
+    with pytest.raises(Unverified, match="what it made has another value"):
+        noun(*given)
+
+
+def named_as(function: Any, name: str) -> Any:
+    function.__name__ = name
+    return function
+
+
+def test_the_axes_of_a_part_are_not_reflected() -> None:
+    part = Disc(R, M).turned("x", pi / 2)
+    with pytest.raises(Unverified, match="turned, and not reflected"):
+        replace(part, turn=-part.turn)
+
+
+# --- limits ---
+
+
+def test_a_quotient_comes_close_to_the_number_that_is_named() -> None:
+    """Of h/R near 1 it is h that comes close to R, and h/R to 1."""
+    found = limiting_case(let("f", lambda: M * (R**2 / 4 + h**2 / 3)), h / R, to=1, order=1)
+    assert found.step.outcome == "near"
+    assert (roles(found)["letter"], roles(found)["place"]) == (h / R, 1)
+
+
+# --- what a sentence names ---
+
+
+@pytest.mark.parametrize(
+    ("rule", "facts", "named"),
+    [
+        ("damped.characteristic", Judged(0, {"exponent": s}), ("trial", exp(s * TIME), exp(-s * TIME))),
+        ("damped.characteristic", Judged(0, {"exponent": s}), ("trial", exp(s * TIME), cos(s * TIME))),
+        ("solving.solved_for", Judged(k, symbol=x), ("unknown", x, w)),
+        ("extrema.place", Judged(h, {"quantity": (x - h) ** 2 + w}, symbol=Symbol("x_min")), ("letter", x, w)),
+        (
+            "energy_integral.energy_kept",
+            Judged(Relation(x, "=", k * h**2), {"energy": k * x**2 + m * rate(x) ** 2, "initial": Integer(0)}),
+            ("place", Relation(x, "=", h), Relation(x, "=", 2 * h)),
+        ),
+        (
+            "approximate.equation_in_limit",
+            Judged(0, {"letter": k, "to": h, "small": k - h, "kept": k, "order": 1}),
+            ("small", k - h, k + h),
+        ),
+    ],
+)
+def test_another_letter_or_place_than_that_of_the_result_is_refused(
+    rule: str, facts: Judged, named: tuple[str, Any, Any]
+) -> None:
+    role, right, wrong = named
+    assert wrongly_named(rule, facts, {role: right}) is None
+    assert wrongly_named(rule, facts, {role: wrong}) == role
+
+
+# --- what a step returns beside its value ---
+
+
+def test_the_rate_that_a_kept_momentum_returns_gives_the_value_that_it_keeps() -> None:
+    """C (psi_dot + phi_dot cos theta) = C s, so psi_dot = s - phi_dot cos theta."""
+    psi, theta, phi = (coordinate(name) for name in ("psi", "theta", "phi"))
+    momentum = let("momentum", lambda: k * (psi.rate + phi.rate * cos(theta.symbol)), symbol="p")
+    facts = Judged(0, {"momentum": momentum.value, "value": k * s, "coordinate": psi.symbol}, {"momentum": momentum})
+    right = KeptMomentum(momentum.symbol, k * s, psi.symbol, s - phi.rate * cos(theta.symbol))
+    wrong = replace(right, turning=s + phi.rate * cos(theta.symbol))
+    assert wrongly_handed_on(facts, [right]) is None
+    assert wrongly_handed_on(facts, [wrong]) is wrong
+
+
+def test_the_letter_of_a_square_is_that_of_its_left_side() -> None:
+    facts = Judged(k / m, symbol=scalar("omega_0") ** 2)
+    assert wrongly_handed_on(facts, [SquareOf("omega_0")]) is None
+    assert wrongly_handed_on(facts, [SquareOf("Omega")]) is not None
+
+
+def test_the_lowest_order_of_a_potential_is_that_of_its_derivatives() -> None:
+    """k x^4/4: the fourth derivative at 0 is 6 k, the coefficient k/4."""
+    facts = Judged(k * x**4 / 4, {"coordinate": x, "place": Integer(0)})
+    assert wrongly_handed_on(facts, [LowestOrder(4, k / 4)]) is None
+    assert wrongly_handed_on(facts, [LowestOrder(4, -k / 4)]) is not None
