@@ -22,7 +22,7 @@ SETS := $(shell cd problems 2>/dev/null && LC_ALL=C && for name in *; do \
 files_in = $(shell LC_ALL=C find -H $(1) '(' -name '*[!A-Za-z0-9._-]*' -o -name __pycache__ ')' -prune -o -print 2>/dev/null)
 ENGINE := $(filter %.py,$(call files_in,derive))
 TEMPLATES := $(call files_in,templates)
-ENVIRONMENT := pyproject.toml constraints.txt tools/bootstrap.py
+ENVIRONMENT := pyproject.toml locks/runtime.txt locks/tests.txt tools/bootstrap.py
 
 .PHONY: all help check bench test schemas mutants clean always $(SETS)
 

@@ -89,7 +89,7 @@ def test_the_command_runs_nothing_of_the_folder_that_one_is_in(
 
 def test_make_runs_nothing_of_the_folder_that_one_is_in(hostile: Path, tmp_path: Path) -> None:
     course_in(hostile)
-    for name in ("Makefile", "pyproject.toml", "constraints.txt", "tools/bootstrap.py"):
+    for name in ("Makefile", "pyproject.toml", "locks/runtime.txt", "locks/tests.txt", "tools/bootstrap.py"):
         (hostile / name).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / name, hostile / name)
     python = hostile / ".venv" / "bin" / "python"

@@ -1,6 +1,9 @@
 """The environment in `.venv`: made, repaired, or left as it is. Run by `make`, with the standard library only.
 
-A stamp in `.venv` tells `make` that the environment fits `pyproject.toml` and `constraints.txt`: `.runtime` for what
+Only packages whose files have the digests in `locks/` are installed, and only built ones, so that nothing of a package
+that is not known runs. derive itself is installed by what is installed then, without a look at any registry.
+
+A stamp in `.venv` tells `make` that the environment fits `pyproject.toml` and `locks/`: `.runtime` for what
 derives and typesets, `.tests` for the linters and the test suite besides. A mark stands there while packages are being
 installed; if it is found, that installation was cut short and the environment is made anew.
 """
@@ -47,7 +50,7 @@ def alone() -> Iterator[None]:
 
 def fingerprint() -> str:
     """Changes with anything that the environment is made from."""
-    sources = [ROOT / "pyproject.toml", ROOT / "constraints.txt", Path(__file__)]
+    sources = [ROOT / "pyproject.toml", *(ROOT / lock for lock in LOCKS.values()), Path(__file__)]
     return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
 
 
@@ -80,9 +83,7 @@ def check_tools(uv: str | None) -> None:
 
 def run(command: list[str], failed: str) -> None:
     """Run quietly; of what a failing installer says, show the few lines that tell why, without addresses."""
-    done = subprocess.run(
-        command, cwd=ROOT, env={**os.environ, **PINS}, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
+    done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
         reasons = [line for line in lines if re.match(r"(?i)error|fatal|.*no space left|×", line)] or lines
@@ -91,14 +92,12 @@ def run(command: list[str], failed: str) -> None:
 
 
 WANTED = {
-    ".runtime": ("SymPy and the TeX engine (once, about 60 MB)", "."),
-    ".tests": ("SymPy, the TeX engine and the test tools (once, about 100 MB)", ".[test]"),
+    ".runtime": "SymPy and the TeX engine (once, about 100 MB)",
+    ".tests": "SymPy, the TeX engine and the test tools (once, about 140 MB)",
 }
-
-# Both the packages and what builds the editable install keep to the pinned versions.
-PINS = dict.fromkeys(
-    ["PIP_CONSTRAINT", "PIP_BUILD_CONSTRAINT", "UV_CONSTRAINT", "UV_BUILD_CONSTRAINT"], "constraints.txt"
-)
+LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # the second has what tests need besides
+CHECKED = ["--require-hashes", "--only-binary", ":all:"]
+ITSELF = ["--no-index", "--no-deps", "--no-build-isolation", "--editable", "."]
 
 
 def install(stamp: str, uv: str | None) -> None:
@@ -108,10 +107,13 @@ def install(stamp: str, uv: str | None) -> None:
         venv = [uv, "venv", "--quiet", "--python", sys.executable] if uv else [sys.executable, "-I", "-m", "venv"]
         run([*venv, str(VENV)], "cannot make .venv")
     UNFINISHED.touch()
-    what, package = WANTED[stamp]
-    print(f"installing {what}", flush=True)
+    print(f"installing {WANTED[stamp]}", flush=True)
     pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else [str(PYTHON), "-I", "-m", "pip", "install"]
-    run([*pip, "--quiet", "--editable", package], "cannot install the packages, run `make` again to retry")
+    locks = list(LOCKS.values())[: 1 + list(LOCKS).index(stamp)]
+    files = [word for lock in locks for word in ("--requirement", lock)]
+    failed = "cannot install the packages, run `make` again to retry"
+    run([*pip, "--quiet", *CHECKED, *files], failed)
+    run([*pip, "--quiet", *ITSELF], failed)
     UNFINISHED.unlink()
 
 

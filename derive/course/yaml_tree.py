@@ -12,6 +12,7 @@ import re
 import stat
 from bisect import bisect_right
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import islice
@@ -270,17 +271,11 @@ def read_source(path: Path, shown_as: str, *, limit: int = LARGEST_FILE) -> Sour
 
 def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
     """The tree of a YAML file; `shown_as` is its path in messages."""
-    source = read_source(path, shown_as)
-    return (_quick_tree(source) if quickly else None) or yaml_tree(source)
-
-
-def _quick_tree(source: Source) -> Tree | None:
-    """The tree as libyaml reads it; nothing where that finds any fault, or is not there."""
-    loader = getattr(yaml, "CSafeLoader", None)
-    try:
-        return _Reader(source, Faults(), loader).tree() if loader and not _ODD.search(source.text) else None
-    except Rejected:
-        return None
+    source, quick = read_source(path, shown_as), getattr(yaml, "CSafeLoader", None)
+    if quickly and quick and not _ODD.search(source.text):
+        with suppress(Rejected):  # with what is wrong in words that are not ours
+            return _Reader(source, Faults(), quick).tree()
+    return yaml_tree(source)
 
 
 @lru_cache(maxsize=64)  # each problem of a set asks for what a reference states of it

@@ -34,7 +34,13 @@ class Tree:
     def __init__(self, root: Path):
         self.root = root
         shutil.copy(HERE / "Makefile", root)
-        for name in ("pyproject.toml", "constraints.txt", "tools/bootstrap.py", "derive/steps/step.py"):
+        for name in (
+            "pyproject.toml",
+            "locks/runtime.txt",
+            "locks/tests.txt",
+            "tools/bootstrap.py",
+            "derive/steps/step.py",
+        ):
             self.write(name)
         for name in ("problems/hw1/set.yaml", "problems/hw1/block.yaml", "problems/hw2/set.yaml"):
             self.write(name)

@@ -1,0 +1,57 @@
+"""The packages that are installed, with the digests of their files: `python -P -m tools.locks` writes `locks/`.
+
+Versions are those of `constraints.txt`; it asks for each of them on every platform, by `uv`, and names no registry.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+CONSTRAINTS = ROOT / "constraints.txt"
+OLDEST = "3.11"
+BUILDS = "hatchling\neditables\n"  # what installs derive itself
+HEADS = {
+    "runtime": "# What derives and typesets, and what installs derive: written by `python -P -m tools.locks`.\n",
+    "tests": "# What the tests and linters need besides: written by `python -P -m tools.locks`.\n",
+}
+_ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILINE)
+
+
+def entries(text: str) -> dict[str, str]:
+    """Each package of a lock by its name, with its version, where it is wanted and its digests."""
+    return {found[1]: found[0] for found in _ENTRY.finditer(text)}
+
+
+def resolved(*options: str) -> dict[str, str]:
+    """What `uv` finds for what derive depends on."""
+    uv = shutil.which("uv")
+    if uv is None:
+        sys.exit("error[uv]: locks are written by `uv`, which is not installed: `pip install uv`")
+    with tempfile.NamedTemporaryFile("w", suffix=".in") as builds:
+        builds.write(BUILDS)
+        builds.flush()
+        command = [uv, "pip", "compile", "--quiet", "--universal", "--generate-hashes", "--python-version", OLDEST]
+        plain = ["--no-header", "--no-annotate", "--no-emit-index-url", "--no-emit-find-links"]
+        files = ["--constraint", str(CONSTRAINTS), *options, "pyproject.toml", builds.name]
+        run = subprocess.run([*command, *plain, *files], cwd=ROOT, capture_output=True, text=True)
+    if run.returncode:
+        sys.exit(re.sub(r"\w+://\S+", "(address)", run.stderr))
+    return entries(run.stdout)
+
+
+def main() -> None:
+    runtime = resolved()
+    more = {name: entry for name, entry in resolved("--extra", "test").items() if name not in runtime}
+    for name, found in (("runtime", runtime), ("tests", more)):
+        (ROOT / "locks").mkdir(exist_ok=True)
+        (ROOT / "locks" / f"{name}.txt").write_text(HEADS[name] + "".join(f"{entry}\n" for entry in found.values()))
+
+
+if __name__ == "__main__":
+    main()
