@@ -37,7 +37,7 @@ def test_the_cone_about_its_apex(tmp_path: Path) -> None:
         (CONE_IS, "radius_of_gyration_z", "radius_of_gyration_z", sqrt(Rational(3, 10)) * R),
         (CONE_IS, "inertia_tensor_xy", "inertia_tensor_xy", 0),
         (CONE_IS, "inertia_tensor_zz", "inertia_tensor_zz", Rational(3, 10) * M * R**2),
-        (CONE_IS, "parallel_axes", "inertia_tensor_zz", Rational(3, 10) * M * R**2),
+        (CONE_IS, "parallel_axes", "parallel_axes_zz", Rational(3, 10) * M * R**2),
     ],
 )
 def test_what_parts_may_ask_of_a_cone(body: str, answer: str, key: str, value: object, tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ def test_a_hemisphere_that_is_denser_above(tmp_path: Path) -> None:
 def test_parallel_axes_to_the_centre(tmp_path: Path) -> None:
     text = edited(CONE, ("  about: apex\n", ""), ("answer: inertia_tensor", "answer: parallel_axes"))
     found = solved(tmp_path, text)
-    assert equal(found["inertia_tensor"].value[0, 0], Rational(3, 20) * M * (R**2 + h**2 / 4))
+    assert equal(found["parallel_axes"].value[0, 0], Rational(3, 20) * M * (R**2 + h**2 / 4))
     assert "apex_tensor" in found
 
 
@@ -160,3 +160,11 @@ def test_a_fault_is_told_at_its_place(edit: tuple[str, str], said: str, tmp_path
 def test_answers_that_do_not_apply_are_told_at_once(tmp_path: Path) -> None:
     found = messages(tmp_path, edited(CONE, ("answer: inertia_tensor", "answer: [mass, turned_tensor]")))
     assert [message.partition(":")[0] for message in found] == ["10", "10"]
+
+
+@pytest.mark.parametrize("order", ["[inertia_tensor, parallel_axes]", "[parallel_axes, inertia_tensor]"])
+def test_a_tensor_is_found_directly_and_by_the_theorem_in_either_order(order: str, tmp_path: Path) -> None:
+    """By hand: (3/10) M R^2 about the axis of a cone, wherever on it the point is."""
+    found = solved(tmp_path, edited(CONE, ("answer: inertia_tensor", f"answer: {order}")))
+    for name in ("inertia_tensor", "parallel_axes"):
+        assert equal(found[name].value[2, 2], Rational(3, 10) * M * R**2)
