@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, sqrt
+from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, sqrt
 from sympy.core.symbol import Str
 
 from derive.algebra.equality import Grade, Verdict
@@ -364,7 +364,7 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
 
 def _divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
     """The factor by which the two sides differ, where its sign is known from the numbers."""
-    slope = tidied(difference.diff(alone)) if isinstance(alone, Symbol) else alone
+    slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
     factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
 
