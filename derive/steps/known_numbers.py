@@ -12,12 +12,12 @@ from typing import Any
 
 from sympy import Abs, Add, Expr, Mul, Pow
 
-from derive.algebra.expressions import Relation, bound, explicit
+from derive.algebra.expressions import TIME, Relation, bound, explicit, rate
 from derive.algebra.normal_form import vanishes
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.steps.outcomes import Doubt
-from derive.steps.record import current_run, question
+from derive.steps.record import current_run, named_coordinates, question
 
 DIGITS, SHORT = 30, 20
 DECIDES = "ranges or numbers of the letters decide whether"  # before a relation that is not known
@@ -44,8 +44,10 @@ def undecided(value: Any) -> Doubt:
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
     factors = [f.as_base_exp()[0] for expr in exprs for part in expr.as_numer_denom() for f in Mul.make_args(part)]
+    moving = {s for q in named_coordinates() for s in (q, rate(q), rate(q, 2))} | {TIME}
     for each in [*sizes, *factors]:
-        if isinstance(each, Add) and each.count_ops() <= SHORT and sign_known(each) is None:
+        is_constant = isinstance(each, Add) and moving.isdisjoint(each.free_symbols)
+        if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
             away = [-term for term in each.args if term.could_extract_minus_sign()]
             sides = Add(*away), Add(*(term for term in each.args if -term not in away))
             relation = " < ".join(sorted(map(str, sides), key=lambda side: (len(side), side)))

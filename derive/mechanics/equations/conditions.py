@@ -237,9 +237,9 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
 
 def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
     """The factor by which the two sides differ, where its sign is known from the numbers."""
-    factor = tidied(difference / (alone - solved))
-    sign = sign_known(factor)
-    return (factor,) if sign == 1 else (-factor,) if sign == -1 else ()
+    slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
+    factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
+    return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:

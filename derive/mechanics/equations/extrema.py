@@ -116,7 +116,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
     message = f"`{verb}`: `{of.key}` has {many} where its slope vanishes so"
     help_line = "give the interval with `within=(..., ...)`"
     if not count and elsewhere:
-        message = f"`{verb}`: the slope of `{of.key}` does not vanish so for any {x.name} that is allowed"
+        message = f"`{verb}`: `{of.key}` is not stationary for any {x.name} that is allowed"
         help_line = f"the {verb} is at an end of the interval, or there is none: `put_in` gives the value at an end"
     return Rejected(Complaint("no-extremum", message, help=help_line))
 
