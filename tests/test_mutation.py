@@ -119,3 +119,29 @@ def test_the_rate_that_follows_from_a_kept_momentum_is_compared_with_the_momentu
     wrong = [tried for tried in found if tried.verdict is not Verdict.REFUSED and "order" not in tried.id]
     assert len(found) >= 4
     assert wrong == []
+
+
+PRINTED_SOMETHING_FALSE = [
+    ("top-rates", "mechanics.equations.quadratics:real_where: mark: '>' -> '<'"),
+    ("slab", "mechanics.bodies.placed:_across: comparison: getattr(body, 'filling', '') == 'length'"),
+    ("slab", "mechanics.equations.stability:extreme_value: mark: '=' -> '>'"),
+    ("slab", "mechanics.equations.conditions:where: role: {'quantity': of, 'bound': bound}"),
+    ("slab", "mechanics.systems.reactions:constraint_force: plus/minus: ZERO + value -> ZERO - value"),
+    ("library/beats", "mechanics.equations.modes:beats: sign: Terms(other, -one) -> -Terms(other, -one)"),
+    ("library/bullet", "mechanics.systems.blow:Blow.__init__: plus/minus: ZERO + value -> ZERO - value (2)"),
+    ("library/clock_pendulum", "mechanics.bodies.parts:PlacedPart.turned: sign: turn_about(axis, angle) * self.turn"),
+    ("library/cue_ball", "mechanics.equations.roots:_step: role: {'equation': equation, 'unknown': unknown}"),
+    ("library/drift", "mechanics.systems.forces:Charge.stored: sign: -self.charge -> self.charge"),
+    ("library/power_law", "mechanics.equations.steady:frequency_squared_about: role: {'potential': about.potential"),
+    ("own/charge_in_trap", "mechanics.systems.forces:charge: dropped: ZERO + B -> ZERO"),
+    ("own/damped_carts", "mechanics.equations.damped:_frequency: sign: Root(turned * square)"),
+    ("own/solids", "mechanics.bodies.edged_bodies:Triangle.on_base: order: (base, ZERO) -> [ZERO, base]"),
+]
+
+
+@pytest.mark.parametrize(("run", "begins"), PRINTED_SOMETHING_FALSE)
+def test_a_mutant_that_printed_something_false_is_refused(run: str, begins: str) -> None:
+    module = begins.partition(":")[0]
+    found = verdicts_on(run, module, lambda mutant: mutant.id.startswith(begins))
+    assert found
+    assert {tried.verdict for tried in found} <= {Verdict.REFUSED, Verdict.CRASHED}
